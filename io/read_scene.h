@@ -1,0 +1,29 @@
+#pragma once
+
+#include "meshing/core/scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// A scene as read, and what of the file was not used.
+struct SceneFile {
+  Scene scene;
+  std::vector<std::string> warnings;  ///< one sentence each, with file and line where known
+};
+
+/// Reads a scene by its extension: .obj (+ .mtl), .ply, .off in double precision; .gltf, .glb,
+/// .stl, .dae and .3ds through assimp in single precision. Polygons stay polygons. Applies the
+/// sidecar (the scene's path with .json as extension, if there is one) and then the materials file
+/// `materials` (none if empty), and validates the result.
+///
+/// OBJ: `Kd` is the reflectance, `Ke` the exitance in W/m²; `g` and `o` start groups; faces before
+/// any usemtl, and formats without materials, get a material named "default". Throws Error(usage)
+/// for an unknown extension and Error(invalid_input) with file, line or face for anything that is
+/// not a sound scene.
+SceneFile read_scene(const std::filesystem::path& path,
+                     const std::filesystem::path& materials = {});
+
+}  // namespace halfshade

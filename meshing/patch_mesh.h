@@ -1,0 +1,57 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/element_table.h"
+#include "meshing/planar_mesh.h"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// Every element that ever was, as a forest: leaves are the present elements.
+struct PatchHierarchy {
+  std::vector<int> parent;   ///< node → node; −1 at roots
+  std::vector<int> level;    ///< node → number of ancestors
+  std::vector<int> element;  ///< node → present element, −1 for inner nodes
+};
+
+/// The adaptive element mesh over all receivers of a scene. Invariant: the mesh of each receiver is
+/// conforming (no T-vertices), covers it, and has an edge chain along every contact line.
+class PatchMesh {
+ public:
+  /// Meshes every receiver with `options`, in parallel. Throws Error(too_large) if more than
+  /// `options.max_triangles` elements come out in all. If `progress` is stopped, receivers not yet
+  /// reached are left coarse.
+  PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
+            const Progress& progress = {});
+  ~PatchMesh();
+  PatchMesh(PatchMesh&&) noexcept;
+  PatchMesh& operator=(PatchMesh&&) noexcept;
+
+  int element_count() const;
+
+  /// The present elements in a deterministic order: by receiver, then in order of creation.
+  ElementTable elements() const;
+
+  PatchHierarchy hierarchy() const;
+
+  /// Splits each named element into four at its edge midpoints. Neighbours are split as far as it
+  /// takes to stay conforming: an element with a split edge also has its longest edge split
+  /// (red–green–blue refinement; Carstensen 2004), which keeps angles bounded below for any number
+  /// of calls.
+  void split_in_four(std::span<const int> elements);
+
+  /// Bisects each named element at its longest edge, with the same closure (Rivara 1984).
+  void bisect(std::span<const int> elements);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Longest edge that gives about `element_count` elements over the whole scene.
+double length_for_count(const SoundScene& scene, int element_count);
+
+}  // namespace halfshade

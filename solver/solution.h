@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace halfshade {
+
+using ChannelArray =
+    Eigen::Array<double, Eigen::Dynamic, 3>;  ///< one row an element, one column a channel
+
+/// The light on each element, in W/m².
+struct Solution {
+  ChannelArray rho;                ///< reflectance
+  ChannelArray exitance;           ///< E
+  ChannelArray radiosity;          ///< B = E + rho·H
+  ChannelArray irradiance;         ///< H
+  ChannelArray direct_irradiance;  ///< the part of H that comes straight from emitters
+};
+
+}  // namespace halfshade

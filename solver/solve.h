@@ -1,0 +1,53 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/core/scene.h"
+#include "meshing/element_table.h"
+#include "meshing/repair.h"
+#include "solver/exchange.h"
+#include "solver/radiosity.h"
+#include "solver/solution.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+struct SolveOptions {
+  int elements =
+      8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
+  double max_length = 0;     ///< longest element edge in scene units; 0: derived from `elements`
+  int max_elements = 40000;  ///< refuse to make more; memory grows with the square
+  ExchangeOptions exchange;
+  RadiosityOptions radiosity;
+};
+
+/// What one stage of the pipeline did.
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  std::size_t count = 0;  ///< of what the stage makes: receivers, elements, factors, iterations
+  std::string left_out_because;  ///< empty if it ran
+};
+
+/// A solved scene and how it came about.
+struct SolveResult {
+  SoundScene scene;
+  std::vector<Camera> cameras;
+  std::string unit;
+  ElementTable elements;
+  Solution solution;
+  std::vector<StageReport> stages;
+  ExchangeReport exchange;
+  RadiosityReport radiosity;
+  bool interrupted = false;  ///< stopped early: factors not reached count as zero
+};
+
+/// The main job: makes the scene sound, meshes it, computes form factors, solves for radiosity.
+/// Preconditions: the scene is valid and has an emitter. Throws Error(invalid_input) and
+/// Error(too_large). Deterministic for any number of threads.
+SolveResult solve(const Scene& scene, const SolveOptions& options = {},
+                  const Progress& progress = {});
+
+}  // namespace halfshade

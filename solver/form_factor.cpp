@@ -12,10 +12,9 @@
 namespace halfshade {
 namespace {
 
-/// Polygons farther apart than this, relative to the outer one's size, are integrated over their
-/// area: the integrand is then so smooth that a fixed rule reaches 1e-10, and the contour form
-/// would lose digits to cancellation.
-constexpr double far_away = 30;
+/// Closer than this, relative to the outer polygon's size, fixed rules over its area are not
+/// trusted.
+constexpr double nearest_for_rules = 3;
 /// A vertex of the inner contour this close to an outer edge, relative to its length, splits the
 /// edge.
 constexpr double near_by = 0.5;
@@ -178,22 +177,6 @@ Ball bounding_ball(std::span<const Vec3> polygon) {
   return ball;
 }
 
-/// Lambert's sum integrated over the outer polygon by a rule of degree 6.
-MutualArea far_mutual_area(std::span<const Vec3> outer, const Vec3& normal,
-                           std::span<const Vec3> inner, double ratio) {
-  MutualArea result;
-  for (std::size_t k = 1; k + 1 < outer.size(); ++k) {
-    const Vec3 b = outer[k] - outer[0], c = outer[k + 1] - outer[0];
-    const double area = 0.5 * b.cross(c).norm();
-    for (const TriangleNode& node : triangle_rule(6))
-      result.value += area * node.weight *
-                      std::max(0., lambert_sum(outer[0] + node.u * b + node.v * c, normal, inner));
-    result.points += 12;
-  }
-  result.error = result.value * std::pow(ratio, -7);
-  return result;
-}
-
 bool straddles(std::span<const Vec3> polygon, const Vec3& point, const Vec3& normal) {
   return std::any_of(polygon.begin(), polygon.end(),
                      [&](const Vec3& p) { return normal.dot(p - point) < 0; });
@@ -222,6 +205,23 @@ double point_to_polygon(const Vec3& point, const Vec3& normal, std::span<const V
   return above.empty() ? 0. : std::max(0., lambert_sum(point, normal, above));
 }
 
+double mutual_area_by_rule(const std::array<Vec3, 3>& outer, const Vec3& outer_normal,
+                           std::span<const Vec3> inner, int degree) {
+  const Vec3 b = outer[1] - outer[0], c = outer[2] - outer[0];
+  double sum = 0;
+  for (const TriangleNode& node : triangle_rule(degree))
+    sum += node.weight *
+           std::max(0., lambert_sum(outer[0] + node.u * b + node.v * c, outer_normal, inner));
+  return 0.5 * b.cross(c).norm() * sum;
+}
+
+int sufficient_degree(double ratio, double tolerance) {
+  if (ratio < nearest_for_rules) return -1;
+  for (const int degree : {1, 2, 4, 6})
+    if (std::pow(ratio, -(degree + 1)) <= tolerance) return degree;
+  return -1;
+}
+
 MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
                        const FormFactorOptions& options) {
   const Vec3 p_area = area_vector(p), q_area = area_vector(q);
@@ -234,7 +234,16 @@ MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
   const Ball outer_ball = bounding_ball(outer), inner_ball = bounding_ball(inner);
   const double distance = (outer_ball.centre - inner_ball.centre).norm();
   const double ratio = (distance - inner_ball.radius) / outer_ball.radius;
-  if (ratio > far_away) return far_mutual_area(outer, p_normal, inner, ratio);
+  if (const int degree = sufficient_degree(ratio, options.tolerance); degree > 0) {
+    MutualArea result;
+    for (std::size_t k = 1; k + 1 < outer.size(); ++k) {
+      result.value +=
+          mutual_area_by_rule({outer[0], outer[k], outer[k + 1]}, p_normal, inner, degree);
+      result.points += static_cast<int>(triangle_rule(degree).size());
+    }
+    result.error = result.value * options.tolerance;
+    return result;
+  }
   return ContourIntegral(inner, options, distance).integrate(outer);
 }
 

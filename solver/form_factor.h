@@ -2,6 +2,7 @@
 
 #include "meshing/core/types.h"
 
+#include <array>
 #include <span>
 
 namespace halfshade {
@@ -16,6 +17,16 @@ double point_to_polygon(const Vec3& point, const Vec3& normal, std::span<const V
 /// Lambert's edge sum without any clipping: the polygon must lie above the horizon. Negative when
 /// the point is behind the polygon.
 double lambert_sum(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon);
+
+/// A F by Lambert's sum integrated over the outer triangle with a rule that is exact for
+/// polynomials of `degree`. Both must lie on each other's front. The relative error is about
+/// ratio^−(degree + 1), with ratio the distance of the two over the radius of the outer one.
+double mutual_area_by_rule(const std::array<Vec3, 3>& outer, const Vec3& outer_normal,
+                           std::span<const Vec3> inner, int degree);
+
+/// The lowest degree whose error is below `tolerance` at a ratio of distance to size; −1 if there
+/// is none and mutual_area has to be used.
+int sufficient_degree(double ratio, double tolerance);
 
 struct FormFactorOptions {
   double tolerance = 1e-9;  ///< relative error aimed at, in (0, 1)

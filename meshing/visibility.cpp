@@ -14,11 +14,12 @@
 #include <numeric>
 #include <type_traits>
 
-// Embree finds triangles near a line in single precision; whether such a triangle separates the two
-// end points is then decided by the signs of their heights above its plane, in double precision. So
-// rays may start and end on triangles at any angle, and false hits far along a skinny triangle's
-// plane do no harm. What stays single is the decision whether the line passes inside the triangle's
-// border, where Embree's robust mode leaves no gaps between triangles that share an edge.
+// Embree collects, the filters decide. Embree sees every triangle a little enlarged and every ray a
+// little lengthened, by more than the rounding of single precision, and hands each triangle it
+// finds to a filter, which tests the true triangle in double precision. So rays may start and end
+// on triangles at any angle, nothing slips through at shared edges and corners (Embree's robust
+// mode alone lets one in a thousand rays aimed at a vertex through), and false hits far along a
+// skinny triangle's plane do no harm.
 
 namespace halfshade {
 namespace {
@@ -27,13 +28,20 @@ constexpr std::size_t kPacket = 16;    // lanes of an Embree packet
 constexpr std::size_t kChunk = 1024;   // segments of one task; a multiple of kPacket
 constexpr std::size_t kSerial = 4096;  // batches up to this size are not worth a task
 
-// Rays are lengthened by this at both ends (the scene being scaled to [−1, 1]), 32 roundings of
-// single precision, so that Embree misses no triangle near an end; double precision decides there.
-constexpr double kEndMargin = 0x1p-19;
+// Embree's coordinates lie in [−1, 1], and a line through a triangle there is off by about ten
+// roundings, 2^-20. Edges are moved outwards by four times that, and rays, whose ends suffer more
+// at grazing angles, lengthened by much more. Corners move by at most kMiter times as much.
+constexpr double kEnlarge = 0x1p-18;
+constexpr double kLengthen = 0x1p-12;
+constexpr double kMiter = 64;
 
-// A point this close to a triangle's plane, relative to the scene's size, lies in it. Points that
-// were computed to lie in a plane do so within about 1e-15.
+// Relative to the scene's size: a point this close to a triangle's plane lies in it, and a line
+// this close to its border meets it. Points that were computed to lie there do so within about
+// 1e-15.
 constexpr double kInPlane = 1e-10;
+constexpr double kOnBorder = 1e-12;
+
+constexpr double kMaxExtent = 1e30;  // sixth powers of lengths occur
 
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -80,7 +88,7 @@ struct Ray {
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
 bool clip_to_cube(Ray& ray) {
-  const double half = 1 + 2 * kEndMargin;
+  const double half = 1 + 2 * kLengthen;
   double enter = 0, leave = ray.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = ray.origin[axis], d = ray.direction[axis];
@@ -98,44 +106,67 @@ bool clip_to_cube(Ray& ray) {
   return true;
 }
 
+/// A triangle in double precision.
+struct Triangle {
+  std::array<Vec3, 3> corner;
+  Vec3 normal;  // unit length; zero for a triangle without area
+
+  Triangle(const TriangleSoup& soup, std::size_t triangle) {
+    for (std::size_t k = 0; k < 3; ++k)
+      corner[k] = soup.points[static_cast<std::size_t>(soup.triangles[triangle][k])];
+    normal = edge(0).cross(edge(1));
+    const double twice_area = normal.norm();
+    if (twice_area > 0) normal /= twice_area;
+  }
+  Vec3 edge(std::size_t k) const { return corner[(k + 1) % 3] - corner[k]; }
+  double height(const Vec3& p) const { return normal.dot(p - corner[0]); }
+  /// Twice the signed area that point p of the plane spans with edge k.
+  double area(std::size_t k, const Vec3& p) const {
+    return normal.dot(edge(k).cross(p - corner[k]));
+  }
+  bool contains(const Vec3& p, double tolerance) const {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const double a = area(k, p);
+          a < 0 && a * a > tolerance * tolerance * edge(k).squaredNorm())
+        return false;
+    return true;
+  }
+  std::array<double, 3> weights(const Vec3& p) const {
+    std::array<double, 3> w{};
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) sum += w[(k + 2) % 3] = std::max(area(k, p), 0.0);
+    for (double& x : w) x = sum > 0 ? x / sum : 1.0 / 3;
+    return w;
+  }
+};
+
 /// What the filters need to know of a query; Embree hands the context through to them.
 struct Query {
   RTCIntersectContext context;
   const TriangleSoup* soup;
-  double in_plane;
+  double in_plane, on_border;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
   Vec3 origin, direction;             // nearest hit
   bool front_only = false;
 };
 static_assert(std::is_standard_layout_v<Query>, "a pointer to the context must lead to the query");
 
-/// A triangle's plane in double precision; the normal is zero for a triangle without area.
-struct TrianglePlane {
-  Vec3 point, normal;
-
-  TrianglePlane(const TriangleSoup& soup, std::size_t triangle) {
-    const auto& corners = soup.triangles[triangle];
-    point = soup.points[static_cast<std::size_t>(corners[0])];
-    const Vec3 u = soup.points[static_cast<std::size_t>(corners[1])] - point;
-    const Vec3 v = soup.points[static_cast<std::size_t>(corners[2])] - point;
-    normal = u.cross(v).stableNormalized();
-  }
-  double height(const Vec3& p) const { return normal.dot(p - point); }
-};
-
-bool separates(const Query& query, const Segment& segment, std::size_t triangle) {
-  const int plane = query.soup->plane[triangle];
+bool is_between(const Query& query, const Segment& segment, std::size_t id) {
+  const int plane = query.soup->plane[id];
   if (plane >= 0 && (plane == segment.from_plane || plane == segment.to_plane)) return false;
-  const TrianglePlane p(*query.soup, triangle);
-  const double from = p.height(segment.from), to = p.height(segment.to);
-  return std::min(from, to) < -query.in_plane && std::max(from, to) > query.in_plane;
+  const Triangle triangle(*query.soup, id);
+  const double from = triangle.height(segment.from), to = triangle.height(segment.to);
+  if (!(std::min(from, to) < -query.in_plane && std::max(from, to) > query.in_plane)) return false;
+  const Vec3 crossing = segment.from + from / (from - to) * (segment.to - segment.from);
+  return triangle.contains(crossing, query.on_border);
 }
 
-bool is_ahead(const Query& query, std::size_t triangle) {
-  const TrianglePlane p(*query.soup, triangle);
-  const double height = p.height(query.origin), rise = p.normal.dot(query.direction);
+bool is_ahead(const Query& query, std::size_t id) {
+  const Triangle triangle(*query.soup, id);
+  const double height = triangle.height(query.origin), rise = triangle.normal.dot(query.direction);
   if (query.front_only && rise >= 0) return false;
-  return height > query.in_plane ? rise < 0 : height < -query.in_plane && rise > 0;
+  if (!(height > query.in_plane ? rise < 0 : height < -query.in_plane && rise > 0)) return false;
+  return triangle.contains(query.origin - height / rise * query.direction, query.on_border);
 }
 
 void filter_occlusion(const RTCFilterFunctionNArguments* args) {
@@ -144,7 +175,7 @@ void filter_occlusion(const RTCFilterFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const Segment& segment = query.segments[RTCRayN_id(args->ray, args->N, i)];
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-    if (!separates(query, segment, triangle)) args->valid[i] = 0;
+    if (!is_between(query, segment, triangle)) args->valid[i] = 0;
   }
 }
 
@@ -155,6 +186,18 @@ void filter_hit(const RTCFilterFunctionNArguments* args) {
       args->valid[i] = 0;
 }
 
+/// The triangle with its edges moved outwards; long tips are cut short.
+std::array<Vec3, 3> enlarged(const Triangle& triangle, double distance) {
+  std::array<Vec3, 3> out = triangle.corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 in = triangle.edge((k + 2) % 3).stableNormalized();
+    const Vec3 away = triangle.edge(k).stableNormalized();
+    const double sine = triangle.normal.dot(in.cross(away));  // of the angle at the corner
+    if (sine > 0) out[k] += distance * std::min(1 / sine, kMiter) * (in - away);
+  }
+  return out;
+}
+
 float narrow(double x) { return static_cast<float>(x); }
 
 }  // namespace
@@ -162,8 +205,8 @@ float narrow(double x) { return static_cast<float>(x); }
 struct VisibilityIndex::Impl {
   TriangleSoup soup;
   Vec3 centre = Vec3::Zero();
-  double scale = 1;     // a power of two; (p − centre)·scale lies in [−1, 1]
-  double in_plane = 0;  // scene units
+  double scale = 1;                    // a power of two; (p − centre)·scale lies in [−1, 1]
+  double in_plane = 0, on_border = 0;  // scene units
   Device device;
   EmbreeScene scene;  // null if there are no triangles
 
@@ -191,12 +234,14 @@ void VisibilityIndex::Impl::measure() {
     }
   const double half = (high / 2 - low / 2).maxCoeff();
   const double reach = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-  if (!(half < 1e100) || (half > 0 && half < 1e-100))
+  if (!(half < kMaxExtent) || (half > 0 && half < 1 / kMaxExtent))
     throw Error(ErrorCode::contract, "VisibilityIndex",
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
   centre = low / 2 + high / 2;
   if (half > 0) scale = std::exp2(-std::ilogb(half) - 1);
-  in_plane = kInPlane * half + 16 * std::numeric_limits<double>::epsilon() * reach;
+  const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
+  in_plane = kInPlane * half + rounding;
+  on_border = kOnBorder * half + rounding;
 }
 
 void VisibilityIndex::Impl::build() {
@@ -208,15 +253,15 @@ void VisibilityIndex::Impl::build() {
   const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                              RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                             soup.points.size()));
+                                                             3 * soup.triangles.size()));
   auto* corners = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                               3 * sizeof(unsigned), soup.triangles.size()));
   throw_on_error(device.get());
-  for (const Vec3& p : soup.points)
-    for (int axis = 0; axis < 3; ++axis) *points++ = narrow((p[axis] - centre[axis]) * scale);
-  for (const auto& triangle : soup.triangles)
-    for (const int v : triangle) *corners++ = static_cast<unsigned>(v);
+  std::iota(corners, corners + 3 * soup.triangles.size(), 0u);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
+    for (const Vec3& p : enlarged(Triangle(soup, t), kEnlarge / scale))
+      for (int axis = 0; axis < 3; ++axis) *points++ = narrow((p[axis] - centre[axis]) * scale);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_occlusion);
   rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
   rtcCommitGeometry(geometry);
@@ -234,9 +279,9 @@ std::optional<Ray> VisibilityIndex::Impl::ray(const Segment& segment) const {
   const double length = way.norm();
   if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return std::nullopt;
   const Vec3 direction = way / length;
-  Ray ray{from - kEndMargin * direction, direction, length + 2 * kEndMargin};
+  Ray ray{from - kLengthen * direction, direction, length + 2 * kLengthen};
   const bool inside =
-      std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>()) <= 1 + kEndMargin;
+      std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>()) <= 1 + kLengthen;
   if (!inside && !clip_to_cube(ray)) return std::nullopt;
   return ray;
 }
@@ -247,6 +292,7 @@ Query VisibilityIndex::Impl::query(bool coherent) const {
   if (coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   query.soup = &soup;
   query.in_plane = in_plane;
+  query.on_border = on_border;
   return query;
 }
 
@@ -338,7 +384,7 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   if (!impl.scene || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   const Vec3 unit = direction.stableNormalized();
   if (unit.isZero()) return std::nullopt;
-  const Vec3 start = (origin - impl.centre) * impl.scale - kEndMargin * unit;
+  const Vec3 start = (origin - impl.centre) * impl.scale - kLengthen * unit;
   Ray ray{start, unit, std::numeric_limits<double>::infinity()};
   if (!clip_to_cube(ray)) return std::nullopt;
   Query query = impl.query(false);
@@ -351,13 +397,12 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   rtcIntersect1(impl.scene.get(), &query.context, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
   const std::size_t triangle = found.hit.primID;
-  const TrianglePlane plane(impl.soup, triangle);
+  const Triangle corners(impl.soup, triangle);
   Hit hit;
   hit.owner = impl.soup.owner[triangle];
   hit.triangle = static_cast<int>(triangle);
-  hit.distance = -plane.height(origin) / plane.normal.dot(unit);
-  const double u = static_cast<double>(found.hit.u), v = static_cast<double>(found.hit.v);
-  hit.weights = {1 - u - v, u, v};
+  hit.distance = -corners.height(origin) / corners.normal.dot(unit);
+  hit.weights = corners.weights(origin + hit.distance * unit);
   return hit;
 }
 

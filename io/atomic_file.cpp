@@ -2,14 +2,14 @@
 
 #include "meshing/core/error.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
+#include <fcntl.h>
 #include <fstream>
 #include <sstream>
 #include <system_error>
+#include <unistd.h>
 
 namespace halfshade {
 namespace {
@@ -28,8 +28,8 @@ namespace fs = std::filesystem;
 /// Opens a file that did not exist before, with the permissions any new file gets.
 fs::path make_temporary(const fs::path& target, const fs::path& folder) {
   for (int attempt = 0;; ++attempt) {
-    const fs::path path = folder / fmt::format(".halfshade-{}-{}{}", getpid(), attempt,
-                                               target.extension().string());
+    const fs::path path =
+        folder / fmt::format(".halfshade-{}-{}{}", getpid(), attempt, target.extension().string());
     const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (file >= 0) {
       close(file);

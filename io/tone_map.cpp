@@ -14,18 +14,39 @@ constexpr double least_of_mean = 0.25;
 constexpr double knee = 0.6;       // display values below it are proportional to the radiosity
 constexpr double whitening = 4.0;  // exposed values this far above 1 are most of the way to white
 
-double brightest(const Rgb& value) { return value.allFinite() ? std::max(0.0, value.maxCoeff()) : 0; }
+struct Weighted {
+  double value, weight;
+};
 
 /// The smallest value that at least `percentile` of the weight does not exceed.
-double weighted_percentile(std::vector<std::pair<double, double>> value_weight) {
-  std::sort(value_weight.begin(), value_weight.end());
+double weighted_percentile(std::vector<Weighted> samples) {
+  std::sort(samples.begin(), samples.end(), [](const Weighted& a, const Weighted& b) {
+    return a.value != b.value ? a.value < b.value : a.weight < b.weight;
+  });
   double total = 0, sum = 0;
-  for (const auto& [value, weight] : value_weight) total += weight;
-  for (const auto& [value, weight] : value_weight) {
-    sum += weight;
-    if (sum >= percentile * total) return value;
+  for (const Weighted& sample : samples) total += sample.weight;
+  for (const Weighted& sample : samples) {
+    sum += sample.weight;
+    if (sum >= percentile * total) return sample.value;
   }
-  return value_weight.back().first;
+  return samples.back().value;
+}
+
+/// 0 if no value is positive.
+double exposure_of(std::vector<Weighted> samples) {
+  double scale = 0;  // squares of values near the ends of the range of doubles stay in it
+  for (const Weighted& sample : samples) scale = std::max(scale, sample.value);
+  if (!(scale > 0)) return 0;
+  double first = 0, second = 0;
+  for (Weighted& sample : samples) {
+    sample.value /= scale;
+    first += sample.weight * sample.value;
+    second += sample.weight * sample.value * sample.value;
+  }
+  const double typical =
+      std::max(weighted_percentile(std::move(samples)), least_of_mean * second / first);
+  const double exposure = bright / typical / scale;
+  return std::isfinite(exposure) ? exposure : 0;
 }
 
 double shoulder(double x) {
@@ -34,25 +55,15 @@ double shoulder(double x) {
 
 }  // namespace
 
-double choose_exposure(std::span<const Rgb> values, std::span<const double> weights) {
-  double scale = 0;  // squares of values near the ends of the range of doubles stay in it
+double choose_exposure(std::span<const Rgb> values, std::span<const double> weights,
+                       std::span<const std::uint8_t> emits) {
+  std::vector<Weighted> lamps, others;
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (weights[i] > 0) scale = std::max(scale, brightest(values[i]));
-  if (!(scale > 0)) return 1;
-
-  std::vector<std::pair<double, double>> value_weight;
-  double first = 0, second = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!(weights[i] > 0) || !values[i].allFinite()) continue;
-    const double v = brightest(values[i]) / scale;
-    value_weight.emplace_back(v, weights[i]);
-    first += weights[i] * v;
-    second += weights[i] * v * v;
-  }
-  const double typical =
-      std::max(weighted_percentile(std::move(value_weight)), least_of_mean * second / first);
-  const double exposure = bright / typical / scale;
-  return std::isfinite(exposure) && exposure > 0 ? exposure : 1;
+    if (weights[i] > 0 && values[i].allFinite())
+      (emits[i] != 0 ? lamps : others).push_back({std::max(0.0, values[i].maxCoeff()), weights[i]});
+  double exposure = exposure_of(std::move(others));
+  if (exposure == 0) exposure = exposure_of(std::move(lamps));
+  return exposure > 0 ? exposure : 1;
 }
 
 Rgb tone_map(const Rgb& radiosity, double exposure) {
@@ -73,8 +84,7 @@ std::array<std::uint8_t, 3> encode_srgb(const Rgb& linear) {
   std::array<std::uint8_t, 3> bytes{};
   for (int c = 0; c < 3; ++c) {
     const double v = linear[c] > 0 ? std::min(linear[c], 1.0) : 0;
-    const double encoded =
-        v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
     bytes[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * encoded));
   }
   return bytes;

@@ -11,10 +11,12 @@ namespace halfshade {
 /// The factor from W/m² to display values that makes the 95th percentile of `values` (their
 /// brightest channel, by `weights`) come out at 0.8 of linear white. Where most of the weight lies
 /// in the dark, the percentile says little and a quarter of the mean brightness that the light
-/// itself sees, Σ w v² / Σ w v, takes its place. Scales inversely with the values; 1 if none is
-/// positive. Leave emitters out of `values`: they are meant to saturate. Values that are not finite
-/// are ignored. Spans must be equally long, weights ≥ 0.
-double choose_exposure(std::span<const Rgb> values, std::span<const double> weights);
+/// itself sees, Σ w v² / Σ w v, takes its place. Values whose entry in `emits` is not 0 are left
+/// out, for lamps are meant to saturate, unless no other value is positive. Scales inversely with
+/// the values; 1 if all are zero. Values that are not finite are ignored. Spans must be equally
+/// long, weights ≥ 0.
+double choose_exposure(std::span<const Rgb> values, std::span<const double> weights,
+                       std::span<const std::uint8_t> emits);
 
 /// Linear display values in [0,1] of a radiosity: proportional up to 0.6 in the brightest channel,
 /// from there on a shoulder towards 1 that keeps the ratios of the channels, and for values far

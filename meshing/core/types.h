@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 /// The vocabulary of every other header. Lengths are in scene units unless a comment says
 /// otherwise.

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "io/picture.h"
+#include "io/write_result.h"
+#include "meshing/core/progress.h"
+#include "solver/solve.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// What the program ends with.
+enum ExitCode {
+  exit_done = 0,
+  exit_usage = 2,
+  exit_invalid_input = 3,
+  exit_not_accurate = 4,  ///< results are written and marked
+  exit_unwritable = 5,
+  exit_interrupted = 130  ///< what was solved so far is written and marked
+};
+
+/// Options of every subcommand.
+struct CommonOptions {
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 0;             ///< 0: as many as the machine has
+  std::filesystem::path json;  ///< machine-readable report; empty: none
+};
+
+/// Where a subcommand runs.
+struct Context {
+  CommonOptions common;
+  Provenance provenance;
+  Progress progress;                    ///< may be stopped by the user
+  std::function<void()> progress_ends;  ///< call before printing
+};
+
+struct SolveCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  std::vector<std::filesystem::path>
+      outputs;  ///< empty: the scene's name with .vtu, in the current folder
+  SolveOptions options;
+};
+
+struct RenderCommand {
+  std::filesystem::path input;
+  std::filesystem::path materials;
+  std::filesystem::path output;
+  std::string camera;  ///< name; empty: the first of the file, or one that fits the scene
+  std::optional<Vec3> position, target, up;
+  double vertical_fov = 40;
+  PictureOptions options;
+};
+
+/// Each does its job and returns an exit code; errors are thrown as Error.
+int run(const SolveCommand& command, const Context& context);
+int run(const RenderCommand& command, const Context& context);
+
+}  // namespace halfshade

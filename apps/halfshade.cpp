@@ -1,0 +1,201 @@
+#include "apps/commands.h"
+#include "apps/interrupt.h"
+#include "apps/progress_bar.h"
+#include "meshing/core/error.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <tbb/global_control.h>
+
+#include <array>
+#include <iterator>
+#include <map>
+#include <new>
+#include <thread>
+
+namespace halfshade {
+namespace {
+
+constexpr const char* exit_code_help =
+    "Exit codes: 0 done, 2 wrong usage, 3 invalid input, 4 finished but not as accurate as asked,\n"
+    "5 could not write, 130 interrupted (what was computed so far is written and marked).";
+
+int exit_code(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::usage:
+      return exit_usage;
+    case ErrorCode::unwritable:
+      return exit_unwritable;
+    case ErrorCode::invalid_input:
+    case ErrorCode::too_large:
+    case ErrorCode::contract:
+      break;
+  }
+  return exit_invalid_input;
+}
+
+void add_common(CLI::App& app, CommonOptions& common) {
+  app.add_flag("-q,--quiet", common.quiet, "Print errors only");
+  app.add_flag("-v,--verbose", common.verbose, "Print repairs and the time of each stage");
+  app.add_option("--threads", common.threads, "Number of threads (default: all of the machine)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--json", common.json, "Write a machine-readable report to FILE")
+      ->type_name("FILE");
+}
+
+void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) {
+  CLI::App* app =
+      program.add_subcommand("solve", "Mesh a scene, solve for its radiosity, write the result");
+  app->add_option("scene", command.scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, …")
+      ->required()
+      ->type_name("SCENE");
+  app->add_option(
+         "-o,--output", command.outputs,
+         "Result: .vtu, .vtp, .ply or .png; may repeat (default: SCENE.vtu in this folder)")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--materials", command.materials,
+                  "JSON: object, group or material name -> reflectance, exitance, two_sided")
+      ->type_name("FILE");
+  auto& options = command.options;
+  app->add_option("--elements", options.elements, "About how many elements to make")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--max-length", options.max_length,
+                  "Longest element edge in scene units (instead of --elements)")
+      ->check(CLI::PositiveNumber);
+  app->add_option("--max-elements", options.max_elements, "Refuse to make more elements than this")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--bounces", options.radiosity.bounces,
+                  "Only light reflected at most N times (default: all)")
+      ->check(CLI::Range(0, 100000));
+  app->add_option("--rays", options.exchange.rays_per_pair,
+                  "Visibility rays for each pair of elements; four times as many where one emits")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4096));
+  const std::map<std::string, Closure> closures = {
+      {"auto", Closure::automatic}, {"enforce", Closure::enforce}, {"leave", Closure::leave}};
+  app->add_option(
+         "--closure", options.exchange.closure,
+         "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave'")
+      ->transform(CLI::CheckedTransformer(closures, CLI::ignore_case))
+      ->default_str("auto");
+  add_common(*app, common);
+  app->footer(
+      "Examples:\n"
+      "  halfshade solve data/cornell_box.obj -o cornell.vtu -o cornell.ply -o cornell.png\n"
+      "  halfshade solve data/l_room.obj --elements 3000 --bounces 1 -o l_room.vtu\n"
+      "  halfshade solve data/furnace_cube.obj --elements 600 --json report.json -q\n\n" +
+      std::string(exit_code_help));
+}
+
+void add_vector(CLI::App& app, const char* name, std::optional<Vec3>& target, const char* help) {
+  app.add_option_function<std::vector<double>>(
+         name, [&target](const std::vector<double>& v) { target = Vec3(v[0], v[1], v[2]); }, help)
+      ->expected(3)
+      ->type_name("X Y Z");
+}
+
+void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common) {
+  CLI::App* app = program.add_subcommand(
+      "render", "Draw a solution, or a scene, from a camera; needs no display");
+  app->add_option("input", command.input, "RESULT.vtu or .vtp of a solve, or a scene")
+      ->required()
+      ->type_name("INPUT");
+  app->add_option("-o,--output", command.output, "Picture: .png")->required()->type_name("FILE");
+  app->add_option("--materials", command.materials, "Materials file, as for solve (scenes only)")
+      ->type_name("FILE");
+  app->add_option("--camera", command.camera,
+                  "Camera by name (default: the file's first, or one that fits the scene)");
+  add_vector(*app, "--position", command.position, "Put the camera here");
+  add_vector(*app, "--target", command.target, "Look at this point");
+  add_vector(*app, "--up", command.up, "Upwards in the picture");
+  app->add_option("--fov", command.vertical_fov,
+                  "Vertical field of view in degrees, with --position")
+      ->capture_default_str()
+      ->check(CLI::Range(1., 170.));
+  auto& options = command.options;
+  app->add_option("--width", options.width, "Pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16384));
+  app->add_option("--height", options.height, "Pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 16384));
+  app->add_option("--samples", options.samples, "Rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1024));
+  app->add_option("--exposure", options.exposure,
+                  "Display value per W/m² (default: from the picture)")
+      ->check(CLI::PositiveNumber);
+  app->add_flag_callback(
+      "--flat", [&options] { options.shading = Shading::flat; }, "One colour an element");
+  app->add_flag("--mesh", options.mesh_lines, "Draw the element edges");
+  add_common(*app, common);
+  app->footer(
+      "Examples:\n"
+      "  halfshade render cornell.vtu -o cornell.png --mesh\n"
+      "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
+      "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n\n" +
+      std::string(exit_code_help));
+}
+
+std::string joined(int argc, char** argv) {
+  std::string line;
+  for (int k = 0; k < argc; ++k) line += (k ? " " : "") + std::string(argv[k]);
+  return line;
+}
+
+int run_program(int argc, char** argv) {
+  CLI::App program("halfshade: discontinuity meshing and accurate radiosity");
+  program.name("halfshade");
+  program.set_version_flag("--version", HALFSHADE_VERSION);
+  program.require_subcommand(1);
+  program.footer("Each command has --help with examples.\n" + std::string(exit_code_help));
+  Context context;
+  SolveCommand solve_command;
+  RenderCommand render_command;
+  add_solve(program, solve_command, context.common);
+  add_render(program, render_command, context.common);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return program.exit(e) == 0 ? exit_done : exit_usage;
+  }
+  solve_command.options.exchange.rays_per_emitter_pair =
+      4 * solve_command.options.exchange.rays_per_pair;
+
+  const Interrupt interrupt;
+  const int hardware = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const tbb::global_control threads(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(context.common.threads > 0 ? context.common.threads : hardware));
+  ProgressBar bar(!context.common.quiet);
+  context.provenance = {HALFSHADE_VERSION, joined(argc, argv)};
+  context.progress = {interrupt.token(), [&bar](std::string_view stage, double fraction) {
+                        bar.update(stage, fraction);
+                      }};
+  context.progress_ends = [&bar] { bar.clear(); };
+  return program.got_subcommand("solve") ? run(solve_command, context)
+                                         : run(render_command, context);
+}
+
+}  // namespace
+}  // namespace halfshade
+
+int main(int argc, char** argv) {
+  try {
+    return halfshade::run_program(argc, argv);
+  } catch (const halfshade::Error& e) {
+    fmt::print(stderr, "halfshade: {}\n", e.what());
+    return halfshade::exit_code(e.code());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr,
+               "halfshade: the machine has not enough memory for this; ask for fewer elements\n");
+    return halfshade::exit_invalid_input;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "halfshade: {}\n", e.what());
+    return halfshade::exit_invalid_input;
+  }
+}

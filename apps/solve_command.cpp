@@ -1,0 +1,94 @@
+#include "apps/commands.h"
+#include "io/read_scene.h"
+#include "io/write_report.h"
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace halfshade {
+namespace {
+
+bool is_picture(const std::filesystem::path& path) { return path.extension() == ".png"; }
+
+/// Wrong names are worth telling before an hour of computing.
+void check_outputs(const std::vector<std::filesystem::path>& outputs) {
+  for (const auto& path : outputs) {
+    if (!is_picture(path) && !is_result_path(path))
+      throw Error(ErrorCode::usage, path.string(),
+                  fmt::format("the extension '{}' is none of .vtu, .vtp, .ply and .png",
+                              path.extension().string()));
+    const auto folder = path.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+      throw Error(ErrorCode::unwritable, path.string(),
+                  fmt::format("the folder '{}' does not exist", folder.string()));
+  }
+}
+
+void write(const SolveResult& result, const Context& context, const std::filesystem::path& path) {
+  if (!is_picture(path)) return write_result(result, context.provenance, path);
+  const ShadedMesh mesh = shaded(result);
+  const Camera camera = mesh.cameras.empty() ? fitting_camera(mesh) : mesh.cameras.front();
+  write_png(draw(mesh, camera), path);
+}
+
+std::string closure_line(const ExchangeReport& exchange) {
+  if (!exchange.closed)
+    return fmt::format("open scene, {:.3g} of the light escapes", exchange.escaping_fraction);
+  return fmt::format("closed scene, closure error {:.2g} (largest {:.2g}){}",
+                     exchange.closure_error_rms, exchange.closure_error_max,
+                     exchange.closure_enforced ? ", put right" : ", left as it is");
+}
+
+void print_summary(const SolveResult& result, bool verbose) {
+  if (verbose)
+    for (const Repair& repair : result.scene.repairs)
+      fmt::print("repair       {}\n", repair.sentence);
+  fmt::print("receivers    {}\n", result.scene.receivers.size());
+  fmt::print("elements     {}\n", result.elements.count());
+  fmt::print("factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
+             closure_line(result.exchange));
+  const ChannelReport& channel = result.radiosity.channel[0];
+  fmt::print("radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
+             result.radiosity.channels, result.radiosity.channels == 1 ? "" : "s",
+             channel.iterations, channel.residual, channel.balance);
+  for (const StageReport& stage : result.stages)
+    if (!stage.left_out_because.empty())
+      fmt::print("left out     {}: {}\n", stage.name, stage.left_out_because);
+    else if (verbose)
+      fmt::print("{:<12} {:.2f} s\n", stage.name, stage.seconds);
+}
+
+}  // namespace
+
+int run(const SolveCommand& command, const Context& context) {
+  std::vector<std::filesystem::path> outputs = command.outputs;
+  if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
+  check_outputs(outputs);
+  const SceneFile file = read_scene(command.scene, command.materials);
+  const SolveResult result = solve(file.scene, command.options, context.progress);
+  context.progress_ends();
+  if (!context.common.quiet)
+    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& path : outputs) write(result, context, path);
+  if (!context.common.json.empty())
+    write_report(result, context.provenance, outputs, context.common.json);
+  if (!context.common.quiet) {
+    print_summary(result, context.common.verbose);
+    for (const auto& path : outputs) fmt::print("wrote        {}\n", path.string());
+  }
+  if (result.interrupted) {
+    fmt::print(stderr, "interrupted: the results written are incomplete and marked so\n");
+    return exit_interrupted;
+  }
+  if (!result.radiosity.converged) {
+    fmt::print(
+        stderr,
+        "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
+    return exit_not_accurate;
+  }
+  return exit_done;
+}
+
+}  // namespace halfshade

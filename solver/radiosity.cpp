@@ -1,0 +1,155 @@
+#include "solver/radiosity.h"
+
+#include "meshing/core/error.h"
+#include "solver/scaled_operator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+/// One channel of the problem.
+struct Channel {
+  Eigen::VectorXd rho, exitance;
+};
+
+struct ChannelSolution {
+  Eigen::VectorXd radiosity, irradiance, direct_irradiance;
+};
+
+Eigen::VectorXd irradiance_from(const Exchange& exchange, const Eigen::VectorXd& B) {
+  return (multiply(exchange.matrix, B).array() / exchange.area).matrix();
+}
+
+/// The elements that can be reached from `start` through the matrix.
+std::vector<int> connected_component(const ExchangeMatrix& matrix, int start,
+                                     std::vector<bool>& visited) {
+  std::vector<int> component = {start};
+  visited[static_cast<std::size_t>(start)] = true;
+  for (std::size_t k = 0; k < component.size(); ++k)
+    for (ExchangeMatrix::InnerIterator entry(matrix, component[k]); entry; ++entry)
+      if (!visited[static_cast<std::size_t>(entry.col())]) {
+        visited[static_cast<std::size_t>(entry.col())] = true;
+        component.push_back(static_cast<int>(entry.col()));
+      }
+  return component;
+}
+
+/// In a closed component where nothing absorbs, light that is put in never gets out.
+void require_somewhere_to_go(const Exchange& exchange, const Channel& channel) {
+  if (!exchange.report.closed || channel.rho.maxCoeff() < 1) return;
+  std::vector<bool> visited(static_cast<std::size_t>(channel.rho.size()));
+  for (int e = 0; e < channel.rho.size(); ++e) {
+    if (visited[static_cast<std::size_t>(e)]) continue;
+    const auto component = connected_component(exchange.matrix, e, visited);
+    double emitted = 0;
+    bool absorbs = component.size() == 1;
+    for (const int k : component) {
+      absorbs = absorbs || channel.rho[k] < 1;
+      emitted += exchange.area[k] * channel.exitance[k];
+    }
+    if (!absorbs && emitted > 0)
+      throw Error(
+          ErrorCode::invalid_input, "solve_radiosity",
+          fmt::format("a closed enclosure of {} elements reflects everything (reflectance 1) and "
+                      "emits {} W, so its radiosity has no limit; lower a reflectance",
+                      component.size(), emitted));
+  }
+}
+
+ChannelSolution sum_bounces(const Exchange& exchange, const Channel& channel, int bounces) {
+  ChannelSolution solution;
+  solution.direct_irradiance = irradiance_from(exchange, channel.exitance);
+  solution.radiosity = channel.exitance;
+  solution.irradiance = Eigen::VectorXd::Zero(channel.rho.size());
+  for (int bounce = 0; bounce < bounces; ++bounce) {
+    solution.irradiance = irradiance_from(exchange, solution.radiosity);
+    solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
+  }
+  return solution;
+}
+
+ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
+                              const RadiosityOptions& options, ChannelReport& report) {
+  // (A/rho − M) B = A E/rho for rho > 0, scaled by its diagonal: y = √(A/rho) B.
+  const Eigen::VectorXd scale = (channel.rho.array() / exchange.area).sqrt().matrix();
+  ChannelSolution solution;
+  solution.direct_irradiance = irradiance_from(exchange, channel.exitance);
+  // The light of black elements goes to the right-hand side; solving for the reflected part R = B −
+  // E instead of B does that for all elements at once: (A/rho − M) R = M E.
+  const Eigen::VectorXd b =
+      scale.cwiseProduct((solution.direct_irradiance.array() * exchange.area).matrix());
+  const ScaledOperator matrix(exchange.matrix, scale, -1);
+  ConjugateGradients cg(matrix);
+  cg.setTolerance(options.tolerance);
+  cg.setMaxIterations(options.max_iterations);
+  const Eigen::VectorXd y = cg.solve(b);
+  report.iterations = static_cast<int>(cg.iterations());
+  report.residual = b.norm() > 0 ? (b - matrix.apply(y)).norm() / b.norm() : 0;
+  // Rounding may leave the reflected part of an unlit element a hair below zero.
+  const Eigen::VectorXd reflected = scale.cwiseProduct(y).cwiseMax(0.);
+  solution.irradiance = irradiance_from(exchange, channel.exitance + reflected);
+  solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
+  return solution;
+}
+
+void balance_power(const Exchange& exchange, const Channel& channel,
+                   const ChannelSolution& solution, ChannelReport& report) {
+  const Eigen::ArrayXd& area = exchange.area;
+  const Eigen::ArrayXd sees = multiply(exchange.matrix, Eigen::VectorXd::Ones(area.size())).array();
+  report.emitted_power = (area * channel.exitance.array()).sum();
+  report.absorbed_power = (area * (1 - channel.rho.array()) * solution.irradiance.array()).sum();
+  report.escaped_power = (solution.radiosity.array() * (area - sees)).sum();
+  report.balance =
+      report.emitted_power > 0
+          ? std::abs(report.emitted_power - report.absorbed_power - report.escaped_power) /
+                report.emitted_power
+          : 0;
+}
+
+bool is_grey(const ChannelArray& values) {
+  return (values.col(0) == values.col(1)).all() && (values.col(0) == values.col(2)).all();
+}
+
+}  // namespace
+
+Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
+                         const ChannelArray& exitance, const RadiosityOptions& options,
+                         RadiosityReport& report, const Progress& progress) {
+  report = {};
+  report.channels = is_grey(rho) && is_grey(exitance) ? 1 : 3;
+  Solution solution{rho, exitance, rho, rho, rho};
+  for (int c = 0; c < report.channels; ++c) {
+    progress("radiosity", c / static_cast<double>(report.channels));
+    const Channel channel{rho.col(c).matrix(), exitance.col(c).matrix()};
+    ChannelReport& channel_report = report.channel[static_cast<std::size_t>(c)];
+    report.unknowns =
+        std::max(report.unknowns, static_cast<int>((channel.rho.array() > 0).count()));
+    ChannelSolution part;
+    if (options.bounces >= 0) {
+      part = sum_bounces(exchange, channel, options.bounces);
+      channel_report.iterations = options.bounces;
+    } else {
+      require_somewhere_to_go(exchange, channel);
+      part = solve_channel(exchange, channel, options, channel_report);
+      report.converged = report.converged && channel_report.residual <= 10 * options.tolerance;
+    }
+    balance_power(exchange, channel, part, channel_report);
+    solution.radiosity.col(c) = part.radiosity.array();
+    solution.irradiance.col(c) = part.irradiance.array();
+    solution.direct_irradiance.col(c) = part.direct_irradiance.array();
+  }
+  for (int c = report.channels; c < 3; ++c) {
+    report.channel[static_cast<std::size_t>(c)] = report.channel[0];
+    solution.radiosity.col(c) = solution.radiosity.col(0);
+    solution.irradiance.col(c) = solution.irradiance.col(0);
+    solution.direct_irradiance.col(c) = solution.direct_irradiance.col(0);
+  }
+  return solution;
+}
+
+}  // namespace halfshade

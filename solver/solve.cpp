@@ -1,0 +1,112 @@
+#include "solver/solve.h"
+
+#include "meshing/core/error.h"
+#include "meshing/patch_mesh.h"
+#include "meshing/visibility.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace halfshade {
+namespace {
+
+/// Times the stages of a pipeline.
+class Stages {
+ public:
+  explicit Stages(std::vector<StageReport>& reports) : reports_(reports) {}
+
+  /// Runs `stage`, which returns how many things it made.
+  template <class Stage>
+  void run(const char* name, Stage stage) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t count = stage();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    reports_.push_back({name, elapsed.count(), count, {}});
+  }
+
+  void leave_out_if(bool needless, const char* name, const char* because) {
+    if (needless) reports_.push_back({name, 0, 0, because});
+  }
+
+ private:
+  std::vector<StageReport>& reports_;
+};
+
+void material_arrays(const SoundScene& scene, const ElementTable& elements, ChannelArray& rho,
+                     ChannelArray& exitance) {
+  rho.resize(elements.count(), 3);
+  exitance.resize(elements.count(), 3);
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto& material =
+        scene.materials[static_cast<std::size_t>(elements.material[static_cast<std::size_t>(e)])];
+    rho.row(e) = material.rho.transpose();
+    exitance.row(e) = material.exitance.transpose();
+  }
+}
+
+PatchMesh make_mesh(const SoundScene& scene, const SolveOptions& options,
+                    const Progress& progress) {
+  PlanarMeshOptions mesh_options;
+  mesh_options.max_length =
+      options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
+  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
+  return PatchMesh(scene, mesh_options, progress);
+}
+
+void check(const SolveOptions& options) {
+  if (options.elements < 1 || options.max_elements < 1 || !(options.max_length >= 0))
+    throw Error(
+        ErrorCode::contract, "solve",
+        fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
+                    "not negative",
+                    options.elements, options.max_elements, options.max_length));
+}
+
+}  // namespace
+
+SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
+  check(options);
+  validate(scene);
+  require_emitter(scene);
+  SolveResult result;
+  result.cameras = scene.cameras;
+  result.unit = scene.unit;
+  Stages stages(result.stages);
+  stages.run("repair", [&] {
+    progress("repair", 0);
+    result.scene = make_sound(scene);
+    return result.scene.receivers.size();
+  });
+  stages.run("mesh", [&] {
+    result.elements = make_mesh(result.scene, options, progress).elements();
+    return result.elements.corners.size();
+  });
+  Exchange exchange;
+  stages.run("form factors", [&] {
+    const VisibilityIndex visibility(occluders(result.scene));
+    exchange =
+        compute_exchange(result.scene, result.elements, visibility, options.exchange, progress);
+    return exchange.report.factors;
+  });
+  result.exchange = exchange.report;
+  stages.leave_out_if(exchange.report.rays == 0, "visibility rays",
+                      "no surface can come between two others");
+  stages.leave_out_if(!exchange.report.closure_enforced && !exchange.report.closed, "closure",
+                      "light can leave the scene");
+  ChannelArray rho, exitance;
+  material_arrays(result.scene, result.elements, rho, exitance);
+  stages.run("radiosity", [&] {
+    result.solution =
+        solve_radiosity(exchange, rho, exitance, options.radiosity, result.radiosity, progress);
+    return static_cast<std::size_t>(result.radiosity.unknowns);
+  });
+  stages.leave_out_if(result.radiosity.unknowns == 0, "interreflection", "no surface reflects");
+  stages.leave_out_if(result.radiosity.channels == 1, "second and third channel",
+                      "every material is grey");
+  result.interrupted = progress.stopped();
+  return result;
+}
+
+}  // namespace halfshade

@@ -1,6 +1,7 @@
 #include "io/detail/result_formats.h"
 #include "io/detail/vtk_messages.h"
 #include "meshing/core/error.h"
+#include "meshing/quality.h"
 #include "solver/vertex_values.h"
 
 #include <fmt/format.h>
@@ -66,9 +67,7 @@ void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   add_integers(data, "material", elements.material);
   add_integers(data, "receiver", elements.receiver);
   add_integers(data, "level", elements.level);
-  std::vector<double> quality;
-  for (int e = 0; e < elements.count(); ++e) quality.push_back(min_angle(elements.triangle(e)));
-  add_numbers(data, "quality", quality);
+  add_numbers(data, "quality", min_angles(elements));
 }
 
 void add_field_data(const SolveResult& result, const Provenance& provenance, vtkFieldData* data) {

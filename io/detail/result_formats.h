@@ -2,7 +2,6 @@
 
 #include "io/write_result.h"
 
-#include <array>
 #include <string>
 
 namespace halfshade::detail {
@@ -11,9 +10,6 @@ namespace halfshade::detail {
 std::string vtu_bytes(const SolveResult& result, const Provenance& provenance);
 std::string vtp_bytes(const SolveResult& result, const Provenance& provenance);
 std::string ply_bytes(const SolveResult& result, const Provenance& provenance);
-
-/// The smallest angle of a triangle in degrees; 0 if it has no area.
-double min_angle(const std::array<Vec3, 3>& triangle);
 
 /// [{"name", "position", "direction", "up", "vertical_fov"}, …], as in a scene's sidecar, and back.
 /// The way back throws std::exception for anything else.

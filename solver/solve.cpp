@@ -26,8 +26,8 @@ class Stages {
     reports_.push_back({name, elapsed.count(), count, {}});
   }
 
-  void leave_out(const char* name, const char* because) {
-    reports_.push_back({name, 0, 0, because});
+  void leave_out_if(bool needless, const char* name, const char* because) {
+    if (needless) reports_.push_back({name, 0, 0, because});
   }
 
  private:
@@ -91,6 +91,10 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
     return exchange.report.factors;
   });
   result.exchange = exchange.report;
+  stages.leave_out_if(exchange.report.rays == 0, "visibility rays",
+                      "no surface can come between two others");
+  stages.leave_out_if(!exchange.report.closure_enforced && !exchange.report.closed, "closure",
+                      "light can leave the scene");
   ChannelArray rho, exitance;
   material_arrays(result.scene, result.elements, rho, exitance);
   stages.run("radiosity", [&] {
@@ -98,6 +102,9 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
         solve_radiosity(exchange, rho, exitance, options.radiosity, result.radiosity, progress);
     return static_cast<std::size_t>(result.radiosity.unknowns);
   });
+  stages.leave_out_if(result.radiosity.unknowns == 0, "interreflection", "no surface reflects");
+  stages.leave_out_if(result.radiosity.channels == 1, "second and third channel",
+                      "every material is grey");
   result.interrupted = progress.stopped();
   return result;
 }

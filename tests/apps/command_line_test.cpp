@@ -1,0 +1,246 @@
+#include "tests/support/process.h"
+#include "tests/support/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data = HALFSHADE_DATA;
+
+test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder,
+                        std::chrono::milliseconds interrupt_after = {}) {
+  arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+  return test::run_program(std::move(arguments), folder, interrupt_after);
+}
+
+void write_file(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
+
+const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string lamp = "mtllib lamp.mtl\nusemtl lamp\n" + square + "f 1 2 3 4\n";
+const std::string lamp_material = "newmtl lamp\nKd 0.5 0.5 0.5\nKe 1 1 1\n";
+
+struct BadInput {
+  std::string name;
+  std::string scene;     ///< the .obj; "-": none is written
+  std::string material;  ///< lamp.mtl
+  std::vector<std::string> arguments;
+  int exit_code;
+  std::string sentence_names;  ///< what the message must contain
+};
+
+void PrintTo(const BadInput& input, std::ostream* out) { *out << input.name; }
+
+class BadInputs : public testing::TestWithParam<BadInput> {};
+
+TEST_P(BadInputs, GiveOneSentenceAndTheDocumentedExitCode) {
+  const BadInput& input = GetParam();
+  const test::TempDir folder;
+  if (input.scene != "-") write_file(folder.path() / "scene.obj", input.scene);
+  write_file(folder.path() / "lamp.mtl", input.material);
+  const test::Outcome outcome = halfshade(input.arguments, folder.path());
+  EXPECT_EQ(outcome.exit_code, input.exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("halfshade: ", 0), 0u) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_NE(outcome.err.find(input.sentence_names), std::string::npos) << outcome.err;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    EXPECT_EQ(entry.path().extension() == ".vtu" || entry.path().extension() == ".ply", false)
+        << entry.path();
+}
+
+const std::vector<std::string> solve = {"solve", "scene.obj", "-o", "out.vtu"};
+
+INSTANTIATE_TEST_SUITE_P(
+    Solve, BadInputs,
+    testing::Values(
+        BadInput{"missing_file", "-", "", solve, 3, "scene.obj"},
+        BadInput{"folder_as_scene", "-", "", {"solve", ".", "-o", "out.vtu"}, 2, "."},
+        BadInput{"empty_file", "", "", solve, 3, "scene.obj"},
+        BadInput{"truncated", square + "f 1 2", "", solve, 3, "scene.obj:5"},
+        BadInput{"truncated_number", "v 0 0 0\nv 1 0", "", solve, 3, "scene.obj:2"},
+        BadInput{"nan", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve, 3, "scene.obj"},
+        BadInput{"infinite", "v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve, 3, "scene.obj"},
+        BadInput{"index_out_of_range", square + "f 1 2 9\n", "", solve, 3, "9"},
+        BadInput{"index_zero", square + "f 0 1 2\n", "", solve, 3, "0"},
+        BadInput{"reflectance_above_one", lamp, "newmtl lamp\nKd 1.2 0 0\nKe 1 1 1\n", solve, 3,
+                 "1.2"},
+        BadInput{"negative_exitance", lamp, "newmtl lamp\nKd 0 0 0\nKe 1 -3 1\n", solve, 3, "-3"},
+        BadInput{"missing_material_library", "mtllib none.mtl\n" + lamp, lamp_material, solve, 3,
+                 "none.mtl"},
+        BadInput{"no_faces", square, "", solve, 3, "face"},
+        BadInput{"no_emitter", square + "f 1 2 3 4\n", "", solve, 3, "emit"},
+        BadInput{"zero_area_only",
+                 "mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
+                 lamp_material, solve, 3, "area"},
+        BadInput{"one_point_only", "mtllib lamp.mtl\nusemtl lamp\nv 5 5 5\nf 1 1 1\n",
+                 lamp_material, solve, 3, "scene.obj"},
+        BadInput{"crossing_itself", "mtllib lamp.mtl\nusemtl lamp\n" + square + "f 1 3 2 4\n",
+                 lamp_material, solve, 3, "face 1"},
+        BadInput{
+            "unknown_scene_extension", "-", "", {"solve", "scene.xyz", "-o", "out.vtu"}, 2, ".xyz"},
+        BadInput{"unknown_output_extension",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "-o", "out.doc"},
+                 2,
+                 ".doc"},
+        BadInput{"output_folder_missing",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "-o", "none/out.vtu"},
+                 5,
+                 "none"},
+        BadInput{"output_below_a_file",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "-q", "-o", "lamp.mtl/out.vtu"},
+                 5,
+                 "lamp.mtl"},
+        BadInput{"output_device_full",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "-q", "--json", "/proc/none.json", "-o", "out.png"},
+                 5,
+                 "/proc"},
+        BadInput{"missing_materials_file",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "--materials", "none.json", "-o", "out.vtu"},
+                 3,
+                 "none.json"},
+        BadInput{"too_many_elements",
+                 lamp,
+                 lamp_material,
+                 {"solve", "scene.obj", "--max-length", "0.001", "-o", "out.vtu"},
+                 3,
+                 "elements"},
+        BadInput{"render_missing", "-", "", {"render", "none.vtu", "-o", "out.png"}, 3, "none.vtu"},
+        BadInput{"render_to_unknown",
+                 lamp,
+                 lamp_material,
+                 {"render", "scene.obj", "-o", "out.gif"},
+                 2,
+                 ".gif"},
+        BadInput{"render_unknown_camera",
+                 lamp,
+                 lamp_material,
+                 {"render", "scene.obj", "--camera", "nobody", "-o", "out.png"},
+                 2,
+                 "nobody"}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(CommandLine, WrongUsageEndsWithCode2AndSaysHowToGetHelp) {
+  const test::TempDir folder;
+  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
+                                                    {"bake"},
+                                                    {"solve"},
+                                                    {"solve", "a.obj", "--elements", "few"},
+                                                    {"solve", "a.obj", "--elements", "0"},
+                                                    {"solve", "a.obj", "--nonsense"},
+                                                    {"render", "a.vtu"}}) {
+    const test::Outcome outcome = halfshade(arguments, folder.path());
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("--help"), std::string::npos) << outcome.err;
+  }
+  EXPECT_EQ(halfshade({"--help"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(halfshade({"solve", "--help"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(halfshade({"--version"}, folder.path()).exit_code, 0);
+}
+
+/// Splits at blanks.
+std::vector<std::string> words(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+TEST(CommandLine, ExamplesOfTheHelpRun) {
+  const test::TempDir folder;
+  fs::create_directory_symlink(data, folder.path() / "data");
+  // What the examples of render start from.
+  ASSERT_EQ(halfshade({"solve", "data/s1.obj", "--elements", "100", "-q"}, folder.path()).exit_code,
+            0);
+  int ran = 0;
+  for (const std::string command : {"solve", "render"}) {
+    std::istringstream help(halfshade({command, "--help"}, folder.path()).out);
+    for (std::string line; std::getline(help, line);) {
+      std::vector<std::string> arguments = words(line);
+      if (arguments.size() < 3 || arguments[0] != "halfshade" || arguments[1] != command ||
+          line.find("Usage") != std::string::npos)
+        continue;
+      arguments.erase(arguments.begin());
+      if (command == "solve" &&
+          std::find(arguments.begin(), arguments.end(), "--elements") == arguments.end())
+        arguments.insert(arguments.end(), {"--elements", "300"});
+      const test::Outcome outcome = halfshade(arguments, folder.path());
+      EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
+      ++ran;
+    }
+  }
+  EXPECT_GE(ran, 6);
+  for (const char* file : {"cornell.vtu", "cornell.ply", "cornell.png", "l_room.vtu", "s1.png"})
+    EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
+}
+
+TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
+  const test::TempDir folder;
+  const test::Outcome outcome =
+      halfshade({"solve", (data / "furnace_cube.obj").string(), "--elements", "200", "-q", "-o",
+                 "out.ply", "--json", "report.json"},
+                folder.path());
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
+  EXPECT_GT(report.at("mesh").at("elements").get<int>(), 100);
+  EXPECT_FALSE(report.at("interrupted").get<bool>());
+  const test::Outcome talk = halfshade(
+      {"solve", (data / "furnace_cube.obj").string(), "--elements", "200", "-o", "out.ply"},
+      folder.path());
+  EXPECT_NE(talk.out.find("out.ply"), std::string::npos);
+  EXPECT_EQ(talk.err, "") << "no progress bar without a terminal";
+}
+
+TEST(CommandLine, ThreadsDoNotChangeTheBytes) {
+  const test::TempDir folder;
+  const auto body = [&](const std::string& threads) {
+    EXPECT_EQ(halfshade({"solve", (data / "l_room.obj").string(), "--elements", "500", "-q",
+                         "--threads", threads, "-o", "out.ply"},
+                        folder.path())
+                  .exit_code,
+              0);
+    const std::string text = test::contents(folder.path() / "out.ply");
+    return text.substr(text.find("end_header"));
+  };
+  EXPECT_EQ(body("1"), body("2"));
+}
+
+TEST(CommandLine, InterruptWritesAMarkedPartialResult) {
+  const test::TempDir folder;
+  const test::Outcome outcome =
+      halfshade({"solve", (data / "cornell_box.obj").string(), "--elements", "20000", "-o",
+                 "out.vtu", "--json", "report.json"},
+                folder.path(), std::chrono::milliseconds(1500));
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+  EXPECT_TRUE(fs::exists(folder.path() / "out.vtu"));
+  const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
+  EXPECT_TRUE(report.at("interrupted").get<bool>());
+  EXPECT_EQ(halfshade({"render", "out.vtu", "-o", "out.png", "--samples", "1", "-q"}, folder.path())
+                .exit_code,
+            0);
+}
+
+}  // namespace
+}  // namespace halfshade

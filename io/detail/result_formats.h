@@ -3,6 +3,7 @@
 #include "io/write_result.h"
 
 #include <string>
+#include <string_view>
 
 namespace halfshade::detail {
 
@@ -10,6 +11,11 @@ namespace halfshade::detail {
 std::string vtu_bytes(const SolveResult& result, const Provenance& provenance);
 std::string vtp_bytes(const SolveResult& result, const Provenance& provenance);
 std::string ply_bytes(const SolveResult& result, const Provenance& provenance);
+
+/// Ends an XML file with a comment that holds a checksum of what is before it: VTK's reader can
+/// crash on damaged data, so files are only given to it if `is_sealed` says they are as written.
+std::string seal(std::string xml);
+bool is_sealed(std::string_view bytes);
 
 /// [{"name", "position", "direction", "up", "vertical_fov"}, …], as in a scene's sidecar, and back.
 /// The way back throws std::exception for anything else.

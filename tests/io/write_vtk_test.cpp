@@ -166,6 +166,18 @@ TEST_P(WriteVtk, TheSameResultGivesTheSameBytes) {
   EXPECT_EQ(first, test::contents(write(test::sample_result(8))));
 }
 
+TEST_P(WriteVtk, ExtremeValuesComeThroughInSilence) {
+  SolveResult result = test::sample_result(2);
+  result.solution.radiosity.setConstant(1e300);  // squares overflow
+  result.solution.irradiance.setConstant(5e-324);
+  const fs::path path = write(result);
+  testing::internal::CaptureStderr();
+  const auto grid = read(path);
+  expect_channels(grid->GetCellData(), "radiosity", result.solution.radiosity);
+  expect_channels(grid->GetCellData(), "irradiance", result.solution.irradiance);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_P(WriteVtk, AnEmptyMeshIsStillAFile) {
   EXPECT_EQ(read(write(test::sample_result(0)))->GetNumberOfCells(), 0);
 }

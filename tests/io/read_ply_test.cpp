@@ -110,10 +110,12 @@ TEST(ReadPly, ReadsBothByteOrdersAndAllLineEndings) {
 }
 
 TEST(ReadPly, RefusesEveryTruncation) {
+  const TempDir folder;
   for (const std::string& whole :
        {binary_file(false), binary_file(true), ascii_header + ascii_data})
     for (std::size_t size = 0; size + 2 < whole.size(); ++size)
-      EXPECT_THROW(read(whole.substr(0, size)), Error) << size << " of " << whole.size();
+      EXPECT_THROW(read_scene(folder.write("scene.ply", whole.substr(0, size))), Error)
+          << size << " of " << whole.size();
 }
 
 TEST(ReadPly, WarnsOfWhatFollowsTheFaces) {

@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/soup_triangle.h"
+#include "meshing/triangle_tree.h"
 
 #include <Eigen/Geometry>
 #include <embree3/rtcore.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <type_traits>
 
@@ -41,6 +43,7 @@ constexpr double kMiter = 64;
 // 1e-15.
 constexpr double kInPlane = 1e-10;
 constexpr double kOnBorder = 1e-12;
+constexpr double kInShaft = 1e-12;
 
 // A packet whose origins and ends lie this close together is traced as one bundle, else ray by ray:
 // measured, either is up to three times as fast as the other beyond this.
@@ -166,10 +169,12 @@ float narrow(double x) { return static_cast<float>(x); }
 struct VisibilityIndex::Impl {
   TriangleSoup soup;
   Vec3 centre = Vec3::Zero();
-  double scale = 1;                    // a power of two; (p − centre)·scale lies in [−1, 1]
-  double in_plane = 0, on_border = 0;  // scene units
+  double scale = 1;  // a power of two; (p − centre)·scale lies in [−1, 1]
+  double in_plane = 0, on_border = 0, in_shaft = 0;  // scene units
   Device device;
   EmbreeScene scene;  // null if there are no triangles
+  mutable std::once_flag planted;
+  mutable std::optional<TriangleTree> tree;  // made by the first shaft query
 
   explicit Impl(TriangleSoup triangles) : soup(std::move(triangles)) {
     check(soup);
@@ -203,6 +208,7 @@ void VisibilityIndex::Impl::measure() {
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
   in_plane = kInPlane * half + rounding;
   on_border = kOnBorder * half + rounding;
+  in_shaft = kInShaft * half + rounding;
 }
 
 void VisibilityIndex::Impl::build() {
@@ -370,6 +376,25 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   hit.distance = -corners.height(origin) / corners.normal.dot(unit);
   hit.weights = corners.weights(origin + hit.distance * unit);
   return hit;
+}
+
+std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,
+                                             std::span<const Vec3> b) const {
+  const Impl& impl = *impl_;
+  if (a.empty() || b.empty())
+    throw Error(ErrorCode::contract, "VisibilityIndex::candidates", "a polygon has no vertices");
+  if (!impl.scene) return {};
+  std::call_once(impl.planted, [&] { impl.tree.emplace(impl.soup, impl.centre); });
+  std::vector<Vec3> local;
+  for (const auto& polygon : {a, b})
+    for (const Vec3& p : polygon) local.push_back(p - impl.centre);
+  const auto split = std::span<const Vec3>(local);
+  std::vector<int> found;
+  impl.tree->find(make_shaft(split.first(a.size()), split.subspan(a.size()), impl.in_shaft), found);
+  for (int& id : found) id = impl.soup.owner[static_cast<std::size_t>(id)];
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
 }
 
 }  // namespace halfshade

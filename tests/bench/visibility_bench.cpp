@@ -90,6 +90,25 @@ void first_hits(benchmark::State& state) {
   count(state, 1);
 }
 
+/// Shafts between quadrilaterals as large as elements are.
+void shafts(benchmark::State& state) {
+  const VisibilityIndex index(scene(state.range(0)));
+  test::Random random(3);
+  const double size = 0.02 * static_cast<double>(state.range(1));
+  std::vector<std::vector<Vec3>> polygons;
+  for (int i = 0; i < 1024; ++i) {
+    const Vec3 p = random.point(0, 1), u = random.point(-size, size), v = random.point(-size, size);
+    polygons.push_back({p, p + u, p + u + v, p + v});
+  }
+  std::size_t i = 0, candidates = 0;
+  for (auto _ : state) {
+    candidates += index.candidates(polygons[i % 1024], polygons[(i + 1) % 1024]).size();
+    ++i;
+  }
+  count(state, 1);
+  state.counters["candidates"] = static_cast<double>(candidates) / static_cast<double>(i);
+}
+
 BENCHMARK(build_index)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(rays_single, scattered, false)->Arg(1000)->Arg(100000);
 BENCHMARK_CAPTURE(rays_single, coherent, true)->Arg(1000)->Arg(100000);
@@ -101,6 +120,7 @@ BENCHMARK_CAPTURE(rays_batch, scattered, false)
     ->UseRealTime();
 BENCHMARK_CAPTURE(rays_batch, coherent, true)->Args({100000, 1})->Args({100000, 2})->UseRealTime();
 BENCHMARK(first_hits)->Arg(1000)->Arg(100000);
+BENCHMARK(shafts)->ArgsProduct({{100, 10000, 100000}, {1, 10}})->ArgNames({"triangles", "size"});
 
 }  // namespace
 }  // namespace halfshade

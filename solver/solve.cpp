@@ -58,7 +58,7 @@ ElementTable make_mesh(const SoundScene& scene, const SolveOptions& options,
   mesh_options.max_length =
       options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
   ElementTable elements = PatchMesh(scene, mesh_options, progress).elements();
-  if (options.max_length > 0) return elements;
+  if (options.max_length > 0 || progress.stopped()) return elements;
   for (int k = 1; k < attempts; ++k) {
     const double excess = elements.count() / static_cast<double>(options.elements);
     if (std::abs(excess - 1) <= near_enough) break;

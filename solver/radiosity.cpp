@@ -73,6 +73,18 @@ ChannelSolution sum_bounces(const Exchange& exchange, const Channel& channel, in
   return solution;
 }
 
+/// The best uniform reflected radiosity, in the scaled unknown: the ambient term of progressive
+/// refinement (Cohen et al. 1988). It takes the one slow mode of a bright enclosure out of the
+/// iteration.
+Eigen::VectorXd ambient_guess(const Channel& channel, const ScaledOperator& matrix,
+                              const Eigen::VectorXd& scale, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd uniform =
+      (channel.rho.array() > 0).select(scale.cwiseInverse(), Eigen::VectorXd::Zero(b.size()));
+  const double energy = uniform.dot(matrix.apply(uniform));
+  if (!(energy > 0)) return Eigen::VectorXd::Zero(b.size());
+  return uniform.dot(b) / energy * uniform;
+}
+
 ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
                               const RadiosityOptions& options, ChannelReport& report) {
   // (A/rho − M) B = A E/rho for rho > 0, scaled by its diagonal: y = √(A/rho) B.
@@ -87,7 +99,7 @@ ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
   ConjugateGradients cg(matrix);
   cg.setTolerance(options.tolerance);
   cg.setMaxIterations(options.max_iterations);
-  const Eigen::VectorXd y = cg.solve(b);
+  const Eigen::VectorXd y = cg.solveWithGuess(b, ambient_guess(channel, matrix, scale, b));
   report.iterations = static_cast<int>(cg.iterations());
   report.residual = b.norm() > 0 ? (b - matrix.apply(y)).norm() / b.norm() : 0;
   // Rounding may leave the reflected part of an unlit element a hair below zero.

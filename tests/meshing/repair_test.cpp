@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/patch_mesh.h"
+#include "meshing/quality.h"
 #include "tests/support/cornell.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/mesh_invariants.h"
@@ -442,6 +443,27 @@ TEST(MakeSound, TurnedTessellationsMergeWithoutGaps) {
   EXPECT_EQ(sound.receivers[0].rings.size(), 1u);
   EXPECT_EQ(sound.receivers[0].rings[0].size(), 4u);
   EXPECT_NEAR(total_area(sound), 144, 1e-9);
+}
+
+TEST(MakeSound, DecimalRoundingOfTurnedTessellationsLeavesNoGaps) {
+  // As a file with six decimals has it: T-vertices lie off their edges by up to 1e-6.
+  for (int trial = 0; trial < 10; ++trial) {
+    const Eigen::AngleAxisd turn(0.3 + trial, Vec3(1, trial, 3).normalized());
+    Scene scene = scene_of({});
+    for (int row = 0; row < 10; ++row)
+      for (int k = 0; k <= row + trial; ++k) {
+        const double n = row + trial + 1;
+        auto corners = rectangle(k / n, 0.1 * row, (k + 1) / n, 0.1 * (row + 1));
+        for (Vec3& p : corners)
+          for (double& x : p = turn * p) x = std::round(1e6 * x) / 1e6;
+        add_polygon(scene, corners, 0);
+      }
+    const SoundScene sound = make_sound(scene);
+    ASSERT_EQ(sound.receivers.size(), 1u);
+    EXPECT_EQ(sound.receivers[0].rings.size(), 1u);
+    EXPECT_NEAR(total_area(sound), 1, 1e-5);
+    EXPECT_GE(summarize_quality(PatchMesh(sound, {.max_length = 0.1}).elements()).min_angle, 20.7);
+  }
 }
 
 TEST(MakeSound, NearbyVerticesAreWelded) {

@@ -43,8 +43,9 @@ bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area,
     }
     if (!std::isfinite(error)) return false;
     previous_error = error;
-    const Eigen::VectorXd root = (s.array() > 0).select(sums.cwiseSqrt(), Eigen::VectorXd::Ones(n));
-    const ScaledOperator jacobian(matrix, s.cwiseQuotient(root), 1);
+    // Fixed rows get weight 0; their root is anything but 0.
+    const Eigen::VectorXd root = sums.array().sqrt() + (1 - free);
+    const ScaledOperator jacobian(matrix, free * s.array() / root.array(), 1);
     ConjugateGradients cg(jacobian);
     cg.setTolerance(1e-6);  // Newton's own convergence makes up for the rest
     cg.setMaxIterations(500);

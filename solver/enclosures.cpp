@@ -16,6 +16,19 @@ constexpr int rays_per_element = 64;
 /// single sampled ray that slips along a contact line must not.
 constexpr double weakest_link = 1e-6;
 
+bool meets_a_front(const SoundScene& scene, const VisibilityIndex& visibility, const Vec3& origin,
+                   const Vec3& direction) {
+  const auto hit = visibility.first_hit(origin, direction);
+  if (!hit) return false;
+  const Receiver& receiver = scene.receivers[static_cast<std::size_t>(hit->owner)];
+  if (receiver.frame.normal.dot(direction) < 0 ||
+      scene.materials[static_cast<std::size_t>(receiver.material)].two_sided)
+    return true;
+  // Where a ray meets the edge between a front and a back, either may be found first.
+  const auto front = visibility.first_hit(origin, direction, Sides::front_only);
+  return front && front->distance <= hit->distance + scene.tolerance.planarity;
+}
+
 /// True if every ray from the element meets the front of a surface.
 bool sees_only_fronts(const SoundScene& scene, const ElementTable& elements,
                       const VisibilityIndex& visibility, int element) {
@@ -32,12 +45,7 @@ bool sees_only_fronts(const SoundScene& scene, const ElementTable& elements,
     const Vec3 direction = radius * std::cos(angle) * frame.e1 +
                            radius * std::sin(angle) * frame.e2 +
                            std::sqrt(1 - radius * radius) * frame.normal;
-    const auto hit = visibility.first_hit(frame.origin, direction);
-    if (!hit) return false;
-    const Receiver& receiver = scene.receivers[static_cast<std::size_t>(hit->owner)];
-    if (receiver.frame.normal.dot(direction) > 0 &&
-        !scene.materials[static_cast<std::size_t>(receiver.material)].two_sided)
-      return false;
+    if (!meets_a_front(scene, visibility, frame.origin, direction)) return false;
   }
   return true;
 }

@@ -55,8 +55,7 @@ double RayVisibility::visible_fraction(const PairEnd& a, const PairEnd& b, int r
     segments_.push_back({from, to, a.plane, b.plane});
     weights_.push_back(cosines / (r2 * r2));
   }
-  if (segments_.empty())
-    return 1;  // hardly facing each other: nothing to tell, next to nothing to weigh
+  if (segments_.empty()) return 0;
   blocked_.resize(segments_.size());
   visibility_->blocked(segments_, blocked_);
   double all = 0, through = 0;

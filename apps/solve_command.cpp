@@ -13,16 +13,21 @@ namespace {
 bool is_picture(const std::filesystem::path& path) { return path.extension() == ".png"; }
 
 /// Wrong names are worth telling before an hour of computing.
-void check_outputs(const std::vector<std::filesystem::path>& outputs) {
+void check_outputs(const std::vector<std::filesystem::path>& outputs,
+                   const std::filesystem::path& json) {
+  const auto check_folder = [](const std::filesystem::path& path) {
+    const auto folder = path.parent_path();
+    if (!folder.empty() && !std::filesystem::is_directory(folder))
+      throw Error(ErrorCode::unwritable, path.string(),
+                  fmt::format("the folder '{}' does not exist", folder.string()));
+  };
+  check_folder(json);
   for (const auto& path : outputs) {
     if (!is_picture(path) && !is_result_path(path))
       throw Error(ErrorCode::usage, path.string(),
                   fmt::format("the extension '{}' is none of .vtu, .vtp, .ply and .png",
                               path.extension().string()));
-    const auto folder = path.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-      throw Error(ErrorCode::unwritable, path.string(),
-                  fmt::format("the folder '{}' does not exist", folder.string()));
+    check_folder(path);
   }
 }
 
@@ -53,6 +58,8 @@ void print_summary(const SolveResult& result, bool verbose) {
   fmt::print("radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
              result.radiosity.channels, result.radiosity.channels == 1 ? "" : "s",
              channel.iterations, channel.residual, channel.balance);
+  fmt::print("error        {:.2g} relative to the irradiance (estimated, L2)\n",
+             result.relative_error);
   for (const StageReport& stage : result.stages)
     if (!stage.left_out_because.empty())
       fmt::print("left out     {}: {}\n", stage.name, stage.left_out_because);
@@ -65,7 +72,7 @@ void print_summary(const SolveResult& result, bool verbose) {
 int run(const SolveCommand& command, const Context& context) {
   std::vector<std::filesystem::path> outputs = command.outputs;
   if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
-  check_outputs(outputs);
+  check_outputs(outputs, context.common.json);
   const SceneFile file = read_scene(command.scene, command.materials);
   const SolveResult result = solve(file.scene, command.options, context.progress);
   context.progress_ends();

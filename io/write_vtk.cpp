@@ -62,6 +62,9 @@ void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   add_channels(data, "direct_irradiance", solution.direct_irradiance);
   add_channels(data, "exitance", solution.exitance);
   add_channels(data, "reflectance", solution.rho);
+  const Eigen::ArrayXd& error = solution.error_estimate;
+  add_numbers(data, "error_estimate", {error.data(), error.data() + error.size()});
+  add_integers(data, "order", std::vector<int>(elements.corners.size(), 0));
   add_integers(data, "face", elements.face);
   add_integers(data, "group", elements.group);
   add_integers(data, "material", elements.material);
@@ -86,6 +89,7 @@ void add_field_data(const SolveResult& result, const Provenance& provenance, vtk
   add_strings(data, "material_names", materials);
   add_strings(data, "stage_names", stages);
   add_numbers(data, "stage_seconds", seconds);
+  add_numbers(data, "achieved_error", {result.relative_error});
   add_integers(data, "interrupted", {result.interrupted ? 1 : 0});
 }
 

@@ -119,7 +119,7 @@ Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
                          RadiosityReport& report, const Progress& progress) {
   report = {};
   report.channels = is_grey(rho) && is_grey(exitance) ? 1 : 3;
-  Solution solution{rho, exitance, rho, rho, rho};
+  Solution solution{rho, exitance, rho, rho, rho, {}};
   for (int c = 0; c < report.channels; ++c) {
     progress("radiosity", c / static_cast<double>(report.channels));
     const Channel channel{rho.col(c).matrix(), exitance.col(c).matrix()};

@@ -33,6 +33,7 @@ struct RadiosityReport {
 /// Solves B = E + rho·F B for each channel by conjugate gradients on the symmetric positive
 /// definite form, preconditioned by its diagonal; elements with rho = 0 are eliminated. With
 /// `bounces` it sums the Neumann series instead. `rho` and `exitance` have one row an element.
+/// The error estimate is left empty.
 /// Throws Error(invalid_input) where a closed enclosure of perfect reflectors (rho = 1) would gain
 /// energy without end.
 Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,

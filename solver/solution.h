@@ -14,6 +14,7 @@ struct Solution {
   ChannelArray radiosity;          ///< B = E + rho·H
   ChannelArray irradiance;         ///< H
   ChannelArray direct_irradiance;  ///< the part of H that comes straight from emitters
+  Eigen::ArrayXd error_estimate;   ///< of the irradiance, see recovery_estimate
 };
 
 }  // namespace halfshade

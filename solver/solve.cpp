@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/patch_mesh.h"
 #include "meshing/visibility.h"
+#include "solver/recovery_estimate.h"
 
 #include <fmt/format.h>
 
@@ -118,6 +119,13 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
   stages.leave_out_if(result.radiosity.unknowns == 0, "interreflection", "no surface reflects");
   stages.leave_out_if(result.radiosity.channels == 1, "second and third channel",
                       "every material is grey");
+  stages.run("error estimate", [&] {
+    const ChannelArray& irradiance = result.solution.irradiance;
+    result.solution.error_estimate = recovery_estimate(result.elements, irradiance);
+    result.relative_error =
+        relative_error(result.elements, irradiance, result.solution.error_estimate);
+    return result.elements.corners.size();
+  });
   result.interrupted = progress.stopped();
   return result;
 }

@@ -41,7 +41,8 @@ struct SolveResult {
   std::vector<StageReport> stages;
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  bool interrupted = false;  ///< stopped early: factors not reached count as zero
+  double relative_error = 0;  ///< estimated, of the irradiance in the L2 norm
+  bool interrupted = false;   ///< stopped early: factors not reached count as zero
 };
 
 /// The main job: makes the scene sound, meshes it, computes form factors, solves for radiosity.

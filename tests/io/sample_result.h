@@ -47,6 +47,7 @@ inline SolveResult sample_result(int n) {
 
   Solution& s = result.solution;
   const auto rows = static_cast<Eigen::Index>(count);
+  s.error_estimate.resize(result.elements.count());
   for (ChannelArray* array :
        {&s.rho, &s.exitance, &s.radiosity, &s.irradiance, &s.direct_irradiance})
     *array = ChannelArray::Zero(rows, 3);
@@ -56,6 +57,7 @@ inline SolveResult sample_result(int n) {
     const double x = static_cast<double>(i);
     s.rho.row(i) = material.rho;
     s.exitance.row(i) = material.exitance;
+    s.error_estimate[i] = x / 13;
     s.direct_irradiance.row(i) = Rgb(1 + x / 3, 2 + x / 7, 3 + x / 11);
     s.irradiance.row(i) = s.direct_irradiance.row(i) + 0.1;
     s.radiosity.row(i) = s.exitance.row(i) + s.rho.row(i) * s.irradiance.row(i);

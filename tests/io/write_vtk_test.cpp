@@ -64,6 +64,14 @@ std::vector<std::string> strings(vtkFieldData* data, const char* name) {
   return values;
 }
 
+void expect_numbers(vtkFieldData* data, const char* name, const std::vector<double>& expected) {
+  vtkDataArray* array = data->GetArray(name);
+  ASSERT_NE(array, nullptr) << name;
+  ASSERT_EQ(array->GetNumberOfTuples(), static_cast<vtkIdType>(expected.size())) << name;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(array->GetTuple1(static_cast<vtkIdType>(i)), expected[i]) << name << ' ' << i;
+}
+
 class WriteVtk : public testing::TestWithParam<const char*> {
  protected:
   fs::path write(const SolveResult& result) {
@@ -102,6 +110,9 @@ TEST_P(WriteVtk, AnotherReaderFindsTheSameLightToTheLastBit) {
   expect_channels(cells, "direct_irradiance", result.solution.direct_irradiance);
   expect_channels(cells, "exitance", result.solution.exitance);
   expect_channels(cells, "reflectance", result.solution.rho);
+  const Eigen::ArrayXd& error = result.solution.error_estimate;
+  expect_numbers(cells, "error_estimate", {error.begin(), error.end()});
+  expect_integers(cells, "order", std::vector<int>(18, 0));
   expect_integers(cells, "face", result.elements.face);
   expect_integers(cells, "group", result.elements.group);
   expect_integers(cells, "material", result.elements.material);

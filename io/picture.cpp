@@ -40,6 +40,9 @@ View make_view(const Camera& camera, const PictureOptions& options) {
   return view;
 }
 
+/// A sine below which two directions count as parallel.
+constexpr double parallel = 1e-9;
+
 void check(const Camera& camera, const PictureOptions& options) {
   const auto fail = [](const std::string& sentence) {
     throw Error(ErrorCode::contract, "draw", sentence);
@@ -54,7 +57,7 @@ void check(const Camera& camera, const PictureOptions& options) {
   if (!(options.exposure >= 0 && std::isfinite(options.exposure)))
     fail(fmt::format("an exposure of {}; it must be finite and not negative", options.exposure));
   const Vec3 right = camera.direction.stableNormalized().cross(camera.up.stableNormalized());
-  if (!camera.position.allFinite() || !(right.norm() > 1e-9) ||
+  if (!camera.position.allFinite() || !(right.norm() > parallel) ||
       !(camera.vertical_fov > 0 && camera.vertical_fov < 180))
     fail(fmt::format("camera '{}' has no use for its vectors or its field of view of {} degrees",
                      camera.name, camera.vertical_fov));

@@ -18,6 +18,8 @@ constexpr double nearest_for_rules = 3;
 /// A vertex of the inner contour this close to an outer edge, relative to its length, splits the
 /// edge.
 constexpr double near_by = 0.5;
+/// Edges whose directions have at most this cosine do not contribute: it is rounding.
+constexpr double perpendicular = 1e-15;
 constexpr int max_depth = 40;
 
 /// Nodes on [−1,1] and weights of the Kronrod rule with 15 nodes and of the Gauss rule with 7 that
@@ -85,7 +87,7 @@ class ContourIntegral {
     if (!(length > 0)) return;
     const bool perpendicular_to_all = std::all_of(inner_.begin(), inner_.end(), [&](const Vec3& v) {
       const Vec3& next = inner_[(static_cast<std::size_t>(&v - inner_.data()) + 1) % inner_.size()];
-      return std::abs(along.dot(next - v)) <= 1e-15 * length * (next - v).norm();
+      return std::abs(along.dot(next - v)) <= perpendicular * length * (next - v).norm();
     });
     if (perpendicular_to_all) return;
     std::vector<double> breaks = {0, 1};

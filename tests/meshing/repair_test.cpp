@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/patch_mesh.h"
 #include "meshing/quality.h"
+#include "tests/meshing/repair_scenes.h"
 #include "tests/support/cornell.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/mesh_invariants.h"
@@ -20,67 +21,17 @@ namespace {
 
 using test::add_material;
 using test::add_polygon;
+using test::contact_length;
+using test::count;
+using test::expect_receivers_sound;
 using test::expect_sound;
+using test::only;
+using test::rectangle;
+using test::reversed;
+using test::scene_of;
+using test::total_area;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-std::vector<Vec3> rectangle(double x0, double y0, double x1, double y1, double z = 0) {
-  return {{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}};
-}
-
-std::vector<Vec3> reversed(std::vector<Vec3> polygon) {
-  std::reverse(polygon.begin(), polygon.end());
-  return polygon;
-}
-
-// Several polygons, materials 0 (grey), 1 (another grey), 2 (light), 3 (two-sided).
-Scene scene_of(const std::vector<std::pair<std::vector<Vec3>, int>>& polygons) {
-  Scene scene;
-  scene.source = "test.obj";
-  add_material(scene, 0.5, 0);
-  add_material(scene, 0.3, 0);
-  add_material(scene, 0, 1);
-  scene.materials[static_cast<std::size_t>(add_material(scene, 0.5, 0))].two_sided = true;
-  for (const auto& [polygon, material] : polygons) add_polygon(scene, polygon, material);
-  return scene;
-}
-
-int count(const SoundScene& scene, Repair::Kind kind) {
-  return static_cast<int>(std::count_if(scene.repairs.begin(), scene.repairs.end(),
-                                        [&](const Repair& r) { return r.kind == kind; }));
-}
-
-const Repair& only(const SoundScene& scene, Repair::Kind kind) {
-  EXPECT_EQ(count(scene, kind), 1);
-  return *std::find_if(scene.repairs.begin(), scene.repairs.end(),
-                       [&](const Repair& r) { return r.kind == kind; });
-}
-
-double total_area(const SoundScene& scene) {
-  double sum = 0;
-  for (const Receiver& receiver : scene.receivers) sum += area(receiver);
-  return sum;
-}
-
-double contact_length(const SoundScene& scene) {
-  double sum = 0;
-  for (const Receiver& receiver : scene.receivers) sum += test::length_of(receiver.contacts);
-  return sum;
-}
-
-// What every sound scene fulfils.
-void expect_receivers_sound(const SoundScene& scene) {
-  for (const Receiver& receiver : scene.receivers) {
-    ASSERT_FALSE(receiver.rings.empty());
-    EXPECT_GT(test::signed_area(receiver.rings[0]), 0);
-    for (std::size_t k = 1; k < receiver.rings.size(); ++k)
-      EXPECT_LT(test::signed_area(receiver.rings[k]), 0);
-    EXPECT_EQ(receiver.faces.size(), receiver.face_rings.size());
-    EXPECT_FALSE(receiver.faces.empty());
-    EXPECT_NEAR(receiver.frame.e1.cross(receiver.frame.e2).dot(receiver.frame.normal), 1, 1e-14);
-    EXPECT_NEAR(area(receiver), test::area_of(receiver.rings), 1e-12 * area(receiver));
-  }
-}
 
 TEST(MakeSound, RoomStaysAsItIs) {
   const Scene scene = test::room({3, 4, 2.5}, {});
@@ -321,70 +272,6 @@ TEST(MakeSound, NothingWithAnAreaIsAnError) {
         make_sound(scene_of({{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, 0}}));
       },
       ErrorCode::invalid_input, {"test.obj", "area"});
-}
-
-// A floor of 4 × 4 with a closed box on it whose footprint is given.
-Scene box_on_floor(double x0, double y0, double x1, double y1) {
-  Scene scene = scene_of({{rectangle(0, 0, 4, 4), 0}});
-  for (const auto& face : test::box_faces({x0, y0, 0}, {x1, y1, 1}, false))
-    add_polygon(scene, face, 1);
-  return scene;
-}
-
-TEST(Contacts, ABoxOnTheFloorLeavesItsFootprint) {
-  const SoundScene sound = make_sound(box_on_floor(1, 1, 2, 3));
-  const Receiver& floor = sound.receivers[0];
-  EXPECT_EQ(floor.contacts.size(), 4u);  // the sides' and the bottom's edges are the same lines
-  EXPECT_DOUBLE_EQ(test::length_of(floor.contacts), 6);
-  EXPECT_DOUBLE_EQ(contact_length(sound), 6);
-}
-
-TEST(Contacts, AreClippedToTheReceiverAndEndInCornersOfItsBoundary) {
-  const SoundScene sound = make_sound(box_on_floor(3, 1, 5, 2));
-  const Receiver& floor = sound.receivers[0];
-  EXPECT_DOUBLE_EQ(test::length_of(floor.contacts), 3);
-  EXPECT_EQ(floor.rings[0].size(), 6u);
-  for (const Vec2& end : {Vec2(4, 1), Vec2(4, 2)}) {
-    const Vec2 place = floor.frame.to_plane({end.x(), end.y(), 0});
-    EXPECT_TRUE(std::any_of(floor.rings[0].begin(), floor.rings[0].end(),
-                            [&](const Vec2& p) { return (p - place).norm() < 1e-14; }));
-  }
-}
-
-TEST(Contacts, ABoxFlushWithTheBorderHasThreeInnerLines) {
-  EXPECT_DOUBLE_EQ(contact_length(make_sound(box_on_floor(0, 1, 1, 2))), 3);
-}
-
-TEST(Contacts, BoxesThatOverlapShareLinesOnce) {
-  Scene scene = box_on_floor(1, 1, 2, 2);
-  for (const auto& face : test::box_faces({1.5, 1, 0}, {3, 2, 1}, false))
-    add_polygon(scene, face, 2);
-  const SoundScene sound = make_sound(scene);
-  // Union of the two footprints: 2 × 1, and the two edges inside.
-  EXPECT_DOUBLE_EQ(test::length_of(sound.receivers[0].contacts), 6 + 2);
-}
-
-TEST(Contacts, AVerticalSheetLeavesOneLine) {
-  Scene scene = scene_of({{rectangle(0, 0, 4, 4), 0}});
-  add_polygon(scene, {{1, 2, 0}, {3, 2, 0}, {3, 2, 1}, {1, 2, 1}}, 3);
-  const SoundScene sound = make_sound(scene);
-  EXPECT_EQ(sound.receivers[0].contacts.size(), 1u);
-  EXPECT_DOUBLE_EQ(contact_length(sound), 2);
-}
-
-TEST(Contacts, WallsThatMeetAtEdgesHaveNone) {
-  EXPECT_EQ(contact_length(make_sound(test::l_room(true))), 0);
-}
-
-TEST(Contacts, FollowHoles) {
-  Scene scene = scene_of({{rectangle(0, 0, 4, 1), 0},
-                          {rectangle(0, 3, 4, 4), 0},
-                          {rectangle(0, 1, 1, 3), 0},
-                          {rectangle(3, 1, 4, 3), 0}});
-  add_polygon(scene, {{0.5, 2, 0}, {3.5, 2, 0}, {3.5, 2, 1}, {0.5, 2, 1}}, 1);
-  const SoundScene sound = make_sound(scene);
-  EXPECT_DOUBLE_EQ(contact_length(sound), 1);
-  EXPECT_EQ(sound.receivers[0].contacts.size(), 2u);
 }
 
 // What a scene is must not depend on where it lies, how large it is or how its faces are ordered.

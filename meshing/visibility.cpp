@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <numeric>
 #include <type_traits>
 
@@ -171,15 +172,15 @@ struct VisibilityIndex::Impl {
   double scale = 1;  // a power of two; (p − centre)·scale lies in [−1, 1]
   double in_plane = 0, on_border = 0, in_shaft = 0;  // scene units
   Device device;
-  EmbreeScene scene;                 // null if there are no triangles
-  std::optional<TriangleTree> tree;  // likewise
+  EmbreeScene scene;  // null if there are no triangles
+  mutable std::once_flag planted;
+  mutable std::optional<TriangleTree> tree;  // made by the first shaft query
 
   explicit Impl(TriangleSoup triangles) : soup(std::move(triangles)) {
     check(soup);
     if (soup.triangles.empty()) return;
     measure();
     build();
-    tree.emplace(soup, centre);
   }
 
   void measure();
@@ -382,7 +383,8 @@ std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,
   const Impl& impl = *impl_;
   if (a.empty() || b.empty())
     throw Error(ErrorCode::contract, "VisibilityIndex::candidates", "a polygon has no vertices");
-  if (!impl.tree) return {};
+  if (!impl.scene) return {};
+  std::call_once(impl.planted, [&] { impl.tree.emplace(impl.soup, impl.centre); });
   std::vector<Vec3> local;
   for (const auto& polygon : {a, b})
     for (const Vec3& p : polygon) local.push_back(p - impl.centre);

@@ -39,15 +39,17 @@ struct Segment {
 struct Hit {
   int owner = 0;
   int triangle = 0;
-  double distance = 0;              ///< scene units, single precision
+  double distance = 0;              ///< scene units
   std::array<double, 3> weights{};  ///< barycentric coordinates at the triangle's corners
 };
 
 enum class Sides { both, front_only };
 
-/// Answers visibility queries among fixed triangles. Ray queries run in single precision on
-/// coordinates relative to the soup's centre and size (about 1e-6 of the scene size): good for
-/// sampling and for clear cases, not for near-tangent decisions. All queries may run concurrently.
+/// Answers visibility queries among fixed triangles. Embree finds the triangles near a ray in
+/// single precision, on coordinates relative to the soup's centre and size; whether one is met is
+/// decided in double precision. What can go wrong is that a triangle met within about 1e-6 of the
+/// scene's size from its border, at a grazing angle, goes unseen: good for sampling and for clear
+/// cases, not for near-tangent decisions. All queries may run concurrently.
 class VisibilityIndex {
  public:
   explicit VisibilityIndex(TriangleSoup soup);
@@ -57,7 +59,8 @@ class VisibilityIndex {
 
   const TriangleSoup& soup() const;
 
-  /// True if a triangle lies between the end points.
+  /// True if a triangle lies between the end points. Triangles that an end point lies on do not
+  /// block; a segment without length, or with an end that is not finite, is not blocked.
   bool blocked(const Segment& segment) const;
 
   /// The same for a batch; `result[k]` is 1 or 0. Spans must be equally long. Batches of a few
@@ -65,8 +68,8 @@ class VisibilityIndex {
   /// Segments that are close together in space should be close together in the batch.
   void blocked(std::span<const Segment> segments, std::span<std::uint8_t> result) const;
 
-  /// The nearest triangle along a ray; `direction` need not be of unit length. With
-  /// Sides::front_only, triangles seen from behind let the ray pass.
+  /// The nearest triangle along a ray, other than those that the origin lies on; `direction` need
+  /// not be of unit length. With Sides::front_only, triangles seen from behind let the ray pass.
   std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction,
                                Sides sides = Sides::both) const;
 

@@ -14,7 +14,8 @@ namespace halfshade::test {
 /// Adds a material and returns its id.
 inline int add_material(Scene& scene, double rho, double exitance) {
   Material material;
-  material.name = "m" + std::to_string(scene.materials.size());
+  material.name = "m";
+  material.name += std::to_string(scene.materials.size());  // GCC 12 warns of "m" + …, wrongly
   material.rho = Rgb::Constant(rho);
   material.exitance = Rgb::Constant(exitance);
   scene.materials.push_back(material);

@@ -2,13 +2,19 @@
 
 #include <filesystem>
 #include <functional>
+#include <string_view>
 
 namespace halfshade {
 
-/// Calls `write` with a temporary path beside `target` (same folder, same extension) and renames
-/// the result over `target`: the file appears whole or not at all. Removes the temporary file if
-/// `write` throws. Throws Error(unwritable) if the folder does not exist or cannot be written.
+/// Calls `write` with a temporary path beside `target` (same folder, same extension; the file
+/// exists and is empty) and renames the result over `target`: the file appears whole or not at all.
+/// Removes the temporary file if `write` throws. A symbolic link is followed. A target that is
+/// neither a file nor a folder, such as /dev/stdout, is written in place, for it cannot be
+/// replaced. Throws Error(unwritable) if the folder does not exist or cannot be written.
 void write_atomically(const std::filesystem::path& target,
                       const std::function<void(const std::filesystem::path&)>& write);
+
+/// The same for contents that are in memory.
+void write_atomically(const std::filesystem::path& target, std::string_view bytes);
 
 }  // namespace halfshade

@@ -19,15 +19,19 @@ struct ShadedMesh {
   std::vector<Rgb> triangle_radiosity;  ///< W/m²
   std::vector<std::uint8_t> emits;  ///< 1 for triangles with exitance; the exposure ignores them
   std::vector<Camera> cameras;
+  bool headlight =
+      false;  ///< without light: "radiosity" is under a lamp at the camera, seen square
 };
 
 /// A solution, with values at points interpolated from the elements.
 ShadedMesh shaded(const SolveResult& result);
 
-/// A scene without light: its reflectances under a lamp at the camera.
+/// A scene without light: its reflectances under a lamp at the camera; emitters shine in the colour
+/// of their exitance.
 ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras);
 
-/// Reads a .vtu or .vtp that write_result has written. Throws Error(invalid_input).
+/// Reads a .vtu or .vtp that write_result has written. Throws Error(invalid_input) for anything
+/// else, whatever is in the file.
 ShadedMesh read_shaded(const std::filesystem::path& path);
 
 enum class Shading { smooth, flat };
@@ -47,11 +51,16 @@ struct Picture {
   std::vector<std::uint8_t> pixels;
 };
 
-/// A camera outside the scene's bounding box that shows all of it, slightly from above.
+/// A camera outside the scene's bounding box that shows all of it in a picture at least as wide as
+/// high, slightly from above. The shortest side of the box is taken for its height, y of equally
+/// short ones; of the sides to look from, the one that shows the most front side. Precondition: the
+/// mesh has points.
 Camera fitting_camera(const ShadedMesh& mesh);
 
 /// Draws by casting rays; needs no display. Back sides are not drawn, so that a room can be looked
-/// into from outside. If stopped, pixels not reached are black.
+/// into from outside. A pixel is the mean of its tone-mapped samples, so that the edges of bright
+/// lamps are smooth, too. Image x runs along direction × up. If stopped, pixels not reached are
+/// black. Throws Error(contract) for options out of range or a camera that cannot be used.
 Picture draw(const ShadedMesh& mesh, const Camera& camera, const PictureOptions& options = {},
              const Progress& progress = {});
 

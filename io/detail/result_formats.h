@@ -1,0 +1,27 @@
+#pragma once
+
+#include "io/write_result.h"
+
+#include <array>
+#include <string>
+
+namespace halfshade::detail {
+
+/// The bytes of the files that write_result writes.
+std::string vtu_bytes(const SolveResult& result, const Provenance& provenance);
+std::string vtp_bytes(const SolveResult& result, const Provenance& provenance);
+std::string ply_bytes(const SolveResult& result, const Provenance& provenance);
+
+/// The smallest angle of a triangle in degrees; 0 if it has no area.
+double min_angle(const std::array<Vec3, 3>& triangle);
+
+/// [{"name", "position", "direction", "up", "vertical_fov"}, …], as in a scene's sidecar, and back.
+/// The way back throws std::exception for anything else.
+std::string cameras_to_json(const std::vector<Camera>& cameras);
+std::vector<Camera> cameras_from_json(const std::string& text);
+
+/// Throws Error(contract) unless every array of the result has as many entries as there are
+/// elements and every corner is a point.
+void require_consistent(const SolveResult& result, const char* caller);
+
+}  // namespace halfshade::detail

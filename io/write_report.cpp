@@ -1,0 +1,164 @@
+#include "io/write_report.h"
+
+#include "io/atomic_file.h"
+#include "io/detail/result_formats.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace halfshade {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+
+const char* name_of(Repair::Kind kind) {
+  switch (kind) {
+    case Repair::Kind::degenerate_dropped:
+      return "degenerate_dropped";
+    case Repair::Kind::duplicate_dropped:
+      return "duplicate_dropped";
+    case Repair::Kind::non_planar_triangulated:
+      return "non_planar_triangulated";
+    case Repair::Kind::coplanar_merged:
+      return "coplanar_merged";
+    case Repair::Kind::overlap_removed:
+      return "overlap_removed";
+  }
+  return "other";
+}
+
+Json scene_json(const SolveResult& result) {
+  std::set<int> faces;
+  for (const Receiver& receiver : result.scene.receivers)
+    faces.insert(receiver.faces.begin(), receiver.faces.end());
+  return {{"faces", faces.size()},
+          {"receivers", result.scene.receivers.size()},
+          {"materials", result.scene.materials.size()},
+          {"groups", result.scene.groups.size()},
+          {"cameras", result.cameras.size()},
+          {"diagonal", result.scene.tolerance.scene_size}};
+}
+
+Json repairs_json(const SolveResult& result) {
+  Json json = Json::array();
+  for (const Repair& repair : result.scene.repairs)
+    json.push_back(
+        {{"kind", name_of(repair.kind)}, {"faces", repair.faces}, {"sentence", repair.sentence}});
+  return json;
+}
+
+Json mesh_json(const ElementTable& elements) {
+  constexpr double bin_width = 5;
+  std::vector<int> histogram(12, 0);  // no minimum angle exceeds 60 degrees
+  double smallest = 60;
+  for (int e = 0; e < elements.count(); ++e) {
+    const double angle = detail::min_angle(elements.triangle(e));
+    smallest = std::min(smallest, angle);
+    const auto bin = static_cast<std::size_t>(angle / bin_width);
+    ++histogram[std::min(bin, histogram.size() - 1)];
+  }
+  return {{"elements", elements.count()},
+          {"points", elements.points.size()},
+          {"min_angle", elements.count() > 0 ? Json(smallest) : Json()},
+          {"min_angle_histogram", {{"bin_width", bin_width}, {"counts", histogram}}}};
+}
+
+Json stages_json(const SolveResult& result) {
+  Json json = Json::array();
+  for (const StageReport& stage : result.stages)
+    json.push_back({{"name", stage.name},
+                    {"seconds", stage.seconds},
+                    {"count", stage.count},
+                    {"left_out_because",
+                     stage.left_out_because.empty() ? Json() : Json(stage.left_out_because)}});
+  return json;
+}
+
+Json exchange_json(const ExchangeReport& report) {
+  return {{"factors", report.factors},
+          {"rays", report.rays},
+          {"closed", report.closed},
+          {"closure_enforced", report.closure_enforced},
+          {"closure_error_max", report.closure_error_max},
+          {"closure_error_rms", report.closure_error_rms},
+          {"escaping_fraction", report.escaping_fraction},
+          {"complete", report.complete}};
+}
+
+Json radiosity_json(const RadiosityReport& report) {
+  Json channels = Json::array();
+  for (const ChannelReport& channel : report.channel)
+    channels.push_back({{"iterations", channel.iterations},
+                        {"residual", channel.residual},
+                        {"emitted_power", channel.emitted_power},
+                        {"absorbed_power", channel.absorbed_power},
+                        {"escaped_power", channel.escaped_power},
+                        {"balance", channel.balance}});
+  return {{"channels", report.channels},
+          {"unknowns", report.unknowns},
+          {"converged", report.converged},
+          {"channel", channels}};
+}
+
+Json groups_json(const SolveResult& result) {
+  struct Sums {
+    double area = 0;
+    Rgb radiosity = Rgb::Zero(), irradiance = Rgb::Zero();
+    Rgb emitted = Rgb::Zero(), absorbed = Rgb::Zero();
+  };
+  std::vector<Sums> groups(result.scene.groups.size());
+  const Solution& s = result.solution;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    Sums& sums = groups.at(static_cast<std::size_t>(result.elements.group[i]));
+    const double area = result.elements.area[i];
+    const Rgb irradiance = s.irradiance.row(e);
+    sums.area += area;
+    sums.radiosity += area * s.radiosity.row(e).transpose();
+    sums.irradiance += area * irradiance;
+    sums.emitted += area * s.exitance.row(e).transpose();
+    sums.absorbed += area * (1 - s.rho.row(e).transpose()) * irradiance;
+  }
+  Json json = Json::array();
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Sums& sums = groups[g];
+    const double area = sums.area > 0 ? sums.area : 1;  // a group without elements has zero light
+    json.push_back({{"name", result.scene.groups[g]},
+                    {"area", sums.area},
+                    {"mean_radiosity", to_json(sums.radiosity / area)},
+                    {"mean_irradiance", to_json(sums.irradiance / area)},
+                    {"emitted_power", to_json(sums.emitted)},
+                    {"absorbed_power", to_json(sums.absorbed)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+void write_report(const SolveResult& result, const Provenance& provenance,
+                  const std::vector<std::filesystem::path>& outputs,
+                  const std::filesystem::path& path) {
+  detail::require_consistent(result, "write_report");
+  Json paths = Json::array();
+  for (const auto& output : outputs) paths.push_back(output.string());
+  const Json json = {{"version", provenance.version},
+                     {"command_line", provenance.command_line},
+                     {"unit", result.unit},
+                     {"interrupted", result.interrupted},
+                     {"scene", scene_json(result)},
+                     {"repairs", repairs_json(result)},
+                     {"mesh", mesh_json(result.elements)},
+                     {"stages", stages_json(result)},
+                     {"exchange", exchange_json(result.exchange)},
+                     {"radiosity", radiosity_json(result.radiosity)},
+                     {"groups", groups_json(result)},
+                     {"outputs", paths}};
+  // Names from files may be in any encoding.
+  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+}  // namespace halfshade

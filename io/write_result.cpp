@@ -1,0 +1,81 @@
+#include "io/write_result.h"
+
+#include "io/atomic_file.h"
+#include "io/detail/result_formats.h"
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace halfshade {
+namespace {
+
+using Format = std::string (*)(const SolveResult&, const Provenance&);
+
+Format format_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) {
+    return static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  });
+  if (extension == ".vtu") return detail::vtu_bytes;
+  if (extension == ".vtp") return detail::vtp_bytes;
+  if (extension == ".ply") return detail::ply_bytes;
+  return nullptr;
+}
+
+}  // namespace
+
+bool is_result_path(const std::filesystem::path& path) { return format_of(path) != nullptr; }
+
+void write_result(const SolveResult& result, const Provenance& provenance,
+                  const std::filesystem::path& path) {
+  const Format format = format_of(path);
+  if (format == nullptr)
+    throw Error(ErrorCode::usage, path.string(),
+                fmt::format("results are written as .vtu, .vtp or .ply, not as '{}'",
+                            path.extension().string()));
+  detail::require_consistent(result, "write_result");
+  write_atomically(path, format(result, provenance));
+}
+
+namespace detail {
+
+double min_angle(const std::array<Vec3, 3>& triangle) {
+  double smallest = std::numbers::pi;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 u = (triangle[(k + 1) % 3] - triangle[k]).stableNormalized();
+    const Vec3 v = (triangle[(k + 2) % 3] - triangle[k]).stableNormalized();
+    // Unlike the arc cosine, exact for thin triangles, too.
+    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)));
+  }
+  return smallest * 180 / std::numbers::pi;
+}
+
+void require_consistent(const SolveResult& result, const char* caller) {
+  const auto n = static_cast<Eigen::Index>(result.elements.count());
+  const ElementTable& e = result.elements;
+  const Solution& s = result.solution;
+  for (const std::size_t size : {e.normal.size(), e.area.size(), e.receiver.size(), e.face.size(),
+                                 e.group.size(), e.material.size(), e.level.size()})
+    if (static_cast<Eigen::Index>(size) != n)
+      throw Error(ErrorCode::contract, caller,
+                  fmt::format("an array of the {} elements has {} entries", n, size));
+  for (const ChannelArray* array :
+       {&s.rho, &s.exitance, &s.radiosity, &s.irradiance, &s.direct_irradiance})
+    if (array->rows() != n)
+      throw Error(
+          ErrorCode::contract, caller,
+          fmt::format("the solution has {} rows for {} elements in an array", array->rows(), n));
+  const int points = static_cast<int>(e.points.size());
+  for (const auto& corners : e.corners)
+    for (const int p : corners)
+      if (p < 0 || p >= points)
+        throw Error(ErrorCode::contract, caller,
+                    fmt::format("an element names point {} of {}", p, points));
+}
+
+}  // namespace detail
+}  // namespace halfshade

@@ -3,13 +3,14 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/corner_fans.h"
+#include "meshing/face_lookup.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 
 namespace halfshade {
 namespace {
@@ -39,49 +40,8 @@ Vec3 to_vec(const OpenMesh::Vec3d& p) { return {p[0], p[1], p[2]}; }
 struct ReceiverInfo {
   PlaneFrame frame;
   int group = 0, material = 0;
-  std::vector<int> faces;
-  std::vector<Ring> face_rings;
+  FaceLookup faces;
 };
-
-bool contains(const Ring& ring, const Vec2& p) {
-  bool odd = false;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
-  }
-  return odd;
-}
-
-double squared_distance(const Ring& ring, const Vec2& p) {
-  double least = HUGE_VAL;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const Vec2 &a = ring[k], d = ring[(k + 1) % ring.size()] - a;
-    const double t = std::clamp((p - a).dot(d) / d.squaredNorm(), 0.0, 1.0);
-    least = std::min(least, (a + t * d - p).squaredNorm());
-  }
-  return least;
-}
-
-// The face that holds a point; the nearest one where rounding puts it outside of all.
-int face_at(const ReceiverInfo& info, const Vec2& p) {
-  if (info.faces.size() == 1) return info.faces[0];
-  std::size_t nearest = 0;
-  double least = HUGE_VAL;
-  for (std::size_t i = 0; i < info.faces.size(); ++i) {
-    if (contains(info.face_rings[i], p)) return info.faces[i];
-  }
-  for (std::size_t i = 0; i < info.faces.size(); ++i) {
-    const double distance = squared_distance(info.face_rings[i], p);
-    if (distance < least) {
-      least = distance;
-      nearest = i;
-    }
-  }
-  return info.faces[nearest];
-}
-
-bool is_complete(const PlanarMesh& mesh) { return !mesh.triangles.empty(); }
 
 }  // namespace
 
@@ -93,10 +53,17 @@ struct PatchMesh::Impl {
 
   void add(const Receiver& receiver, const PlanarMesh& planar);
   std::vector<Mesh::FaceHandle> ordered_faces() const;
+  std::vector<Mesh::FaceHandle> named_faces(std::span<const int> elements) const;
+  Mesh::HalfedgeHandle first_halfedge(Mesh::FaceHandle face) const;
+  void describe(int node, const std::array<int, 3>& corners, ElementTable& table) const;
+  Vec3 position(int vertex) const { return to_vec(mesh.point(Mesh::VertexHandle(vertex))); }
+
   Link ends(Mesh::EdgeHandle edge) const;
   bool longer(Mesh::EdgeHandle a, Mesh::EdgeHandle b) const;
   Mesh::EdgeHandle longest_edge(Mesh::FaceHandle face) const;
+  void mark(Mesh::EdgeHandle edge, std::vector<Mesh::EdgeHandle>& marked);
   std::vector<Mesh::EdgeHandle> close_marks(std::vector<Mesh::EdgeHandle> marked);
+  std::map<int, bool> marked_triangles(const std::vector<Mesh::EdgeHandle>& marked) const;
   void split_edge(Mesh::EdgeHandle edge);
   void split_marked(std::vector<Mesh::EdgeHandle> marked);
   void name_children(const std::vector<Mesh::FaceHandle>& faces);
@@ -106,8 +73,7 @@ struct PatchMesh::Impl {
 // the point becomes several vertices, for OpenMesh takes manifold meshes only.
 void PatchMesh::Impl::add(const Receiver& source, const PlanarMesh& planar) {
   const int id = static_cast<int>(receivers.size());
-  receivers.push_back(
-      {source.frame, source.group, source.material, source.faces, source.face_rings});
+  receivers.push_back({source.frame, source.group, source.material, FaceLookup(source)});
   const CornerFans fans = corner_fans(planar.triangles, edge_neighbours(planar.triangles));
   std::vector<Mesh::VertexHandle> vertex(at(fans.count));
   std::vector<int> point(at(fans.count));
@@ -154,9 +120,7 @@ Link PatchMesh::Impl::ends(Mesh::EdgeHandle edge) const {
 bool PatchMesh::Impl::longer(Mesh::EdgeHandle a, Mesh::EdgeHandle b) const {
   const Link m = ends(a), n = ends(b);
   const auto length = [&](const Link& link) {
-    return (to_vec(mesh.point(Mesh::VertexHandle(link[1]))) -
-            to_vec(mesh.point(Mesh::VertexHandle(link[0]))))
-        .squaredNorm();
+    return (position(link[1]) - position(link[0])).squaredNorm();
   };
   const double length_m = length(m), length_n = length(n);
   return length_m > length_n || (length_m == length_n && m < n);
@@ -176,10 +140,7 @@ std::vector<Mesh::EdgeHandle> PatchMesh::Impl::close_marks(std::vector<Mesh::Edg
       const auto face =
           mesh.face_handle(mesh.halfedge_handle(marked[i], static_cast<unsigned>(side)));
       if (!face.is_valid()) continue;
-      const auto longest = longest_edge(face);
-      if (mesh.data(longest).marked) continue;
-      mesh.data(longest).marked = true;
-      marked.push_back(longest);
+      mark(longest_edge(face), marked);
     }
   return marked;
 }
@@ -217,35 +178,37 @@ void PatchMesh::Impl::split_edge(Mesh::EdgeHandle edge) {
   }
 }
 
+// For every triangle with marked edges (by node) whether all three are.
+std::map<int, bool> PatchMesh::Impl::marked_triangles(
+    const std::vector<Mesh::EdgeHandle>& marked) const {
+  std::map<int, bool> result;
+  for (const auto edge : marked)
+    for (unsigned side = 0; side < 2; ++side) {
+      const auto face = mesh.face_handle(mesh.halfedge_handle(edge, side));
+      if (!face.is_valid()) continue;
+      bool all = true;
+      for (const auto e : mesh.fe_range(face)) all = all && mesh.data(e).marked;
+      result[mesh.data(face).node] = all;
+    }
+  return result;
+}
+
 // Splits marked edges, longest first, so that each triangle is bisected at its longest edge before
 // its parts are (green, blue); where all three edges were split, the inner edge is then turned to
 // join the other two midpoints (red).
 void PatchMesh::Impl::split_marked(std::vector<Mesh::EdgeHandle> marked) {
   marked = close_marks(std::move(marked));
-  std::vector<bool> red(parent.size(), false), touched(parent.size(), false);
-  std::vector<int> apex(parent.size(), -1);
-  for (const auto edge : marked)
-    for (unsigned side = 0; side < 2; ++side) {
-      const auto face = mesh.face_handle(mesh.halfedge_handle(edge, side));
-      if (!face.is_valid()) continue;
-      const int node = mesh.data(face).node;
-      touched[at(node)] = true;
-      int count = 0;
-      for (const auto e : mesh.fe_range(face)) count += mesh.data(e).marked ? 1 : 0;
-      red[at(node)] = count == 3;
-    }
+  const std::map<int, bool> touched = marked_triangles(marked);
   std::sort(marked.begin(), marked.end(), [&](auto a, auto b) { return longer(a, b); });
-  // The middle of a triangle's longest edge; the inner edge goes from there to its old corner.
-  std::vector<std::pair<int, Link>> inner;
+  std::map<int, Link> inner;  // red node → middle of its longest edge, opposite corner
   for (const auto edge : marked) {
     for (unsigned side = 0; side < 2; ++side) {
       const auto half = mesh.halfedge_handle(edge, side);
       const auto face = mesh.face_handle(half);
-      if (!face.is_valid()) continue;
-      const int node = mesh.data(face).node;
-      if (!red[at(node)] || apex[at(node)] >= 0) continue;
-      apex[at(node)] = mesh.to_vertex_handle(mesh.next_halfedge_handle(half)).idx();
-      inner.push_back({node, {static_cast<int>(mesh.n_vertices()), apex[at(node)]}});
+      if (!face.is_valid() || !touched.at(mesh.data(face).node)) continue;
+      const int apex = mesh.to_vertex_handle(mesh.next_halfedge_handle(half)).idx();
+      const int middle = static_cast<int>(mesh.n_vertices());
+      inner.emplace(mesh.data(face).node, Link{middle, apex});  // the first is the longest
     }
     split_edge(edge);
   }
@@ -255,7 +218,7 @@ void PatchMesh::Impl::split_marked(std::vector<Mesh::EdgeHandle> marked) {
   }
   std::vector<Mesh::FaceHandle> changed;
   for (const auto face : mesh.faces())
-    if (touched[at(mesh.data(face).node)]) changed.push_back(face);
+    if (touched.contains(mesh.data(face).node)) changed.push_back(face);
   name_children(changed);
 }
 
@@ -270,6 +233,47 @@ void PatchMesh::Impl::name_children(const std::vector<Mesh::FaceHandle>& faces) 
     level.push_back(level[at(node)] + 1);
     receiver.push_back(receiver[at(node)]);
   }
+}
+
+// The halfedge that leaves the corner that was made first.
+Mesh::HalfedgeHandle PatchMesh::Impl::first_halfedge(Mesh::FaceHandle face) const {
+  const auto start = mesh.halfedge_handle(face);
+  auto best = start;
+  for (auto half = mesh.next_halfedge_handle(start); half != start;
+       half = mesh.next_halfedge_handle(half))
+    if (mesh.from_vertex_handle(half).idx() < mesh.from_vertex_handle(best).idx()) best = half;
+  return best;
+}
+
+void PatchMesh::Impl::describe(int node, const std::array<int, 3>& corners,
+                               ElementTable& table) const {
+  const Vec3 a = position(corners[0]), b = position(corners[1]), c = position(corners[2]);
+  const ReceiverInfo& info = receivers[at(receiver[at(node)])];
+  table.area.push_back(0.5 * (b - a).cross(c - a).norm());
+  table.normal.push_back(info.frame.normal);
+  table.receiver.push_back(receiver[at(node)]);
+  table.face.push_back(info.faces.face_at(info.frame.to_plane((a + b + c) / 3)));
+  table.group.push_back(info.group);
+  table.material.push_back(info.material);
+  table.level.push_back(level[at(node)]);
+}
+
+std::vector<Mesh::FaceHandle> PatchMesh::Impl::named_faces(std::span<const int> elements) const {
+  const std::vector<Mesh::FaceHandle> faces = ordered_faces();
+  std::vector<Mesh::FaceHandle> named;
+  for (const int e : elements) {
+    if (e < 0 || e >= static_cast<int>(faces.size()))
+      throw Error(ErrorCode::contract, "PatchMesh",
+                  fmt::format("element {} is to be split, but there are {}", e, faces.size()));
+    named.push_back(faces[at(e)]);
+  }
+  return named;
+}
+
+void PatchMesh::Impl::mark(Mesh::EdgeHandle edge, std::vector<Mesh::EdgeHandle>& marked) {
+  if (mesh.data(edge).marked) return;
+  mesh.data(edge).marked = true;
+  marked.push_back(edge);
 }
 
 namespace {
@@ -304,7 +308,7 @@ PatchMesh::PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
   std::size_t count = 0;
   for (std::size_t r = 0; r < meshes.size(); ++r) {
     const Receiver& receiver = scene.receivers[r];
-    if (!is_complete(meshes[r])) meshes[r] = triangulate(receiver.rings, receiver.contacts);
+    if (meshes[r].triangles.empty()) meshes[r] = triangulate(receiver.rings, receiver.contacts);
     count += meshes[r].triangles.size();
     if (count > options.max_triangles)
       throw Error(ErrorCode::too_large, "PatchMesh",
@@ -331,17 +335,8 @@ ElementTable PatchMesh::elements() const {
   std::vector<std::array<int, 3>> vertices;
   for (const auto face : faces) {
     std::array<int, 3> corners{}, across{};
-    std::size_t k = 0;
-    auto half = mesh.halfedge_handle(face);
-    // From the corner that came first, so that the order does not depend on the mesh's workings.
-    for (int turn = 0; turn < 2; ++turn) {
-      const auto next = mesh.next_halfedge_handle(half);
-      const auto last = mesh.next_halfedge_handle(next);
-      const int v = mesh.from_vertex_handle(half).idx();
-      if (mesh.from_vertex_handle(next).idx() < v || mesh.from_vertex_handle(last).idx() < v)
-        half = next;
-    }
-    for (; k < 3; ++k, half = mesh.next_halfedge_handle(half)) {
+    auto half = impl_->first_halfedge(face);
+    for (std::size_t k = 0; k < 3; ++k, half = mesh.next_halfedge_handle(half)) {
       corners[k] = mesh.from_vertex_handle(half).idx();
       const auto other = mesh.face_handle(mesh.opposite_halfedge_handle(half));
       const bool shared = other.is_valid() && !mesh.data(mesh.edge_handle(half)).contact;
@@ -349,26 +344,14 @@ ElementTable PatchMesh::elements() const {
     }
     vertices.push_back(corners);
     table.neighbours.push_back(across);
-    const Vec3 a = to_vec(mesh.point(Mesh::VertexHandle(corners[0])));
-    const Vec3 b = to_vec(mesh.point(Mesh::VertexHandle(corners[1])));
-    const Vec3 c = to_vec(mesh.point(Mesh::VertexHandle(corners[2])));
-    const int node = mesh.data(face).node;
-    const ReceiverInfo& info = impl_->receivers[at(impl_->receiver[at(node)])];
-    table.area.push_back(0.5 * (b - a).cross(c - a).norm());
-    table.normal.push_back(info.frame.normal);
-    table.receiver.push_back(impl_->receiver[at(node)]);
-    table.face.push_back(face_at(info, info.frame.to_plane((a + b + c) / 3)));
-    table.group.push_back(info.group);
-    table.material.push_back(info.material);
-    table.level.push_back(impl_->level[at(node)]);
+    impl_->describe(mesh.data(face).node, corners, table);
   }
   const CornerFans fans = corner_fans(vertices, table.neighbours);
   table.points.resize(at(fans.count));
   table.corners = fans.of_corner;
   for (std::size_t e = 0; e < vertices.size(); ++e)
     for (std::size_t k = 0; k < 3; ++k)
-      table.points[at(fans.of_corner[e][k])] =
-          to_vec(mesh.point(Mesh::VertexHandle(vertices[e][k])));
+      table.points[at(fans.of_corner[e][k])] = impl_->position(vertices[e][k]);
   return table;
 }
 
@@ -381,24 +364,16 @@ PatchHierarchy PatchMesh::hierarchy() const {
 }
 
 void PatchMesh::split_in_four(std::span<const int> elements) {
-  const std::vector<Mesh::FaceHandle> faces = impl_->ordered_faces();
   std::vector<Mesh::EdgeHandle> marked;
-  for (const int e : elements)
-    for (const auto edge : impl_->mesh.fe_range(faces.at(at(e)))) {
-      if (!impl_->mesh.data(edge).marked) marked.push_back(edge);
-      impl_->mesh.data(edge).marked = true;
-    }
+  for (const auto face : impl_->named_faces(elements))
+    for (const auto edge : impl_->mesh.fe_range(face)) impl_->mark(edge, marked);
   impl_->split_marked(std::move(marked));
 }
 
 void PatchMesh::bisect(std::span<const int> elements) {
-  const std::vector<Mesh::FaceHandle> faces = impl_->ordered_faces();
   std::vector<Mesh::EdgeHandle> marked;
-  for (const int e : elements) {
-    const auto edge = impl_->longest_edge(faces.at(at(e)));
-    if (!impl_->mesh.data(edge).marked) marked.push_back(edge);
-    impl_->mesh.data(edge).marked = true;
-  }
+  for (const auto face : impl_->named_faces(elements))
+    impl_->mark(impl_->longest_edge(face), marked);
   impl_->split_marked(std::move(marked));
 }
 

@@ -26,8 +26,8 @@ struct PaintedLight {
 /// enough. On each triangle the exitance at its centroid counts with the exact form factor, and
 /// only the difference from it is integrated by a rule; an even emitter is exact at once.
 /// `exitance` is asked at points of the visible part only; the material's own exitance is not used.
-/// Breaks in the paint cost triangles; without them the error falls with their number to the third
-/// power.
+/// Breaks in the paint cost many triangles, and the estimate may miss details smaller than a tenth
+/// of the light.
 PaintedLight painted_irradiance(const DirectLightIndex& index, const SoundScene& scene,
                                 const SurfacePoint& point, int emitter, const ExitanceAt& exitance,
                                 const PaintedLightOptions& options = {});

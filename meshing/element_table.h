@@ -15,8 +15,8 @@ struct ElementTable {
   std::vector<std::array<int, 3>> corners;  ///< into points, counter-clockwise seen from the front
   std::vector<std::array<int, 3>> neighbours;  ///< [k]: element across the edge from corner k to
                                                ///< k+1; −1 at borders and across D0 lines
-  std::vector<Vec3> normal;  ///< unit length
-  std::vector<double> area;  ///< squared scene units
+  std::vector<Vec3> normal;                    ///< unit length
+  std::vector<double> area;                    ///< squared scene units
   std::vector<int> receiver, face, group, material;
   std::vector<int> level;  ///< number of splits above it in the hierarchy
 

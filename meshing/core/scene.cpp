@@ -13,6 +13,8 @@ namespace {
 // Beyond this a product of three lengths, as in a volume, leaves the range where doubles stay
 // normal.
 constexpr double largest_coordinate = 1e60;
+// Below this such a product does the same at the other end.
+constexpr double smallest_extent = 1e-60;
 // Closer together than this relative to their distance from the origin, points merge in double
 // precision.
 constexpr double smallest_relative_extent = 1e-9;
@@ -67,12 +69,16 @@ void check_vertices(const Scene& scene) {
   if (farthest > largest_coordinate)
     reject(scene, fmt::format("a coordinate is as large as {}; at most {} can be computed with",
                               farthest, largest_coordinate));
-  if ((high - low).maxCoeff() <= smallest_relative_extent * farthest)
+  const double extent = (high - low).maxCoeff();
+  if (extent <= smallest_extent)
+    reject(scene, fmt::format("the scene extends over {}; at least {} can be computed with", extent,
+                              smallest_extent));
+  if (extent <= smallest_relative_extent * farthest)
     reject(scene,
            fmt::format(
                "the scene extends over {} at a distance of {} from the origin; double precision "
                "cannot tell its points apart",
-               (high - low).maxCoeff(), farthest));
+               extent, farthest));
 }
 
 void check_camera(const Scene& scene, const Camera& camera) {

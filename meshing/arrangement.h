@@ -1,0 +1,36 @@
+#pragma once
+
+#include "meshing/core/types.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// Segments of a plane, split wherever they meet.
+struct Arrangement {
+  std::vector<Vec2> points;              ///< the given ones first, then crossings
+  std::vector<std::vector<int>> chains;  ///< one a segment: the points it runs through, in order
+};
+
+/// Splits segments (pairs of points) where they cross and where a point lies within `snap` of them,
+/// and replaces points closer together than `snap` by the one that comes first. Afterwards links of
+/// chains meet at common points only, and no point lies within `snap` of a link it does not end
+/// (Hobby 1999 without the grid). Deterministic; points keep their coordinates. `snap` must exceed
+/// the rounding of the coordinates, which makes every decision here safe in double precision.
+Arrangement arrange(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
+                    double snap);
+
+/// A triangulation of a convex hull.
+struct HullTriangulation {
+  std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
+  std::vector<std::array<int, 3>> neighbours;  ///< [k]: across the edge from corner k to k+1; or −1
+};
+
+/// The constrained Delaunay triangulation of links that meet at common points only, over the points
+/// they join. Throws Error(invalid_input) if links cross after all.
+HullTriangulation constrained_delaunay(std::span<const Vec2> points,
+                                       std::span<const std::array<int, 2>> links);
+
+}  // namespace halfshade

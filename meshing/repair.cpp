@@ -1,0 +1,167 @@
+#include "meshing/repair.h"
+
+#include "meshing/clean_faces.h"
+#include "meshing/contacts.h"
+#include "meshing/coplanar.h"
+#include "meshing/core/error.h"
+#include "meshing/overlay.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace halfshade {
+namespace {
+
+constexpr std::size_t labels_in_a_sentence = 6;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// The same plane seen from its other side: coordinates are mirrored exactly.
+PlaneFrame turned(const PlaneFrame& frame) {
+  return {frame.origin, frame.e1, -frame.e2, -frame.normal};
+}
+
+// A piece, or its back, as one of the faces that look to one side of a plane.
+CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece, const Vec3& area,
+                           bool back) {
+  const Face& face = scene.faces[at(piece.face)];
+  CoplanarFace result;
+  result.face = piece.face;
+  result.material = face.material;
+  result.group = face.group;
+  result.back = back;
+  result.emits = (scene.materials[at(face.material)].exitance > 0).any();
+  result.area = area.norm();
+  result.loop = piece.loop;
+  if (back) std::reverse(result.loop.begin(), result.loop.end());
+  return result;
+}
+
+using PlaneSides = std::vector<std::array<std::vector<CoplanarFace>, 2>>;
+
+PlaneSides sort_into_sides(const Scene& scene, const std::vector<FacePiece>& pieces,
+                           const PlaneClasses& classes, const std::vector<Vec3>& points) {
+  PlaneSides sides(classes.frames.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    std::vector<Vec3> polygon;
+    for (const int p : pieces[i].loop) polygon.push_back(points[at(p)]);
+    const Vec3 area = area_vector(polygon);
+    const int plane = classes.of_polygon[i];
+    const std::size_t side = area.dot(classes.frames[at(plane)].normal) > 0 ? 0 : 1;
+    sides[at(plane)][side].push_back(coplanar_face(scene, pieces[i], area, false));
+    if (scene.materials[at(scene.faces[at(pieces[i].face)].material)].two_sided)
+      sides[at(plane)][1 - side].push_back(coplanar_face(scene, pieces[i], area, true));
+  }
+  return sides;
+}
+
+void report_merge(const Scene& scene, const ReceiverDraft& draft, std::vector<Repair>& repairs) {
+  std::vector<int> faces = draft.faces;
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  if (faces.size() < 2 || draft.back) return;
+  std::vector<std::string> labels;
+  for (std::size_t i = 0; i < std::min(faces.size(), labels_in_a_sentence); ++i)
+    labels.push_back(face_label(scene, faces[i]));
+  if (faces.size() > labels_in_a_sentence)
+    labels.push_back(fmt::format("{} more", faces.size() - labels_in_a_sentence));
+  repairs.push_back({Repair::Kind::coplanar_merged, faces,
+                     fmt::format("{} lie in one plane and were joined", fmt::join(labels, ", "))});
+}
+
+void report_overlap(const Scene& scene, const CoveredPair& pair, std::vector<Repair>& repairs) {
+  if (pair.backs) return;
+  repairs.push_back(
+      {Repair::Kind::overlap_removed,
+       {pair.keeper, pair.loser},
+       fmt::format("{} and {} lie in one plane and cover each other over an area of {:.6g}, which "
+                   "{} keeps",
+                   face_label(scene, pair.keeper), face_label(scene, pair.loser), pair.area,
+                   face_label(scene, pair.keeper))});
+}
+
+std::vector<ReceiverDraft> make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
+                                       std::vector<Vec3>& points, const Tolerance& tolerance,
+                                       std::vector<Repair>& repairs) {
+  std::vector<std::vector<int>> loops;
+  for (const FacePiece& piece : pieces) loops.push_back(piece.loop);
+  const PlaneClasses classes = classify_planes(points, loops, tolerance);
+  const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
+  std::vector<ReceiverDraft> drafts;
+  for (std::size_t plane = 0; plane < sides.size(); ++plane)
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (sides[plane][side].empty()) continue;
+      const PlaneFrame& front = classes.frames[plane];
+      CoplanarResult result = resolve_coplanar(points, side == 0 ? front : turned(front),
+                                               sides[plane][side], tolerance.length);
+      if (!result.crossed.empty()) reject_crossed_face(scene, result.crossed.front());
+      for (const CoveredPair& pair : result.covered) report_overlap(scene, pair, repairs);
+      for (ReceiverDraft& draft : result.drafts) {
+        draft.plane = static_cast<int>(plane);
+        drafts.push_back(std::move(draft));
+      }
+    }
+  // In the order of the file, which is what a user expects to find.
+  std::stable_sort(drafts.begin(), drafts.end(), [](const auto& a, const auto& b) {
+    return std::tuple(a.faces.front(), a.back) < std::tuple(b.faces.front(), b.back);
+  });
+  for (const ReceiverDraft& draft : drafts) report_merge(scene, draft, repairs);
+  return drafts;
+}
+
+Receiver finish(ReceiverDraft&& draft, const std::vector<Vec3>& points) {
+  Receiver receiver;
+  receiver.frame = draft.frame;
+  receiver.material = draft.material;
+  receiver.group = draft.group;
+  receiver.plane = draft.plane;
+  receiver.back = draft.back;
+  receiver.faces = std::move(draft.faces);
+  const auto place = [&](int p) { return draft.frame.to_plane(points[at(p)]); };
+  const auto ring = [&](const std::vector<int>& loop) {
+    Ring result;
+    for (const int p : loop) result.push_back(place(p));
+    return result;
+  };
+  for (const auto& loop : draft.rings) receiver.rings.push_back(ring(loop));
+  for (const auto& loop : draft.face_rings) receiver.face_rings.push_back(ring(loop));
+  for (const auto& [a, b] : draft.contacts) receiver.contacts.push_back({place(a), place(b)});
+  return receiver;
+}
+
+}  // namespace
+
+SoundScene make_sound(const Scene& scene) {
+  SoundScene sound;
+  sound.materials = scene.materials;
+  sound.groups = scene.groups;
+  sound.tolerance = make_tolerance(scene);
+  WeldedVertices vertices = weld(scene, sound.tolerance);
+  const std::vector<FacePiece> pieces =
+      clean_faces(scene, vertices, sound.tolerance, sound.repairs);
+  std::vector<ReceiverDraft> drafts =
+      make_drafts(scene, pieces, vertices.points, sound.tolerance, sound.repairs);
+  if (drafts.empty())
+    throw Error(ErrorCode::invalid_input, scene.source,
+                fmt::format("none of its {} faces has an area", scene.faces.size()));
+  find_contacts(drafts, vertices.points, sound.tolerance);
+  for (ReceiverDraft& draft : drafts)
+    sound.receivers.push_back(finish(std::move(draft), vertices.points));
+  return sound;
+}
+
+double area(const Receiver& receiver) {
+  double twice = 0;
+  for (const Ring& ring : receiver.rings)
+    for (std::size_t k = 1; k + 1 < ring.size(); ++k) {
+      const Vec2 a = ring[k] - ring[0], b = ring[k + 1] - ring[0];
+      twice += a.x() * b.y() - a.y() * b.x();
+    }
+  return 0.5 * twice;
+}
+
+}  // namespace halfshade

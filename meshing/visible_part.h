@@ -22,7 +22,8 @@ enum class Region : std::uint8_t {
 /// part lies on its left.
 struct BoundaryPiece {
   Vec3 from, to;  ///< end points in the direction of the boundary, on the edge that makes it
-  /// The edge it lies on: an edge id of the opaque scene for an occluder's edge, −1 − k for the
+  /// The edge it lies on: an edge id of the opaque scene for an occluder's edge, or
+  /// OpaqueScene::edge_count() + t where its triangle t pierces the emitter's plane; −1 − k for the
   /// k-th edge of the emitter (rings counted through), `horizon_edge` for the horizon.
   int edge;
 };
@@ -31,8 +32,12 @@ inline constexpr int horizon_edge = INT32_MIN;
 
 struct VisiblePart {
   Region region = Region::away;
-  std::vector<BoundaryPiece>
-      pieces;  ///< closed chains, in no particular order; empty in umbra and away
+  /// Closed chains, one after the other, each in the order of its boundary; empty in umbra and
+  /// away. Consecutive pieces meet in a direction, each with a point on its own edge.
+  std::vector<BoundaryPiece> pieces;
+  std::vector<int> chain_ends;  ///< for each chain, where the next one starts in `pieces`
+  /// The boundary of the whole part above the horizon, the same as `pieces` if lit; empty if away.
+  std::vector<BoundaryPiece> unobstructed;
   /// Hash of which edges and vertices of emitter and occluders bound the visible part, and how they
   /// follow each other; equal for all points of one cell of the complete discontinuity mesh.
   std::uint64_t signature = 0;
@@ -47,6 +52,8 @@ class OpaqueScene {
   ~OpaqueScene();
   OpaqueScene(OpaqueScene&&) noexcept;
   OpaqueScene& operator=(OpaqueScene&&) noexcept;
+
+  int edge_count() const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }

@@ -1,0 +1,130 @@
+#include "meshing/boundary_chains.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+// Parts thinner than this many roundings of a distance are no parts: where occluders abut or touch
+// the line of sight, rounding decides whether there is a gap.
+constexpr double thinnest = 4;
+// Ends of pieces that rounding kept from meeting lie within this many roundings.
+constexpr double widest_gap = 1e5;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::uint64_t mix(std::uint64_t x) {  // a bijection that spreads every bit (splitmix64)
+  x += 0x9e3779b97f4a7c15;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+  return x ^ (x >> 31);
+}
+
+/// Where a point appears on the emitter's plane, relative to the eye.
+Vec3 image(const PointView& view, const Vec3& eye, const Vec3& p) {
+  const Vec3 direction = p - eye;
+  return view.distance() / -view.emitter().normal.dot(direction) * direction;
+}
+
+}  // namespace
+
+/// A piece's follower starts where it ends.
+void BoundaryChains::join_places(const ShadowArrangement& arrangement) {
+  const auto& all = arrangement.pieces;
+  starts_.assign(at(arrangement.place_count), -1);
+  siblings_.assign(all.size(), -1);
+  next_.assign(all.size(), -1);
+  is_taken_.assign(all.size(), 0);
+  for (std::size_t i = all.size(); i-- > 0;) {
+    int& start = starts_[at(all[i].start)];
+    siblings_[i] = start;
+    start = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    int& start = starts_[at(all[i].end)];
+    next_[i] = start;
+    if (start < 0) continue;
+    is_taken_[at(start)] = 1;
+    start = siblings_[at(start)];
+  }
+}
+
+/// Where three edges all but meet in a point, a piece shorter than rounding may be missing.
+void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const PointView& view) {
+  const auto& all = arrangement.pieces;
+  const Vec3 eye = view.eye();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (next_[i] >= 0) continue;
+    const Vec3 end = image(view, eye, all[i].to);
+    double best = HUGE_VAL;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (is_taken_[j] != 0) continue;
+      const double gap = (image(view, eye, all[j].from) - end).norm();
+      if (gap < best) {
+        best = gap;
+        next_[i] = static_cast<int>(j);
+      }
+    }
+    is_taken_[at(next_[i])] = 1;
+    closed = closed && best <= widest_gap * view.slack();
+  }
+}
+
+void BoundaryChains::add_chain(const ShadowArrangement& arrangement, const PointView& view,
+                               int first) {
+  const auto& all = arrangement.pieces;
+  const std::size_t begin = pieces.size();
+  const Vec3 eye = view.eye(), origin = image(view, eye, all[at(first)].from);
+  Vec3 area = Vec3::Zero();
+  double length = 0, reach = 0;
+  int i = first;
+  do {
+    pieces.push_back(all[at(i)]);
+    const Vec3 a = image(view, eye, all[at(i)].from), b = image(view, eye, all[at(i)].to);
+    area += 0.5 * (a - origin).cross(b - origin);
+    length += (b - a).norm();
+    reach = std::max(reach, a.norm());
+    const int next = next_[at(i)];
+    next_[at(i)] = -1;
+    i = next;
+  } while (i != first);
+  // Rounding of a distance, as it appears from the point on the emitter's plane.
+  const double rounding = view.slack() * std::max(1., reach / view.distance());
+  if (area.norm() <= thinnest * rounding * length)
+    pieces.resize(begin);
+  else
+    ends.push_back(static_cast<int>(pieces.size()));
+}
+
+void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView& view) {
+  pieces.clear();
+  ends.clear();
+  signature = 0;
+  closed = true;
+  join_places(arrangement);
+  join_leftovers(arrangement, view);
+  for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
+    if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
+  // A sum does not depend on where chains start, nor on their order.
+  std::size_t first = 0;
+  const int corners = static_cast<int>(view.corners.size());
+  for (const int end : ends) {
+    for (std::size_t i = first; i < at(end); ++i) {
+      const ArrangedPiece& next = pieces[i + 1 < at(end) ? i + 1 : first];
+      const std::uint64_t kind = pieces[i].end < corners ? 1 : 0;
+      const auto from = static_cast<std::uint32_t>(pieces[i].edge);
+      const auto to = static_cast<std::uint32_t>(next.edge);
+      signature += mix(mix(mix(from) + to) + kind);
+    }
+    first = at(end);
+  }
+}
+
+void BoundaryChains::copy(VisiblePart& part) const {
+  for (const ArrangedPiece& piece : pieces)
+    part.pieces.push_back({piece.from, piece.to, piece.edge});
+  copy_ends(part);
+}
+
+}  // namespace halfshade

@@ -188,8 +188,7 @@ PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& 
   const Loan worker(impl_->pool);
   PointFactorDerivatives result;
   result.factor = find_factor(*worker, target, point, emitter);
-  const EdgeDerivatives derivatives =
-      edge_derivatives(point.position, point.normal, worker->part.pieces);
+  const EdgeDerivatives derivatives = edge_derivatives(point.position, point.normal, worker->part);
   result.gradient = derivatives.gradient;
   result.hessian = derivatives.hessian;
   return result;

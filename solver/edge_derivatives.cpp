@@ -8,8 +8,6 @@ namespace {
 
 /// Edges at distances that differ by less than this, relatively, meet in space.
 constexpr double meeting = 1e-12;
-/// Consecutive pieces end and begin in directions that differ by rounding only.
-constexpr double same_direction = 1e-18;  // squared
 
 /// A piece seen from the point: p(t) = start + t along for t in [0, 1].
 struct Sight {
@@ -113,36 +111,23 @@ class Derivatives {
   EdgeDerivatives result_;
 };
 
-/// The piece that begins where `piece` ends: most often the one behind it, else the one whose
-/// beginning lies in the nearest direction.
-std::size_t successor(std::span<const BoundaryPiece> pieces, const Vec3& point, std::size_t piece) {
-  const Vec3 end = (pieces[piece].to - point).normalized();
-  const auto squared_angle = [&](std::size_t k) {
-    return ((pieces[k].from - point).normalized() - end).squaredNorm();
-  };
-  std::size_t best = (piece + 1) % pieces.size();
-  double least = squared_angle(best);
-  if (least < same_direction) return best;
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    if (const double a = squared_angle(k); a < least) {
-      least = a;
-      best = k;
-    }
-  return best;
-}
-
 }  // namespace
 
-EdgeDerivatives edge_derivatives(const Vec3& point, const Vec3& normal,
-                                 std::span<const BoundaryPiece> pieces) {
+EdgeDerivatives edge_derivatives(const Vec3& point, const Vec3& normal, const VisiblePart& part) {
   Derivatives derivatives(point, normal);
-  for (std::size_t k = 0; k < pieces.size(); ++k) {
-    // Along the horizon n·p vanishes, at the ends of its pieces, too.
-    if (pieces[k].edge == horizon_edge) continue;
-    const Sight sight(pieces[k], point);
-    derivatives.add_piece(sight);
-    const BoundaryPiece& next = pieces[successor(pieces, point, k)];
-    if (next.edge != horizon_edge) derivatives.add_end(sight, Sight(next, point));
+  std::size_t start = 0;
+  for (const int chain_end : part.chain_ends) {
+    const auto end = static_cast<std::size_t>(chain_end);
+    for (std::size_t k = start; k < end; ++k) {
+      const BoundaryPiece& piece = part.pieces[k];
+      const BoundaryPiece& next = part.pieces[k + 1 < end ? k + 1 : start];
+      // Along the horizon n·p vanishes, at the ends of its pieces, too.
+      if (piece.edge == horizon_edge) continue;
+      const Sight sight(piece, point);
+      derivatives.add_piece(sight);
+      if (next.edge != horizon_edge) derivatives.add_end(sight, Sight(next, point));
+    }
+    start = end;
   }
   return derivatives.result();
 }

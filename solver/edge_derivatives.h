@@ -2,8 +2,6 @@
 
 #include "meshing/visible_part.h"
 
-#include <span>
-
 namespace halfshade {
 
 struct EdgeDerivatives {
@@ -11,7 +9,7 @@ struct EdgeDerivatives {
   Eigen::Matrix3d hessian = Eigen::Matrix3d::Zero();
 };
 
-/// First and second derivatives of the form factor to what the pieces enclose, with respect to the
+/// First and second derivatives of the form factor to the visible part, with respect to the
 /// point and for a fixed normal, in closed form.
 ///
 /// The form factor is ∫ n·u dΩ/π over the visible directions u. It changes only because the
@@ -20,7 +18,6 @@ struct EdgeDerivatives {
 /// the ends of the pieces move, too, where one edge hides another: see `end_motion` in the source.
 /// Exact within a cell of the discontinuity mesh; unbounded where its border is approached so that
 /// two edges that meet line up.
-EdgeDerivatives edge_derivatives(const Vec3& point, const Vec3& normal,
-                                 std::span<const BoundaryPiece> pieces);
+EdgeDerivatives edge_derivatives(const Vec3& point, const Vec3& normal, const VisiblePart& part);
 
 }  // namespace halfshade

@@ -108,11 +108,10 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
     if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
   // A sum does not depend on where chains start, nor on their order.
   std::size_t first = 0;
-  const int corners = static_cast<int>(view.corners.size());
   for (const int end : ends) {
     for (std::size_t i = first; i < at(end); ++i) {
       const ArrangedPiece& next = pieces[i + 1 < at(end) ? i + 1 : first];
-      const std::uint64_t kind = pieces[i].end < corners ? 1 : 0;
+      const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
       const auto from = static_cast<std::uint32_t>(pieces[i].edge);
       const auto to = static_cast<std::uint32_t>(next.edge);
       signature += mix(mix(mix(from) + to) + kind);

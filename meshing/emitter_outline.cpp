@@ -70,6 +70,26 @@ void EmitterOutline::close_along_horizon(PointView& view) {
     add_edge(view, exits_[i].corner, entries_[i].corner, horizon_edge);
 }
 
+/// Chain by chain, each edge after the one that ends where it starts.
+void EmitterOutline::put_in_order(const PointView& view) {
+  unordered_.swap(edges);
+  edges.clear();
+  first_at_.assign(view.corners.size(), -1);
+  sibling_.assign(unordered_.size(), -1);
+  for (std::size_t e = unordered_.size(); e-- > 0;) {
+    int& first = first_at_[at(unordered_[e].from)];
+    sibling_[e] = first;
+    first = static_cast<int>(e);
+  }
+  for (const OutlineEdge& start : unordered_)
+    for (int corner = start.from; first_at_[at(corner)] >= 0;) {
+      const int e = first_at_[at(corner)];
+      first_at_[at(corner)] = sibling_[at(e)];
+      edges.push_back(unordered_[at(e)]);
+      corner = unordered_[at(e)].to;
+    }
+}
+
 void EmitterOutline::make_pyramid(const PointView& view) {
   const PlaneFrame& frame = view.emitter();
   pyramid.eye = point_;
@@ -108,7 +128,10 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
     cut_ring(view, view.scene().ring(r));
   if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
-  close_along_horizon(view);
+  if (!exits_.empty()) {
+    close_along_horizon(view);
+    put_in_order(view);
+  }
   make_pyramid(view);
   return true;
 }

@@ -16,7 +16,7 @@ struct OutlineEdge {
 /// Cuts an emitter's rings at the point's horizon. Keeps its buffers.
 class EmitterOutline {
  public:
-  std::vector<OutlineEdge> edges;  ///< ring by ring; the pieces of the horizon come last
+  std::vector<OutlineEdge> edges;  ///< closed chain after closed chain
   SightPyramid pyramid;
 
   /// False if nothing of the emitter lies above the horizon.
@@ -31,11 +31,14 @@ class EmitterOutline {
   int cross_horizon(PointView& view, int from, int to);
   void cut_ring(PointView& view, std::span<const OpaqueScene::Impl::OutlineVertex> ring);
   void close_along_horizon(PointView& view);
+  void put_in_order(const PointView& view);
   void make_pyramid(const PointView& view);
   double height(const PointView& view, int corner) const;
 
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero(), horizon_ = Vec3::Zero();
   std::vector<Crossing> exits_, entries_;
+  std::vector<OutlineEdge> unordered_;
+  std::vector<int> first_at_, sibling_;
   bool reaches_above_ = false;
 };
 

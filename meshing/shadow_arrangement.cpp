@@ -40,8 +40,9 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
   walk_silhouettes();
   fully_lit = lit == outline.edges.size() && pieces.size() == lit;
   for (std::size_t i = 0; fully_lit && i < lit; ++i)
-    fully_lit = pieces[i].start == outline.edges[i].from && pieces[i].end == outline.edges[i].to;
-  place_count = static_cast<int>(view.corners.size() + crossings_.size());
+    fully_lit = pieces[i].start == place_of(outline.edges[i].from) &&
+                pieces[i].end == place_of(outline.edges[i].to);
+  place_count = place_of(static_cast<int>(view.corners.size()));
 }
 
 Vec3 ShadowArrangement::position(const Arc& arc, double along) const {
@@ -65,7 +66,6 @@ void ShadowArrangement::emit(const Arc& arc, std::array<double, 2> along, std::a
 }
 
 void ShadowArrangement::walk_outline() {
-  const int corner_count = static_cast<int>(view_->corners.size());
   int cover = 0, reached = -1;
   for (std::size_t i = 0; i < outline_->edges.size(); ++i) {
     const int id = static_cast<int>(i);
@@ -75,11 +75,11 @@ void ShadowArrangement::walk_outline() {
     if (reached != arc.from || meeting.in + meeting.out > 0)
       cover = view_->cover({arc.from, arc.to, 1});
     double from = 0;
-    int place = arc.from;
+    int place = place_of(arc.from);
     for (int k = arc.first; k < arc.first + arc.count; ++k) {
       Crossing& crossing = crossings_[at(order_[at(k)])];
       const std::size_t side = at(side_of(crossing, id));
-      const int next = corner_count + order_[at(k)];
+      const int next = order_[at(k)];
       emit(arc, {from, crossing.along[side]}, {place, next}, cover);
       crossing.cover = std::min(cover, cover + crossing.step[side]);
       cover += crossing.step[side];
@@ -87,7 +87,7 @@ void ShadowArrangement::walk_outline() {
       from = crossing.along[side];
       place = next;
     }
-    emit(arc, {from, 1}, {place, arc.to}, cover);
+    emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
     reached = arc.to;
   }
 }
@@ -144,15 +144,14 @@ void ShadowArrangement::walk_chain(int arc, bool inside, int cover) {
 /// Walks one arc; `cover` is that on its right. Returns whether its end is inside the outline.
 bool ShadowArrangement::walk_arc(int id, bool inside, int& cover) {
   Arc& arc = arcs_[at(id)];
-  const int corner_count = static_cast<int>(view_->corners.size());
   arc.is_done = true;
   arc.start_cover = cover;
   double from = 0;
-  int place = arc.from;
+  int place = place_of(arc.from);
   for (int k = arc.first; k < arc.first + arc.count; ++k) {
     const Crossing& crossing = crossings_[at(order_[at(k)])];
     const int side = side_of(crossing, id);
-    const int next = corner_count + order_[at(k)], step = crossing.step[at(side)];
+    const int next = order_[at(k)], step = crossing.step[at(side)];
     const double to = crossing.along[at(side)];
     if (inside) emit(arc, {from, to}, {place, next}, cover);
     from = to;
@@ -166,7 +165,7 @@ bool ShadowArrangement::walk_arc(int id, bool inside, int& cover) {
       is_consistent = is_consistent && cover >= 0;
     }
   }
-  if (inside) emit(arc, {from, 1}, {place, arc.to}, cover);
+  if (inside) emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
   return inside;
 }
 

@@ -9,7 +9,7 @@
 namespace halfshade {
 
 /// A piece of the visible part's boundary. `start` and `end` tell the places where pieces meet:
-/// corners, then crossings; the same number is the same direction.
+/// crossings, then corners; the same number is the same direction.
 struct ArrangedPiece {
   Vec3 from, to;
   int edge;  ///< as in BoundaryPiece
@@ -25,6 +25,8 @@ class ShadowArrangement {
   /// False if rounding put three edges that nearly meet in a point in contradictory orders.
   bool is_consistent = true;
   int place_count = 0;  ///< places are numbered from 0
+
+  bool is_crossing(int place) const { return place < static_cast<int>(crossings_.size()); }
 
   void build(PointView& view, const EmitterOutline& outline);
 
@@ -68,6 +70,7 @@ class ShadowArrangement {
   bool is_inside(const Germ& germ) const;
   void emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> place, int cover);
 
+  int place_of(int corner) const { return static_cast<int>(crossings_.size()) + corner; }
   Vec3 position(const Arc& arc, double along) const;
   int side_of(const Crossing& crossing, int arc) const { return crossing.arc[0] == arc ? 0 : 1; }
 

@@ -73,19 +73,24 @@ class HorizonClip {
 
 }  // namespace
 
-EdgeSum::EdgeSum(const Vec3& towards) : towards_(towards), length_(towards.norm()) {}
+EdgeSum::EdgeSum(const Vec3& towards)
+    : towards_(towards), length_(towards.norm()), unit_(towards / length_) {}
 
-/// a/|a| − c/|c| with the difference of the lengths taken from that of the vectors.
-Vec3 EdgeSum::minus_towards(const Vec3& a, double length) const {
+/// d = a/|a| − c with c the unit vector towards the reference; the difference of the lengths is
+/// taken from that of the vectors.
+Vec3 EdgeSum::minus_unit(const Vec3& a, double length) const {
   const Vec3 difference = a - towards_;
   const double shorter = -difference.dot(a + towards_) / (length_ + length);  // |c| − |a|
-  return (difference + shorter / length_ * towards_) / length;
+  const Vec3 d = (difference + shorter * unit_) / length;
+  // Along c, a difference of unit vectors is −d²/2, which the subtraction only gives up to
+  // rounding: that matters for slivers of light at the horizon.
+  return d - (0.5 * d.squaredNorm() + unit_.dot(d)) * unit_;
 }
 
 void EdgeSum::add(const Vec3& a, const Vec3& b) {
   const double length_a = a.norm(), length_b = b.norm();
   if (!(length_a > 0 && length_b > 0)) return;  // an edge that ends in the point
-  sum_ += minus_towards(a, length_a).cross(minus_towards(b, length_b));
+  sum_ += minus_unit(a, length_a).cross(minus_unit(b, length_b));
   const double scale = 1 / (length_a * length_b);
   const Vec3 cross = scale * a.cross(b - a);
   const double sine = cross.norm();

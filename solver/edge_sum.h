@@ -25,10 +25,11 @@ class EdgeSum {
   double form_factor(const Vec3& normal) const;
 
  private:
-  Vec3 minus_towards(const Vec3& a, double length) const;
+  Vec3 minus_unit(const Vec3& a, double length) const;
 
   Vec3 towards_;
   double length_;
+  Vec3 unit_;
   Vec3 sum_ = Vec3::Zero();
 };
 

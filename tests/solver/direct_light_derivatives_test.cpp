@@ -72,7 +72,7 @@ int compare(const SoundScene& scene, Random& random, int points, double tilt) {
       EXPECT_TRUE(got.gradient.isZero(0) && got.hessian.isZero(0));
       continue;
     }
-    Differences differences(index, 0, point, 4e-3);
+    Differences differences(index, 0, point, 1e-3);
     Vec3 gradient;
     Eigen::Matrix3d hessian;
     for (int i = 0; i < 3; ++i) {

@@ -166,7 +166,9 @@ class Painter {
     Rgb value = tone_map(radiosity(*hit, ray), exposure_);
     // Each of two neighbours draws its half of the line between them.
     if (options_.mesh_lines && pixels_to_edge(*hit, ray) < 0.5) {
-      const double line = value.maxCoeff() > 0.1 ? 0.0 : 0.3;  // light on the dark
+      // Light on dark elements; one colour an element, lest it changes along an edge.
+      const Rgb element = mesh_.triangle_radiosity[static_cast<std::size_t>(hit->triangle)];
+      const double line = tone_map(element, exposure_).maxCoeff() > 0.02 ? 0.0 : 0.1;
       value = (1 - line_opacity) * value + line_opacity * line;
     }
     return value;

@@ -7,12 +7,14 @@
 
 #include <Eigen/Geometry>
 #include <assimp/Importer.hpp>
+#include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
 #include <exception>
 #include <limits>
+#include <map>
 #include <vector>
 
 namespace halfshade::reading {
@@ -38,6 +40,8 @@ class AssimpReader {
   AssimpReader(const std::filesystem::path& file, const aiScene& input)
       : file_(file), input_(input) {
     draft_.scene.source = file.string();
+    material_ids_.assign(input.mNumMaterials, -1);
+    if (is_gltf(file)) emissive_strengths_ = gltf_emissive_strengths(file);
   }
 
   SceneDraft read() {
@@ -114,14 +118,28 @@ class AssimpReader {
 
   int material(unsigned index) {
     if (index >= input_.mNumMaterials) return material_id(draft_, default_name);
+    int& id = material_ids_[index];
+    if (id >= 0) return id;
     const aiMaterial& input = *input_.mMaterials[index];
-    const std::string name = input.GetName().C_Str();
-    // What assimp makes up for a format or a mesh without materials is not of the file.
-    if (name == AI_DEFAULT_MATERIAL_NAME || name.empty()) return material_id(draft_, default_name);
-    const std::size_t known = draft_.scene.materials.size();
-    const int id = material_id(draft_, name);
-    if (draft_.scene.materials.size() > known) read_material(input, draft_.scene.materials.back());
+    std::string name = input.GetName().C_Str();
+    if (is_made_up(name, index)) return id = material_id(draft_, default_name);
+    if (name.empty()) name = fmt::format("material {}", index + 1);
+    // Different materials may have one name in the file.
+    std::string unique = name;
+    for (int n = 2; draft_.material_ids.contains(unique); ++n)
+      unique = fmt::format("{} {}", name, n);
+    id = material_id(draft_, unique);
+    Material& material = draft_.scene.materials.back();
+    read_material(input, material);
+    if (const auto strength = emissive_strengths_.find(name); strength != emissive_strengths_.end())
+      material.exitance *= strength->second;
     return id;
+  }
+
+  /// True for the material that assimp adds for meshes or formats without materials.
+  bool is_made_up(const std::string& name, unsigned index) const {
+    return name == AI_DEFAULT_MATERIAL_NAME || name == "%%%DEFAULT" ||
+           (is_gltf(file_) && name.empty() && index + 1 == input_.mNumMaterials);
   }
 
   static void read_material(const aiMaterial& input, Material& material) {
@@ -140,6 +158,8 @@ class AssimpReader {
   const aiScene& input_;
   SceneDraft draft_;
   long long skipped_ = 0;
+  std::vector<int> material_ids_;  ///< of assimp's materials, −1 until used
+  std::map<std::string, double> emissive_strengths_;
 };
 
 }  // namespace
@@ -147,6 +167,7 @@ class AssimpReader {
 SceneDraft read_with_assimp(const std::filesystem::path& path) {
   require_readable(path);
   Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // not the ids
   const aiScene* input = nullptr;
   try {
     input = importer.ReadFile(path.string(), 0);

@@ -5,6 +5,13 @@
 
 namespace halfshade::reading {
 
+std::string extension(const std::filesystem::path& path) {
+  std::string result = path.extension().string();
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
+}
+
 int material_id(SceneDraft& draft, const std::string& name) {
   const auto [entry, is_new] =
       draft.material_ids.try_emplace(name, static_cast<int>(draft.scene.materials.size()));

@@ -18,9 +18,7 @@ using reading::SceneDraft;
 using std::filesystem::path;
 
 SceneDraft read_by_extension(const path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  const std::string extension = reading::extension(file);
   if (extension == ".obj") return reading::read_obj(file);
   if (extension == ".ply") return reading::read_ply(file);
   if (extension == ".off") return reading::read_off(file);

@@ -20,9 +20,14 @@ struct SceneFile {
 /// `materials` (none if empty), and validates the result.
 ///
 /// OBJ: `Kd` is the reflectance, `Ke` the exitance in W/m²; `g` and `o` start groups; faces before
-/// any usemtl, and formats without materials, get a material named "default". Throws Error(usage)
-/// for an unknown extension and Error(invalid_input) with file, line or face for anything that is
-/// not a sound scene.
+/// any usemtl, and formats without materials, get a material named "default". glTF and COLLADA:
+/// groups are nodes, base or diffuse colour is the reflectance, emission the exitance. Materials
+/// that no face uses are left out; a material that only a usemtl names must be given by a materials
+/// file. Names in a materials file are groups' or else materials'; a group's entry wins on its
+/// faces, which get a material of their own.
+///
+/// Throws Error(usage) for an unknown extension and Error(invalid_input) with file, line or face
+/// for anything that is not a sound scene.
 SceneFile read_scene(const std::filesystem::path& path,
                      const std::filesystem::path& materials = {});
 

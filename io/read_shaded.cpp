@@ -9,6 +9,7 @@
 #include <vtkCellType.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
+#include <vtkExecutive.h>
 #include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -22,6 +23,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 namespace halfshade {
 namespace {
@@ -96,9 +98,9 @@ ShadedMesh to_mesh(vtkPointSet* grid, const path& file) {
   return mesh;
 }
 
-/// The reader prints what its parser meets unless someone listens there, too.
+/// Reader, parser and pipeline print what they meet unless someone listens.
 template <class Reader>
-ShadedMesh read(const path& file) {
+ShadedMesh read(const std::string& bytes, const path& file) {
   detail::VtkMessages messages;
   vtkNew<vtkCallbackCommand> listener;
   listener->SetClientData(&messages);
@@ -106,11 +108,14 @@ ShadedMesh read(const path& file) {
     static_cast<detail::VtkMessages*>(client)->record(sender, event, text);
   });
   vtkNew<Reader> reader;
-  for (const unsigned long event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent})
+  for (const unsigned long event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent}) {
     reader->AddObserver(event, listener);
+    reader->GetExecutive()->AddObserver(event, listener);
+  }
   reader->SetReaderErrorObserver(listener);
   reader->SetParserErrorObserver(listener);
-  reader->SetFileName(file.c_str());
+  reader->ReadFromInputStringOn();
+  reader->SetInputString(bytes);
   try {
     reader->Update();
   } catch (const std::exception& error) {  // sizes that are not there, for example
@@ -126,10 +131,19 @@ ShadedMesh read(const path& file) {
 ShadedMesh read_shaded(const path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) reject(file, "this is a folder, not a file");
-  if (!std::ifstream(file)) reject(file, "the file cannot be opened");
-  if (file.extension() == ".vtu") return read<vtkXMLUnstructuredGridReader>(file);
-  if (file.extension() == ".vtp") return read<vtkXMLPolyDataReader>(file);
-  reject(file, "only results written as .vtu or .vtp can be read");
+  const bool is_grid = file.extension() == ".vtu";
+  if (!is_grid && file.extension() != ".vtp")
+    reject(file, "only results written as .vtu or .vtp can be read");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) reject(file, "the file cannot be opened");
+  std::ostringstream contents;
+  contents << stream.rdbuf();
+  const std::string bytes = std::move(contents).str();
+  if (!detail::is_sealed(bytes))
+    reject(file,
+           "this is no result of halfshade, or it is damaged or was changed by another program");
+  return is_grid ? read<vtkXMLUnstructuredGridReader>(bytes, file)
+                 : read<vtkXMLPolyDataReader>(bytes, file);
 }
 
 }  // namespace halfshade

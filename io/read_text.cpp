@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <limits>
 #include <new>
 
 namespace halfshade::reading {
@@ -48,9 +48,9 @@ std::string read_bytes(const std::filesystem::path& path) {
   std::ifstream stream = open(path);
   std::string bytes;
   try {
-    constexpr std::size_t chunk = std::size_t{1} << 20U;
     std::size_t size = 0;
     while (stream) {
+      const std::size_t chunk = std::max<std::size_t>(size, 1U << 14U);
       bytes.resize(size + chunk);
       stream.read(bytes.data() + size, static_cast<std::streamsize>(chunk));
       size += static_cast<std::size_t>(stream.gcount());

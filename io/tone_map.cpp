@@ -11,8 +11,8 @@ namespace {
 constexpr double bright = 0.8;       // where the percentile goes, of linear white
 constexpr double percentile = 0.95;  // of the weight
 constexpr double least_of_mean = 0.25;
-constexpr double knee = 0.6;       // display values below it are proportional to the radiosity
-constexpr double whitening = 4.0;  // exposed values this far above 1 are most of the way to white
+constexpr double knee = 0.6;     // display values below it are proportional to the radiosity
+constexpr double whitening = 4;  // exposed values this far above 1 are most of the way to white
 
 struct Weighted {
   double value, weight;
@@ -75,7 +75,8 @@ Rgb tone_map(const Rgb& radiosity, double exposure) {
   }
   const double top = x.maxCoeff();
   if (top <= knee) return x;
-  const double white = 1 - std::exp(-std::max(0.0, top - 1) / whitening);
+  const double over = std::max(0.0, top - 1) / whitening;
+  const double white = 1 - std::exp(-over * over);  // starts without a kink
   const Rgb coloured = x * (shoulder(top) / top);
   return (coloured + white * (1 - coloured)).min(1.0);
 }

@@ -2,10 +2,10 @@
 
 #include "io/atomic_file.h"
 #include "io/detail/result_formats.h"
+#include "meshing/quality.h"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <set>
 
 namespace halfshade {
@@ -52,19 +52,14 @@ Json repairs_json(const SolveResult& result) {
 }
 
 Json mesh_json(const ElementTable& elements) {
-  constexpr double bin_width = 5;
-  std::vector<int> histogram(12, 0);  // no minimum angle exceeds 60 degrees
-  double smallest = 60;
-  for (int e = 0; e < elements.count(); ++e) {
-    const double angle = detail::min_angle(elements.triangle(e));
-    smallest = std::min(smallest, angle);
-    const auto bin = static_cast<std::size_t>(angle / bin_width);
-    ++histogram[std::min(bin, histogram.size() - 1)];
-  }
+  const QualitySummary quality = summarize_quality(elements);
   return {{"elements", elements.count()},
           {"points", elements.points.size()},
-          {"min_angle", elements.count() > 0 ? Json(smallest) : Json()},
-          {"min_angle_histogram", {{"bin_width", bin_width}, {"counts", histogram}}}};
+          {"min_angle", quality.min_angle},
+          {"mean_min_angle", quality.mean_angle},
+          {"worst_element", quality.worst_element},
+          {"longest_edge", quality.longest_edge},
+          {"min_angle_histogram", {{"bin_width", 5}, {"counts", quality.histogram}}}};
 }
 
 Json stages_json(const SolveResult& result) {

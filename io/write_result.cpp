@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -42,17 +40,6 @@ void write_result(const SolveResult& result, const Provenance& provenance,
 }
 
 namespace detail {
-
-double min_angle(const std::array<Vec3, 3>& triangle) {
-  double smallest = std::numbers::pi;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 u = (triangle[(k + 1) % 3] - triangle[k]).stableNormalized();
-    const Vec3 v = (triangle[(k + 2) % 3] - triangle[k]).stableNormalized();
-    // Unlike the arc cosine, exact for thin triangles, too.
-    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)));
-  }
-  return smallest * 180 / std::numbers::pi;
-}
 
 void require_consistent(const SolveResult& result, const char* caller) {
   const auto n = static_cast<Eigen::Index>(result.elements.count());

@@ -1,6 +1,7 @@
 #include "io/detail/result_formats.h"
 #include "io/detail/vtk_messages.h"
 #include "meshing/core/error.h"
+#include "meshing/quality.h"
 #include "solver/vertex_values.h"
 
 #include <fmt/format.h>
@@ -66,9 +67,7 @@ void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   add_integers(data, "material", elements.material);
   add_integers(data, "receiver", elements.receiver);
   add_integers(data, "level", elements.level);
-  std::vector<double> quality;
-  for (int e = 0; e < elements.count(); ++e) quality.push_back(min_angle(elements.triangle(e)));
-  add_numbers(data, "quality", quality);
+  add_numbers(data, "quality", min_angles(elements));
 }
 
 void add_field_data(const SolveResult& result, const Provenance& provenance, vtkFieldData* data) {
@@ -106,6 +105,22 @@ vtkNew<vtkCellArray> make_triangles(const ElementTable& elements) {
   return triangles;
 }
 
+/// Cuts out the ranges that VTK notes as information keys: for empty arrays and values near the
+/// ends of the range of doubles its own reader fails on them.
+std::string without_keys(std::string xml) {
+  std::string result;
+  result.reserve(xml.size());
+  constexpr std::string_view begin = "<InformationKey", end = "</InformationKey>";
+  std::size_t place = 0;
+  for (std::size_t key = xml.find(begin); key != std::string::npos; key = xml.find(begin, place)) {
+    const std::size_t line = xml.find_last_not_of(' ', key - 1) + 1;
+    result.append(xml, place, line - place);
+    place = xml.find(end, key) + end.size();
+    if (place < xml.size() && xml[place] == '\n') ++place;
+  }
+  return result.append(xml, place);
+}
+
 template <class Writer, class Grid>
 std::string file_of(Grid* grid, const SolveResult& result, const Provenance& provenance) {
   grid->SetPoints(make_points(result.elements));
@@ -130,7 +145,7 @@ std::string file_of(Grid* grid, const SolveResult& result, const Provenance& pro
   if (writer->Write() == 0 || !messages.first.empty())
     throw Error(ErrorCode::unwritable, "write_result",
                 fmt::format("the result could not be encoded for VTK ({})", messages.first));
-  return writer->GetOutputString();
+  return seal(without_keys(writer->GetOutputString()));
 }
 
 }  // namespace

@@ -46,9 +46,10 @@ std::vector<int> first_of_each_place(std::span<const Vec2> points, double snap) 
 
 class Arranger {
  public:
-  Arranger(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments, double snap)
+  Arranger(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
+           const SnapRadii& snap)
       : points_(std::move(points)), snap_(snap) {
-    const std::vector<int> first = first_of_each_place(points_, snap_);
+    const std::vector<int> first = first_of_each_place(points_, snap_.points);
     for (const auto& [a, b] : segments) {
       chains_.push_back({first[at(a)]});
       if (first[at(a)] != first[at(b)]) chains_.back().push_back(first[at(b)]);
@@ -81,7 +82,7 @@ class Arranger {
     if (point == link[0] || point == link[1]) return {};
     const Vec2 &a = points_[at(link[0])], &b = points_[at(link[1])], &p = points_[at(point)];
     const double length = (b - a).norm();
-    if (std::abs(cross(b - a, p - a)) > snap_ * length) return {};
+    if (std::abs(cross(b - a, p - a)) > snap_.links * length) return {};
     // Both parts must come out shorter, or splitting might go on without end.
     if (!((p - a).norm() < length && (p - b).norm() < length)) return {};
     const double t = (p - a).dot(b - a) / (length * length);
@@ -101,7 +102,7 @@ class Arranger {
     std::vector<std::pair<double, int>> found;
     for (const Link& link : links_) {
       found.clear();
-      tree.query_box(flat_box(points_[at(link[0])], points_[at(link[1])], snap_), [&](int k) {
+      tree.query_box(flat_box(points_[at(link[0])], points_[at(link[1])], snap_.links), [&](int k) {
         if (const auto t = reach(link, used[at(k)])) found.emplace_back(*t, used[at(k)]);
       });
       std::sort(found.begin(), found.end());
@@ -151,14 +152,16 @@ class Arranger {
   // A crossing that falls on an end of either link or on an earlier crossing takes that point.
   int point_at(const Vec2& x, const Link& m, const Link& n) {
     for (const int p : {m[0], m[1], n[0], n[1]})
-      if ((points_[at(p)] - x).norm() <= snap_) return p;
-    const auto cell = [&](double v) { return static_cast<long long>(std::floor(v / snap_ / 2)); };
+      if ((points_[at(p)] - x).norm() <= snap_.links) return p;
+    const auto cell = [&](double v) {
+      return static_cast<long long>(std::floor(v / snap_.points / 2));
+    };
     for (long long i = -1; i <= 1; ++i)
       for (long long j = -1; j <= 1; ++j) {
         const auto entry = crossings_.find({cell(x.x()) + i, cell(x.y()) + j});
         if (entry == crossings_.end()) continue;
         for (const int p : entry->second)
-          if ((points_[at(p)] - x).norm() <= snap_) return p;
+          if ((points_[at(p)] - x).norm() <= snap_.points) return p;
       }
     points_.push_back(x);
     const int point = static_cast<int>(points_.size()) - 1;
@@ -185,7 +188,7 @@ class Arranger {
   }
 
   std::vector<Vec2> points_;
-  double snap_;
+  SnapRadii snap_;
   std::vector<std::vector<int>> chains_;
   std::vector<Link> links_;
   std::map<std::pair<long long, long long>, std::vector<int>> crossings_;  // by place
@@ -194,7 +197,7 @@ class Arranger {
 }  // namespace
 
 Arrangement arrange(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
-                    double snap) {
+                    const SnapRadii& snap) {
   return Arranger(std::move(points), segments, snap).run();
 }
 

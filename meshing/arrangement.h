@@ -14,13 +14,20 @@ struct Arrangement {
   std::vector<std::vector<int>> chains;  ///< one a segment: the points it runs through, in order
 };
 
-/// Splits segments (pairs of points) where they cross and where a point lies within `snap` of them,
-/// and replaces points closer together than `snap` by the one that comes first. Afterwards links of
-/// chains meet at common points only, and no point lies within `snap` of a link it does not end
-/// (Hobby 1999 without the grid). Deterministic; points keep their coordinates. `snap` must exceed
-/// the rounding of the coordinates, which makes every decision here safe in double precision.
+/// What counts as meeting. Both must exceed the rounding of the coordinates by far, which makes
+/// every decision below safe in double precision.
+struct SnapRadii {
+  double points = 0;  ///< points closer together than this are one point
+  double links = 0;   ///< links pass through points closer to them than this; at least `points`
+};
+
+/// Splits segments (pairs of points) where they cross and where a point lies near them, and
+/// replaces points close together by the one that comes first. Afterwards links of chains meet at
+/// common points only, and no point lies near a link it does not end, save where the link would
+/// have to grow to reach it (Hobby 1999 without the grid). Deterministic; points keep their
+/// coordinates.
 Arrangement arrange(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
-                    double snap);
+                    const SnapRadii& snap);
 
 /// A triangulation of a convex hull.
 struct HullTriangulation {

@@ -120,7 +120,8 @@ std::vector<FacePiece> triangles_of(const Scene& scene, const FacePiece& piece,
     flat.push_back(frame.to_plane(vertices.points[at(ids[k])]));
     local[k] = static_cast<int>(k);
   }
-  const Overlay result = overlay(std::move(flat), std::span(&local, 1), tolerance.length);
+  const Overlay result =
+      overlay(std::move(flat), std::span(&local, 1), {tolerance.length, tolerance.length});
   if (!crossed_loops(result, tolerance.length).empty()) reject_crossed_face(scene, piece.face);
   for (std::size_t k = ids.size(); k < result.points.size(); ++k) {
     ids.push_back(static_cast<int>(vertices.points.size()));

@@ -54,7 +54,7 @@ class ContactFinder {
         segments.push_back({local(ring[k]), local(ring[(k + 1) % ring.size()])});
     border_ = segments;
     for (const Link& edge : edges) segments.push_back({local(edge[0]), local(edge[1])});
-    arrangement_ = arrange(flat_, segments, tolerance_.length);
+    arrangement_ = arrange(flat_, segments, {tolerance_.length, tolerance_.planarity});
     collect(edges.size());
     if (inner_.empty()) return;
     for (std::size_t k = ids_.size(); k < arrangement_.points.size(); ++k) {

@@ -12,7 +12,7 @@
 namespace halfshade {
 namespace {
 
-// Corners of merged boundaries closer than this part of the snap distance to the line of their
+// Corners of merged boundaries closer than this part of the radius of points to the line of their
 // neighbours are no corners but what rounding left.
 constexpr double straightness = 1e-3;
 
@@ -37,7 +37,7 @@ bool convex(const std::vector<Vec2>& polygon) {
 class Resolver {
  public:
   Resolver(std::vector<Vec3>& points, const PlaneFrame& frame,
-           const std::vector<CoplanarFace>& faces, double snap)
+           const std::vector<CoplanarFace>& faces, const SnapRadii& snap)
       : points_(points), frame_(frame), faces_(faces), snap_(snap) {}
 
   CoplanarResult run() {
@@ -50,7 +50,7 @@ class Resolver {
       }
     }
     make_overlay();
-    for (const int loop : crossed_loops(overlay_, snap_))
+    for (const int loop : crossed_loops(overlay_, snap_.links))
       result_.crossed.push_back(faces_[at(loop)].face);
     if (!result_.crossed.empty()) return std::move(result_);
     const std::vector<int> winner = winners();
@@ -143,8 +143,8 @@ class Resolver {
       const int after = ring[(k + 1) % ring.size()];
       const Vec2 in = overlay_.points[at(ring[k])] - overlay_.points[at(before)];
       const Vec2 out = overlay_.points[at(after)] - overlay_.points[at(ring[k])];
-      const bool straight =
-          in.dot(out) > 0 && std::abs(cross(in, out)) <= straightness * snap_ * (in + out).norm();
+      const bool straight = in.dot(out) > 0 && std::abs(cross(in, out)) <=
+                                                   straightness * snap_.points * (in + out).norm();
       if (!straight || visits.at(ring[k]) > 1) kept.push_back(ring[k]);
     }
     return kept;
@@ -168,7 +168,7 @@ class Resolver {
   std::vector<Vec3>& points_;
   const PlaneFrame& frame_;
   const std::vector<CoplanarFace>& faces_;
-  double snap_;
+  SnapRadii snap_;
   Overlay overlay_;
   std::vector<int> ids_;  // point of the overlay → point of the scene
   std::map<std::tuple<int, int, bool>, int> buckets_;
@@ -178,7 +178,7 @@ class Resolver {
 }  // namespace
 
 CoplanarResult resolve_coplanar(std::vector<Vec3>& points, const PlaneFrame& frame,
-                                const std::vector<CoplanarFace>& faces, double snap) {
+                                const std::vector<CoplanarFace>& faces, const SnapRadii& snap) {
   return Resolver(points, frame, faces, snap).run();
 }
 

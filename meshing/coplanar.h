@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/arrangement.h"
 #include "meshing/core/plane_frame.h"
 #include "meshing/repair.h"
 
@@ -49,6 +50,6 @@ struct CoplanarResult {
 /// cover to one of them: to an emitter before others, to a smaller face before a larger. May add
 /// points where boundaries cross.
 CoplanarResult resolve_coplanar(std::vector<Vec3>& points, const PlaneFrame& frame,
-                                const std::vector<CoplanarFace>& faces, double snap);
+                                const std::vector<CoplanarFace>& faces, const SnapRadii& snap);
 
 }  // namespace halfshade

@@ -210,7 +210,8 @@ std::vector<int> crossed_loops(const Overlay& overlay, double width) {
   return result;
 }
 
-Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops, double snap) {
+Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops,
+                const SnapRadii& snap) {
   std::vector<Link> segments;
   std::vector<int> loop_of;
   for (std::size_t l = 0; l < loops.size(); ++l)

@@ -20,7 +20,8 @@ struct Overlay {
 };
 
 /// Lays loops of points over each other; `snap` as in arrange(). Deterministic.
-Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops, double snap);
+Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops,
+                const SnapRadii& snap);
 
 /// The loops that wind round a place more than once or the wrong way, other than in slivers thinner
 /// than `width`: those that cross themselves. Sorted.

@@ -52,8 +52,8 @@ Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts)
     segments.push_back({static_cast<int>(points.size()), static_cast<int>(points.size()) + 1});
     points.insert(points.end(), contact.begin(), contact.end());
   }
-  const Arrangement arrangement =
-      arrange(std::move(points), segments, relative_snap * extent(rings));
+  const double snap = relative_snap * extent(rings);
+  const Arrangement arrangement = arrange(std::move(points), segments, {snap, snap});
   // A link that rings run along an even number of times has the same on both its sides.
   std::map<Link, bool> odd;
   for (std::size_t s = 0; s < segments.size(); ++s) {

@@ -21,7 +21,10 @@ struct PlanarMesh {
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
   /// Edges that lie on rings or contact lines, as sorted pairs of points, sorted.
   std::vector<std::array<int, 2>> constrained_edges;
-  bool complete = true;  ///< false where max_triangles ended the refinement early
+  /// False where the refinement ended early: at max_triangles, or because the polygon is so thin
+  /// that good angles would take far more triangles than its size deserves. Edge lengths hold in
+  /// the second case.
+  bool complete = true;
 };
 
 /// The constrained Delaunay triangulation of a polygon with holes, without further points except

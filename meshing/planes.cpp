@@ -56,10 +56,20 @@ std::vector<Vec3> corners(std::span<const Vec3> points, const std::vector<int>& 
   return result;
 }
 
+double greatest_height(const PlaneFrame& frame, std::span<const Vec3> points,
+                       const std::vector<int>& loop) {
+  double height = 0;
+  for (const int p : loop) height = std::max(height, std::abs(frame.height(points[at(p)])));
+  return height;
+}
+
+// Sorts polygons into the planes of the first ones.
 class Classifier {
  public:
-  Classifier(std::span<const Vec3> points, const Tolerance& tolerance)
-      : points_(points), tolerance_(tolerance), centre_(points[0]) {}
+  // With `extrapolate`, a plane may miss a polygon by as much more as this lies farther away than
+  // the polygon that defines the plane is large.
+  Classifier(std::span<const Vec3> points, const Tolerance& tolerance, bool extrapolate)
+      : points_(points), tolerance_(tolerance), extrapolate_(extrapolate), centre_(points[0]) {}
 
   int plane_of(const std::vector<int>& loop) {
     const PlaneFrame frame = fit_plane(corners(points_, loop));
@@ -73,12 +83,13 @@ class Classifier {
       });
     if (best >= 0) return best;
     frames_.push_back(frame);
+    extent_.push_back(extent(frame.origin, loop));
     const int plane = static_cast<int>(frames_.size()) - 1;
     cells_[cell_of(key(frame, 1))].push_back(plane);
     return plane;
   }
 
-  std::vector<PlaneFrame> take_frames() { return std::move(frames_); }
+  const std::vector<PlaneFrame>& frames() const { return frames_; }
 
  private:
   // Planes of one class differ by less than half a cell in every coordinate.
@@ -90,20 +101,43 @@ class Classifier {
     return {n.x(), n.y(), n.z(), offset};
   }
 
+  double extent(const Vec3& centre, const std::vector<int>& loop) const {
+    double farthest = 0;
+    for (const int p : loop) farthest = std::max(farthest, (points_[at(p)] - centre).norm());
+    return farthest;
+  }
+
   bool fits(const PlaneFrame& frame, const std::vector<int>& loop, int plane) const {
     const PlaneFrame& other = frames_[at(plane)];
     if (frame.normal.cross(other.normal).norm() > normal_tolerance) return false;
-    return std::all_of(loop.begin(), loop.end(), [&](int p) {
-      return std::abs(other.height(points_[at(p)])) <= tolerance_.planarity;
-    });
+    double limit = tolerance_.planarity;
+    if (extrapolate_) limit *= 1 + extent(other.origin, loop) / extent_[at(plane)];
+    return greatest_height(other, points_, loop) <= limit;
   }
 
   std::span<const Vec3> points_;
   const Tolerance& tolerance_;
+  bool extrapolate_;
   Vec3 centre_;
   std::vector<PlaneFrame> frames_;
+  std::vector<double> extent_;  // of the polygon that defines the plane
   std::unordered_map<std::array<long long, 4>, std::vector<int>, CellHash> cells_;
 };
+
+// The plane of several polygons: the mean of their corners, the sum of their area vectors. Errors
+// of inner corners cancel in the sum.
+PlaneFrame common_plane(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
+                        const std::vector<std::size_t>& members, const PlaneFrame& first) {
+  Vec3 normal = Vec3::Zero(), offset = Vec3::Zero();
+  double count = 0;
+  for (const std::size_t m : members) {
+    const Vec3 area = area_vector(corners(points, loops[m]));
+    normal += area.dot(first.normal) > 0 ? area : Vec3(-area);
+    for (const int p : loops[m]) offset += points[at(p)] - first.origin;
+    count += static_cast<double>(loops[m].size());
+  }
+  return make_frame(first.origin + offset / count, normal);
+}
 
 }  // namespace
 
@@ -150,10 +184,37 @@ PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return area[a] > area[b]; });
-  Classifier classifier(points, tolerance);
-  result.of_polygon.resize(loops.size());
-  for (const std::size_t i : order) result.of_polygon[i] = classifier.plane_of(loops[i]);
-  result.frames = classifier.take_frames();
+  // First by extrapolation, so that the small pieces of a tessellated wall come together ...
+  Classifier loose(points, tolerance, true);
+  std::vector<std::vector<std::size_t>> members;
+  for (const std::size_t i : order) {
+    const std::size_t group = at(loose.plane_of(loops[i]));
+    if (group == members.size()) members.emplace_back();
+    members[group].push_back(i);
+  }
+  // ... then by the common plane of those; the polygons this leaves out find planes of their own.
+  result.of_polygon.assign(loops.size(), -1);
+  std::vector<std::size_t> left;
+  for (std::size_t g = 0; g < members.size(); ++g) {
+    const auto all_within = [&](const PlaneFrame& frame, double limit) {
+      return std::all_of(members[g].begin(), members[g].end(), [&](std::size_t i) {
+        return greatest_height(frame, points, loops[i]) <= limit;
+      });
+    };
+    PlaneFrame frame = loose.frames()[g];
+    if (!all_within(frame, tolerance.length))
+      frame = common_plane(points, loops, members[g], frame);
+    for (const std::size_t i : members[g])
+      if (greatest_height(frame, points, loops[i]) <= tolerance.planarity)
+        result.of_polygon[i] = static_cast<int>(result.frames.size());
+      else
+        left.push_back(i);
+    result.frames.push_back(frame);
+  }
+  Classifier strict(points, tolerance, false);
+  const int first = static_cast<int>(result.frames.size());
+  for (const std::size_t i : left) result.of_polygon[i] = first + strict.plane_of(loops[i]);
+  result.frames.insert(result.frames.end(), strict.frames().begin(), strict.frames().end());
   return result;
 }
 

@@ -19,7 +19,7 @@ WeldedVertices weld(const Scene& scene, const Tolerance& tolerance);
 
 /// The distinct planes of polygons.
 struct PlaneClasses {
-  std::vector<PlaneFrame> frames;  ///< one a plane: that of the largest polygon in it
+  std::vector<PlaneFrame> frames;  ///< one a plane
   std::vector<int> of_polygon;     ///< polygon → plane
 };
 

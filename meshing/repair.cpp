@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace halfshade {
@@ -84,6 +85,23 @@ void report_overlap(const Scene& scene, const CoveredPair& pair, std::vector<Rep
                    face_label(scene, pair.keeper))});
 }
 
+// Faces that snapping left nothing of, though nothing covers them.
+void report_lost(const Scene& scene, const PlaneSides& sides,
+                 const std::vector<ReceiverDraft>& drafts, const Tolerance& tolerance,
+                 std::vector<Repair>& repairs) {
+  std::set<int> kept;
+  for (const ReceiverDraft& draft : drafts) kept.insert(draft.faces.begin(), draft.faces.end());
+  for (const Repair& repair : repairs) kept.insert(repair.faces.begin(), repair.faces.end());
+  for (const auto& plane : sides)
+    for (const auto& side : plane)
+      for (const CoplanarFace& face : side)
+        if (kept.insert(face.face).second)
+          repairs.push_back({Repair::Kind::degenerate_dropped,
+                             {face.face},
+                             fmt::format("{} is thinner than {} and was dropped",
+                                         face_label(scene, face.face), tolerance.planarity)});
+}
+
 std::vector<ReceiverDraft> make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
                                        std::vector<Vec3>& points, const Tolerance& tolerance,
                                        std::vector<Repair>& repairs) {
@@ -96,8 +114,9 @@ std::vector<ReceiverDraft> make_drafts(const Scene& scene, const std::vector<Fac
     for (std::size_t side = 0; side < 2; ++side) {
       if (sides[plane][side].empty()) continue;
       const PlaneFrame& front = classes.frames[plane];
-      CoplanarResult result = resolve_coplanar(points, side == 0 ? front : turned(front),
-                                               sides[plane][side], tolerance.length);
+      CoplanarResult result =
+          resolve_coplanar(points, side == 0 ? front : turned(front), sides[plane][side],
+                           {tolerance.length, tolerance.planarity});
       if (!result.crossed.empty()) reject_crossed_face(scene, result.crossed.front());
       for (const CoveredPair& pair : result.covered) report_overlap(scene, pair, repairs);
       for (ReceiverDraft& draft : result.drafts) {
@@ -110,6 +129,7 @@ std::vector<ReceiverDraft> make_drafts(const Scene& scene, const std::vector<Fac
     return std::tuple(a.faces.front(), a.back) < std::tuple(b.faces.front(), b.back);
   });
   for (const ReceiverDraft& draft : drafts) report_merge(scene, draft, repairs);
+  report_lost(scene, sides, drafts, tolerance, repairs);
   return drafts;
 }
 

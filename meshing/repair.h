@@ -24,8 +24,8 @@ struct Receiver {
   int group = 0;
   int plane = 0;           ///< receivers in one plane, facing either way, share this id
   bool back = false;       ///< the back of a two-sided face; its front is a receiver of its own
-  std::vector<int> faces;  ///< input faces it is made of
-  std::vector<Ring> face_rings;  ///< their boundaries, one a face
+  std::vector<int> faces;  ///< input faces it is made of; one that was triangulated may repeat
+  std::vector<Ring> face_rings;  ///< their boundaries, one an entry of `faces`
 };
 
 /// One thing that was put right.

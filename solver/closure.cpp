@@ -22,17 +22,20 @@ void scale_both_sides(ExchangeMatrix& matrix, const Eigen::VectorXd& s) {
 
 }  // namespace
 
-bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area) {
+bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area,
+                     const std::vector<bool>& wanted) {
   // Unknowns: u = log s. Residual of row i: s_i (M s)_i − A_i. Its Jacobian diag(s∘Ms) + S M S is
   // symmetric and positive semi-definite, for M is not negative.
   const Eigen::Index n = matrix.rows();
   const Eigen::VectorXd sees = multiply(matrix, Eigen::VectorXd::Ones(n));
-  Eigen::VectorXd s = (sees.array() > 0).select(Eigen::VectorXd::Ones(n), 0.);
+  Eigen::ArrayXd free(n);  // 1 where u may change
+  for (Eigen::Index i = 0; i < n; ++i)
+    free[i] = wanted[static_cast<std::size_t>(i)] && sees[i] > 0 ? 1 : 0;
+  Eigen::VectorXd s = Eigen::VectorXd::Ones(n);
   double previous_error = HUGE_VAL;
   for (int step = 0; step < max_newton_steps; ++step) {
     const Eigen::VectorXd sums = s.cwiseProduct(multiply(matrix, s));
-    const Eigen::VectorXd residual =
-        (s.array() > 0).select((sums.array() - area).matrix(), Eigen::VectorXd::Zero(n));
+    const Eigen::VectorXd residual = free * (sums.array() - area);
     const double error = (residual.array() / area).abs().maxCoeff();
     if (error <= closed_enough || (error <= 10 * closed_enough && error >= previous_error)) {
       scale_both_sides(matrix, s);
@@ -40,8 +43,9 @@ bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area) {
     }
     if (!std::isfinite(error)) return false;
     previous_error = error;
-    const Eigen::VectorXd root = (s.array() > 0).select(sums.cwiseSqrt(), Eigen::VectorXd::Ones(n));
-    const ScaledOperator jacobian(matrix, s.cwiseQuotient(root), 1);
+    // Fixed rows get weight 0; their root is anything but 0.
+    const Eigen::VectorXd root = sums.array().sqrt() + (1 - free);
+    const ScaledOperator jacobian(matrix, free * s.array() / root.array(), 1);
     ConjugateGradients cg(jacobian);
     cg.setTolerance(1e-6);  // Newton's own convergence makes up for the rest
     cg.setMaxIterations(500);

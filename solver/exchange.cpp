@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "solver/enclosures.h"
 #include "solver/form_factor.h"
 #include "solver/ray_factor.h"
 #include "solver/receiver_pairs.h"
@@ -12,15 +13,14 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <numbers>
 #include <unistd.h>
 #include <vector>
 
 namespace halfshade {
 namespace {
 
-/// Rays an element sends out to find an opening of the scene.
-constexpr int escape_rays = 64;
+/// Rays for a pair lie between a quarter of the number asked for and four times that.
+constexpr double ray_spread = 4;
 /// The part of the machine's memory that a matrix may fill.
 constexpr double memory_share = 0.7;
 /// A non-zero of the matrix (12 bytes) and of the half of it that is held before (16 bytes).
@@ -35,7 +35,7 @@ struct Factor {
 struct Shape {
   PairEnd end;
   Vec3 centre;
-  double radius;
+  double radius, area;
   Eigen::AlignedBox3d box;
   bool emits;
 };
@@ -50,6 +50,7 @@ std::vector<Shape> make_shapes(const SoundScene& scene, const ElementTable& elem
     shape.end = {t, elements.normal[k], plane};
     shape.centre = (t[0] + t[1] + t[2]) / 3;
     shape.radius = 0;
+    shape.area = elements.area[k];
     for (const Vec3& p : t) {
       shape.radius = std::max(shape.radius, (p - shape.centre).norm());
       shape.box.extend(p);
@@ -131,6 +132,15 @@ class Assembly {
   }
 
  private:
+  /// More rays where more light is at stake: pairs with the mean form factor 1/n get the number
+  /// asked for.
+  int ray_count(const Shape& a, const Shape& b, double mutual_area) const {
+    const int mean = a.emits || b.emits ? options_.rays_per_emitter_pair : options_.rays_per_pair;
+    const double F = mutual_area / std::min(a.area, b.area);
+    const double stake = std::sqrt(F * static_cast<double>(shapes_.size()));
+    return std::max(1, static_cast<int>(mean * std::clamp(stake, 1 / ray_spread, ray_spread)));
+  }
+
   void fill_row(int i) {
     RayVisibility sampler(visibility_);
     const Shape& a = shapes_[static_cast<std::size_t>(i)];
@@ -145,8 +155,7 @@ class Assembly {
       double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
       if (!(value > 0)) continue;
       if (sight == Sight::sampled && a.box.merged(b.box).intersects(pairs_.blockers(r, s))) {
-        const int count =
-            a.emits || b.emits ? options_.rays_per_emitter_pair : options_.rays_per_pair;
+        const int count = ray_count(a, b, value);
         const auto seed =
             static_cast<std::uint64_t>(i) * shapes_.size() + static_cast<std::uint64_t>(j);
         value *= sampler.visible_fraction(a.end, b.end, count, seed);
@@ -168,46 +177,6 @@ class Assembly {
   std::atomic<std::size_t> rays_ = 0;
 };
 
-/// Where rays from one element end.
-enum class Surroundings { closed, open, sealed /* sees only back sides: inside a solid */ };
-
-Surroundings look_round(const SoundScene& scene, const ElementTable& elements,
-                        const VisibilityIndex& visibility, int element) {
-  const auto e = static_cast<std::size_t>(element);
-  const auto t = elements.triangle(element);
-  const PlaneFrame frame =
-      make_frame((t[0] + t[1] + t[2]) / 3 + scene.tolerance.planarity * elements.normal[e],
-                 elements.normal[e]);
-  int fronts = 0, backs = 0;
-  for (int k = 0; k < escape_rays; ++k) {
-    // Cosine-distributed directions on a spiral (Vogel 1979): equal shares of the projected
-    // hemisphere.
-    const double radius = std::sqrt((k + 0.5) / escape_rays);
-    const double angle = k * std::numbers::pi * (3 - std::sqrt(5.));
-    const Vec3 direction = radius * std::cos(angle) * frame.e1 +
-                           radius * std::sin(angle) * frame.e2 +
-                           std::sqrt(1 - radius * radius) * frame.normal;
-    const auto hit = visibility.first_hit(frame.origin, direction);
-    if (!hit) return Surroundings::open;
-    const Receiver& receiver = scene.receivers[static_cast<std::size_t>(hit->owner)];
-    const bool front = receiver.frame.normal.dot(direction) < 0 ||
-                       scene.materials[static_cast<std::size_t>(receiver.material)].two_sided;
-    ++(front ? fronts : backs);
-  }
-  if (backs == 0) return Surroundings::closed;
-  return fronts == 0 ? Surroundings::sealed : Surroundings::open;
-}
-
-bool is_closed(const SoundScene& scene, const ElementTable& elements,
-               const VisibilityIndex& visibility) {
-  std::vector<Surroundings> around(elements.corners.size());
-  parallel_for(around.size(), [&](std::size_t e) {
-    around[e] = look_round(scene, elements, visibility, static_cast<int>(e));
-  });
-  return std::find(around.begin(), around.end(), Surroundings::open) == around.end() &&
-         std::find(around.begin(), around.end(), Surroundings::closed) != around.end();
-}
-
 void require_memory(std::size_t elements) {
   const double available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                            static_cast<double>(sysconf(_SC_PAGESIZE)) * memory_share;
@@ -221,15 +190,36 @@ void require_memory(std::size_t elements) {
 }
 
 void report_closure(Exchange& exchange) {
-  const Eigen::ArrayXd sums =
-      multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array() /
-      exchange.area;
-  // Elements that see nothing lie sealed inside a solid; closure says nothing about them.
-  const Eigen::ArrayXd missing = (sums > 0).select(1 - sums, 0.);
-  const double total = exchange.area.sum();
-  exchange.report.closure_error_max = missing.abs().maxCoeff();
-  exchange.report.closure_error_rms = std::sqrt((exchange.area * missing.square()).sum() / total);
-  exchange.report.escaping_fraction = (exchange.area * missing.max(0.)).sum() / total;
+  const Eigen::ArrayXd missing =
+      1 - multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array() /
+              exchange.area;
+  ExchangeReport& report = exchange.report;
+  report.closed = true;
+  double closed_area = 0, lit_area = 0;
+  for (int e = 0; e < exchange.area.size(); ++e) {
+    const double area = exchange.area[e], error = missing[e];
+    if (exchange.enclosures.is_closed(e)) {
+      report.closure_error_max = std::max(report.closure_error_max, std::abs(error));
+      report.closure_error_rms += area * error * error;
+      closed_area += area;
+    }
+    if (exchange.enclosures.is_lit(e)) {
+      report.closed = report.closed && exchange.enclosures.is_closed(e);
+      report.escaping_fraction += area * std::max(error, 0.);
+      lit_area += area;
+    }
+  }
+  if (closed_area > 0) report.closure_error_rms = std::sqrt(report.closure_error_rms / closed_area);
+  if (lit_area > 0) report.escaping_fraction /= lit_area;
+}
+
+/// Which rows are to sum to one.
+std::vector<bool> closed_rows(const Exchange& exchange, Closure closure) {
+  std::vector<bool> rows(static_cast<std::size_t>(exchange.area.size()));
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    rows[e] = closure == Closure::enforce ||
+              (closure == Closure::automatic && exchange.enclosures.is_closed(static_cast<int>(e)));
+  return rows;
 }
 
 }  // namespace
@@ -255,12 +245,11 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
     exchange.matrix = assembly.matrix();
   }
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
-  exchange.report.closed = is_closed(scene, elements, visibility);
+  exchange.enclosures = find_enclosures(scene, elements, visibility, exchange.matrix);
   report_closure(exchange);
-  const bool wanted = options.closure == Closure::enforce ||
-                      (options.closure == Closure::automatic && exchange.report.closed);
-  if (wanted && exchange.report.complete)
-    exchange.report.closure_enforced = enforce_closure(exchange.matrix, exchange.area);
+  const std::vector<bool> rows = closed_rows(exchange, options.closure);
+  if (exchange.report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
+    exchange.report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
   return exchange;
 }
 

@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include <cstddef>
+#include <vector>
 
 namespace halfshade {
 
@@ -16,8 +17,8 @@ namespace halfshade {
 using ExchangeMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 enum class Closure {
-  automatic,  ///< enforce where no ray escapes the scene
-  enforce,
+  automatic,  ///< enforce where no light gets out
+  enforce,    ///< everywhere, also where openings swallow light
   leave
 };
 
@@ -31,17 +32,35 @@ struct ExchangeOptions {
 struct ExchangeReport {
   std::size_t factors = 0;  ///< non-zero entries of the matrix
   std::size_t rays = 0;
-  bool closed = false;  ///< no ray escapes: every row of F should sum to 1
+  bool closed = false;  ///< no light gets out: rows of F should sum to 1 wherever light gets to
   bool closure_enforced = false;
-  double closure_error_max = 0;  ///< max |1 − Σ_j F(i,j)| before enforcement; meaningful if closed
+  double closure_error_max =
+      0;  ///< max |1 − Σ_j F(i,j)| before enforcement, over closed enclosures
   double closure_error_rms = 0;  ///< the same, root of the area-weighted mean square
-  double escaping_fraction = 0;  ///< area-weighted mean of 1 − Σ_j F(i,j), at least 0
+  double escaping_fraction = 0;  ///< area-weighted mean of 1 − Σ_j F(i,j) over lit enclosures
   bool complete = true;          ///< false if interrupted
+};
+
+/// The groups of elements that exchange light with each other.
+struct Enclosures {
+  std::vector<int> of_element;  ///< element → enclosure
+  std::vector<bool> closed;  ///< enclosure → no light leaves it, so that its rows of F sum to 1
+  std::vector<bool> lit;     ///< enclosure → something in it emits
+
+  int count() const { return static_cast<int>(closed.size()); }
+  bool is_closed(int element) const { return closed[group(element)]; }
+  bool is_lit(int element) const { return lit[group(element)]; }
+
+ private:
+  std::size_t group(int element) const {
+    return static_cast<std::size_t>(of_element[static_cast<std::size_t>(element)]);
+  }
 };
 
 struct Exchange {
   ExchangeMatrix matrix;
   Eigen::ArrayXd area;  ///< A_i
+  Enclosures enclosures;
   ExchangeReport report;
 };
 
@@ -53,10 +72,11 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options = {},
                           const Progress& progress = {});
 
-/// Scales the matrix from both sides, S M S with S diagonal and positive, until every row i sums to
-/// area[i]: the symmetric form of Sinkhorn's scaling, found by Newton's method to rounding error.
-/// Keeps symmetry, sign and sparsity. Returns false, and leaves the matrix alone, where no such
-/// scaling is found (an element that sees nothing, for example).
-bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area);
+/// Scales the matrix from both sides, S M S with S diagonal and positive, until every row i that is
+/// `wanted` sums to area[i]: the symmetric form of Sinkhorn's scaling, found by Newton's method to
+/// rounding error. Keeps symmetry, sign and sparsity. Returns false, and leaves the matrix alone,
+/// where no such scaling is found. Rows without entries are left out.
+bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area,
+                     const std::vector<bool>& wanted);
 
 }  // namespace halfshade

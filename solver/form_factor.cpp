@@ -82,6 +82,7 @@ class ContourIntegral {
   void start_edge(const Vec3& a, const Vec3& b) {
     const Vec3 along = b - a;
     const double length = along.norm();
+    if (!(length > 0)) return;
     const bool perpendicular_to_all = std::all_of(inner_.begin(), inner_.end(), [&](const Vec3& v) {
       const Vec3& next = inner_[(static_cast<std::size_t>(&v - inner_.data()) + 1) % inner_.size()];
       return std::abs(along.dot(next - v)) <= 1e-15 * length * (next - v).norm();
@@ -105,8 +106,9 @@ class ContourIntegral {
     double sum = 0;
     Vec3 a = inner_.back();
     for (const Vec3& b : inner_) {
-      const Vec3 edge = b - a;
-      sum += along.dot(edge) / edge.norm() * log_potential(x, a, b, unit_);
+      // Clipping may leave edges without length.
+      if (const double length = (b - a).norm(); length > 0)
+        sum += along.dot(b - a) / length * log_potential(x, a, b, unit_);
       a = b;
     }
     return sum / (2 * std::numbers::pi);

@@ -25,40 +25,25 @@ Eigen::VectorXd irradiance_from(const Exchange& exchange, const Eigen::VectorXd&
   return (multiply(exchange.matrix, B).array() / exchange.area).matrix();
 }
 
-/// The elements that can be reached from `start` through the matrix.
-std::vector<int> connected_component(const ExchangeMatrix& matrix, int start,
-                                     std::vector<bool>& visited) {
-  std::vector<int> component = {start};
-  visited[static_cast<std::size_t>(start)] = true;
-  for (std::size_t k = 0; k < component.size(); ++k)
-    for (ExchangeMatrix::InnerIterator entry(matrix, component[k]); entry; ++entry)
-      if (!visited[static_cast<std::size_t>(entry.col())]) {
-        visited[static_cast<std::size_t>(entry.col())] = true;
-        component.push_back(static_cast<int>(entry.col()));
-      }
-  return component;
-}
-
-/// In a closed component where nothing absorbs, light that is put in never gets out.
+/// In a closed enclosure where nothing absorbs, light that is put in never gets out.
 void require_somewhere_to_go(const Exchange& exchange, const Channel& channel) {
-  if (!exchange.report.closed || channel.rho.maxCoeff() < 1) return;
-  std::vector<bool> visited(static_cast<std::size_t>(channel.rho.size()));
-  for (int e = 0; e < channel.rho.size(); ++e) {
-    if (visited[static_cast<std::size_t>(e)]) continue;
-    const auto component = connected_component(exchange.matrix, e, visited);
-    double emitted = 0;
-    bool absorbs = component.size() == 1;
-    for (const int k : component) {
-      absorbs = absorbs || channel.rho[k] < 1;
-      emitted += exchange.area[k] * channel.exitance[k];
-    }
-    if (!absorbs && emitted > 0)
+  const Enclosures& enclosures = exchange.enclosures;
+  std::vector<bool> absorbs(enclosures.closed.size());
+  std::vector<double> emitted(enclosures.closed.size());
+  for (std::size_t e = 0; e < enclosures.of_element.size(); ++e) {
+    const auto k = static_cast<std::size_t>(enclosures.of_element[e]);
+    const auto row = static_cast<Eigen::Index>(e);
+    absorbs[k] = absorbs[k] || channel.rho[row] < 1;
+    emitted[k] += exchange.area[row] * channel.exitance[row];
+  }
+  for (std::size_t k = 0; k < absorbs.size(); ++k)
+    if (enclosures.closed[k] && !absorbs[k] && emitted[k] > 0)
       throw Error(
           ErrorCode::invalid_input, "solve_radiosity",
-          fmt::format("a closed enclosure of {} elements reflects everything (reflectance 1) and "
-                      "emits {} W, so its radiosity has no limit; lower a reflectance",
-                      component.size(), emitted));
-  }
+          fmt::format(
+              "a closed enclosure reflects everything (reflectance 1) and emits {} W, so its "
+              "radiosity has no limit; lower a reflectance",
+              emitted[k]));
 }
 
 ChannelSolution sum_bounces(const Exchange& exchange, const Channel& channel, int bounces) {
@@ -71,6 +56,18 @@ ChannelSolution sum_bounces(const Exchange& exchange, const Channel& channel, in
     solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
   }
   return solution;
+}
+
+/// The best uniform reflected radiosity, in the scaled unknown: the ambient term of progressive
+/// refinement (Cohen et al. 1988). It takes the one slow mode of a bright enclosure out of the
+/// iteration.
+Eigen::VectorXd ambient_guess(const Channel& channel, const ScaledOperator& matrix,
+                              const Eigen::VectorXd& scale, const Eigen::VectorXd& b) {
+  const Eigen::VectorXd uniform =
+      (channel.rho.array() > 0).select(scale.cwiseInverse(), Eigen::VectorXd::Zero(b.size()));
+  const double energy = uniform.dot(matrix.apply(uniform));
+  if (!(energy > 0)) return Eigen::VectorXd::Zero(b.size());
+  return uniform.dot(b) / energy * uniform;
 }
 
 ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
@@ -87,7 +84,7 @@ ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
   ConjugateGradients cg(matrix);
   cg.setTolerance(options.tolerance);
   cg.setMaxIterations(options.max_iterations);
-  const Eigen::VectorXd y = cg.solve(b);
+  const Eigen::VectorXd y = cg.solveWithGuess(b, ambient_guess(channel, matrix, scale, b));
   report.iterations = static_cast<int>(cg.iterations());
   report.residual = b.norm() > 0 ? (b - matrix.apply(y)).norm() / b.norm() : 0;
   // Rounding may leave the reflected part of an unlit element a hair below zero.

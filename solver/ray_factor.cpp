@@ -19,6 +19,9 @@ std::uint64_t mix(std::uint64_t x) {
 constexpr std::array<double, 4> steps = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087,
                                          0.5385972572236101};
 
+/// How many times the rays asked for may be tried to find one.
+constexpr int patience = 16;
+
 double fraction(double x) { return x - std::floor(x); }
 
 /// Maps the unit square to the triangle, area to area.
@@ -39,7 +42,9 @@ double RayVisibility::visible_fraction(const PairEnd& a, const PairEnd& b, int r
     start[d] = static_cast<double>(mix(4 * seed + d) >> 11) * 0x1p-53;
   segments_.clear();
   weights_.clear();
-  for (int k = 0; k < rays; ++k) {
+  // Where the triangles hardly face each other, most pairs of points do not: look on until one
+  // does.
+  for (int k = 0; k < rays || (segments_.empty() && k < patience * rays); ++k) {
     std::array<double, 4> u{};
     for (std::size_t d = 0; d < 4; ++d) u[d] = fraction(start[d] + k * steps[d]);
     const Vec3 from = point_on(a.triangle, u[0], u[1]), to = point_on(b.triangle, u[2], u[3]);
@@ -50,8 +55,7 @@ double RayVisibility::visible_fraction(const PairEnd& a, const PairEnd& b, int r
     segments_.push_back({from, to, a.plane, b.plane});
     weights_.push_back(cosines / (r2 * r2));
   }
-  if (segments_.empty())
-    return 1;  // hardly facing each other: nothing to tell, next to nothing to weigh
+  if (segments_.empty()) return 0;
   blocked_.resize(segments_.size());
   visibility_->blocked(segments_, blocked_);
   double all = 0, through = 0;

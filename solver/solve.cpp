@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -46,13 +47,25 @@ void material_arrays(const SoundScene& scene, const ElementTable& elements, Chan
   }
 }
 
-PatchMesh make_mesh(const SoundScene& scene, const SolveOptions& options,
-                    const Progress& progress) {
+/// Meshes with the length asked for, or with the one that comes nearest to the number of elements
+/// asked for: narrow receivers need more than their area suggests.
+ElementTable make_mesh(const SoundScene& scene, const SolveOptions& options,
+                       const Progress& progress) {
+  constexpr int attempts = 5;
+  constexpr double near_enough = 0.1;
   PlanarMeshOptions mesh_options;
+  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
   mesh_options.max_length =
       options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
-  return PatchMesh(scene, mesh_options, progress);
+  ElementTable elements = PatchMesh(scene, mesh_options, progress).elements();
+  if (options.max_length > 0 || progress.stopped()) return elements;
+  for (int k = 1; k < attempts; ++k) {
+    const double excess = elements.count() / static_cast<double>(options.elements);
+    if (std::abs(excess - 1) <= near_enough) break;
+    mesh_options.max_length *= std::sqrt(excess);
+    elements = PatchMesh(scene, mesh_options, progress).elements();
+  }
+  return elements;
 }
 
 void check(const SolveOptions& options) {
@@ -80,7 +93,7 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
     return result.scene.receivers.size();
   });
   stages.run("mesh", [&] {
-    result.elements = make_mesh(result.scene, options, progress).elements();
+    result.elements = make_mesh(result.scene, options, progress);
     return result.elements.corners.size();
   });
   Exchange exchange;

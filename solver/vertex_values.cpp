@@ -12,7 +12,8 @@ ChannelArray values_at_points(const ElementTable& elements, const ChannelArray& 
       values.row(p) += area * element_values.row(e);
       weight[p] += area;
     }
-  return values.colwise() / weight;
+  // A point without elements keeps zero instead of 0/0.
+  return values.colwise() / (weight > 0).select(weight, 1.0);
 }
 
 }  // namespace halfshade

@@ -3,6 +3,7 @@
 #include "meshing/core/scene.h"
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -37,6 +38,15 @@ SceneDraft read_with_assimp(const std::filesystem::path& path);
 
 /// Adds what an MTL file defines to the draft's materials.
 void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
+
+/// True for .gltf and .glb files.
+bool is_gltf(const std::filesystem::path& path);
+
+/// The factors of KHR_materials_emissive_strength, which assimp leaves out, by material name.
+std::map<std::string, double> gltf_emissive_strengths(const std::filesystem::path& path);
+
+/// The path's extension with its dot, in small letters.
+std::string extension(const std::filesystem::path& path);
 
 /// The id of the material with this name, which is appended with the default values if it is new.
 int material_id(SceneDraft& draft, const std::string& name);

@@ -2,8 +2,8 @@
 
 #include "io/write_result.h"
 
-#include <array>
 #include <string>
+#include <string_view>
 
 namespace halfshade::detail {
 
@@ -12,8 +12,10 @@ std::string vtu_bytes(const SolveResult& result, const Provenance& provenance);
 std::string vtp_bytes(const SolveResult& result, const Provenance& provenance);
 std::string ply_bytes(const SolveResult& result, const Provenance& provenance);
 
-/// The smallest angle of a triangle in degrees; 0 if it has no area.
-double min_angle(const std::array<Vec3, 3>& triangle);
+/// Ends an XML file with a comment that holds a checksum of what is before it: VTK's reader can
+/// crash on damaged data, so files are only given to it if `is_sealed` says they are as written.
+std::string seal(std::string xml);
+bool is_sealed(std::string_view bytes);
 
 /// [{"name", "position", "direction", "up", "vertical_fov"}, …], as in a scene's sidecar, and back.
 /// The way back throws std::exception for anything else.

@@ -181,6 +181,25 @@ TEST(FormFactor, ReciprocalForTriangles) {
   EXPECT_GE(compared, 20);
 }
 
+TEST(FormFactor, TouchingTrianglesStayRightWhenRoundingMovesThemApart) {
+  // The floor and wall triangles of a cube's edge, turned and shifted so that their common corners
+  // lie a rounding error in front of or behind the other's plane.
+  const Polygon floor = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, wall = {{1, 0, 0}, {0, 0, 0}, {0, 0, 1}};
+  const double expected = mutual_area(floor, wall).value;
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 500; ++k) {
+    const Vec3 axis = Vec3(normal(random), normal(random), normal(random)).normalized();
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(normal(random), axis).toRotationMatrix();
+    const Vec3 shift = (k % 2 ? 1. : 1e5) * Vec3(normal(random), normal(random), normal(random));
+    Polygon p = floor, q = wall;
+    for (Vec3& v : p) v = R * v + shift;
+    for (Vec3& v : q) v = R * v + shift;
+    ASSERT_NEAR(mutual_area(p, q).value, expected, 1e-8) << "turn " << k;
+    ASSERT_NEAR(mutual_area(q, p).value, expected, 1e-8) << "turn " << k;
+  }
+}
+
 TEST(FormFactor, CubeFacesAddUpToOneAndScaleAndRotationDoNotMatter) {
   for (const double size : {1e-6, 1., 1e6}) {
     const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();

@@ -14,7 +14,10 @@ Exchange make_exchange(const Eigen::MatrixXd& mutual_areas, const Eigen::ArrayXd
   Exchange exchange;
   exchange.matrix = mutual_areas.sparseView();
   exchange.area = area;
-  exchange.report.closed = ((mutual_areas.rowwise().sum().array() / area - 1).abs() < 1e-9).all();
+  exchange.enclosures.of_element.assign(static_cast<std::size_t>(area.size()), 0);
+  exchange.enclosures.closed = {
+      ((mutual_areas.rowwise().sum().array() / area - 1).abs() < 1e-9).all()};
+  exchange.enclosures.lit = {true};
   return exchange;
 }
 

@@ -34,6 +34,8 @@ class TempDir {
   std::filesystem::path write(const std::string& name, std::string_view content) const {
     const std::filesystem::path file = path_ / name;
     std::filesystem::create_directories(file.parent_path());
+    // Some file systems wait for the disk when a file is cut to nothing and written anew.
+    std::filesystem::remove(file);
     std::ofstream stream(file, std::ios::binary);
     stream << content;
     EXPECT_TRUE(stream.flush()) << file;

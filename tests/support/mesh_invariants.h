@@ -1,0 +1,158 @@
+#pragma once
+
+#include "meshing/element_table.h"
+#include "meshing/planar_mesh.h"
+#include "meshing/repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+#include <vector>
+
+/// What must hold of every mesh, checked without using anything that made it.
+namespace halfshade::test {
+
+inline double signed_area(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 a = ring[k] - ring[0], b = ring[(k + 1) % ring.size()] - ring[0];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * twice;
+}
+
+inline double area_of(const std::vector<Ring>& rings) {
+  double sum = 0;
+  for (const Ring& ring : rings) sum += signed_area(ring);
+  return sum;
+}
+
+inline double perimeter_of(const std::vector<Ring>& rings) {
+  double sum = 0;
+  for (const Ring& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      sum += (ring[(k + 1) % ring.size()] - ring[k]).norm();
+  return sum;
+}
+
+inline double length_of(const std::vector<Segment2>& segments) {
+  double sum = 0;
+  for (const auto& [a, b] : segments) sum += (b - a).norm();
+  return sum;
+}
+
+inline double distance_to_segment(const Vec2& p, const Segment2& s) {
+  const Vec2 d = s[1] - s[0];
+  const double t = std::clamp((p - s[0]).dot(d) / d.squaredNorm(), 0.0, 1.0);
+  return (s[0] + t * d - p).norm();
+}
+
+/// The smallest angle and the longest edge of a planar mesh.
+inline std::pair<double, double> angle_and_length(const PlanarMesh& mesh) {
+  double angle = 180, length = 0;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2& a = mesh.points[static_cast<std::size_t>(t[k])];
+      const Vec2 u = mesh.points[static_cast<std::size_t>(t[(k + 1) % 3])] - a;
+      const Vec2 v = mesh.points[static_cast<std::size_t>(t[(k + 2) % 3])] - a;
+      angle = std::min(angle, std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * 180 / M_PI);
+      length = std::max(length, u.norm());
+    }
+  return {angle, length};
+}
+
+/// Orientation, area, conformity, Euler characteristic, border and constrained edges. Holes must
+/// not touch each other or the outer boundary.
+inline void expect_sound(const PlanarMesh& mesh, const std::vector<Ring>& rings,
+                         const std::vector<Segment2>& contacts = {}) {
+  std::map<std::pair<int, int>, int> directed;
+  std::set<int> used;
+  double area = 0, border = 0;
+  for (const auto& t : mesh.triangles) {
+    Ring corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      used.insert(t[k]);
+      ++directed[{t[k], t[(k + 1) % 3]}];
+      corners.push_back(mesh.points[static_cast<std::size_t>(t[k])]);
+    }
+    EXPECT_GT(signed_area(corners), 0);
+    area += signed_area(corners);
+  }
+  EXPECT_NEAR(area / area_of(rings), 1, 1e-12);
+  std::set<std::pair<int, int>> edges;
+  for (const auto& [edge, count] : directed) {
+    EXPECT_EQ(count, 1) << "two triangles on one side of an edge";
+    edges.insert(std::minmax(edge.first, edge.second));
+    if (!directed.contains({edge.second, edge.first}))
+      border += (mesh.points[static_cast<std::size_t>(edge.second)] -
+                 mesh.points[static_cast<std::size_t>(edge.first)])
+                    .norm();
+  }
+  EXPECT_NEAR(border / perimeter_of(rings), 1, 1e-12) << "T-vertices or gaps";
+  EXPECT_EQ(used.size(), mesh.points.size());
+  EXPECT_EQ(static_cast<int>(used.size()) - static_cast<int>(edges.size()) +
+                static_cast<int>(mesh.triangles.size()),
+            2 - static_cast<int>(rings.size()));
+  double constrained = 0;
+  EXPECT_TRUE(std::is_sorted(mesh.constrained_edges.begin(), mesh.constrained_edges.end()));
+  for (const auto& [a, b] : mesh.constrained_edges) {
+    EXPECT_TRUE(edges.contains({a, b}));
+    constrained +=
+        (mesh.points[static_cast<std::size_t>(b)] - mesh.points[static_cast<std::size_t>(a)])
+            .norm();
+  }
+  EXPECT_NEAR(constrained / (perimeter_of(rings) + length_of(contacts)), 1, 1e-12);
+}
+
+/// Area by receiver, orientation, conformity within receivers, and that exactly the edges on rings
+/// and contact lines have no neighbour, from each side.
+inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
+  using Place = std::array<double, 3>;
+  const auto place = [&](int p) {
+    const Vec3& x = table.points[static_cast<std::size_t>(p)];
+    return Place{x.x(), x.y(), x.z()};
+  };
+  std::vector<double> area(scene.receivers.size(), 0), walls = area, unmatched = area;
+  std::vector<std::map<std::pair<Place, Place>, int>> directed(scene.receivers.size());
+  for (int e = 0; e < table.count(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    const auto r = static_cast<std::size_t>(table.receiver[i]);
+    const auto t = table.triangle(e);
+    const Vec3 twice = (t[1] - t[0]).cross(t[2] - t[0]);
+    ASSERT_NEAR(table.area[i], 0.5 * twice.norm(), 1e-12 * table.area[i]);
+    EXPECT_GT(twice.normalized().dot(table.normal[i]), 1 - 1e-6);
+    area[r] += table.area[i];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int p = table.corners[i][k], q = table.corners[i][(k + 1) % 3];
+      EXPECT_TRUE(directed[r].emplace(std::pair(place(p), place(q)), e).second);
+      const int other = table.neighbours[i][k];
+      if (other < 0) {
+        walls[r] += (t[(k + 1) % 3] - t[k]).norm();
+        continue;
+      }
+      const auto& back = table.corners[static_cast<std::size_t>(other)];
+      bool found = false;
+      for (std::size_t j = 0; j < 3; ++j)
+        found = found || (back[j] == q && back[(j + 1) % 3] == p &&
+                          table.neighbours[static_cast<std::size_t>(other)][j] == e);
+      EXPECT_TRUE(found) << "neighbours disagree";
+    }
+  }
+  for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
+    const Receiver& receiver = scene.receivers[r];
+    for (const auto& [edge, e] : directed[r])
+      if (!directed[r].contains({edge.second, edge.first}))
+        unmatched[r] += (Vec3(edge.second.data()) - Vec3(edge.first.data())).norm();
+    const double border = perimeter_of(receiver.rings);
+    EXPECT_NEAR(area[r] / area_of(receiver.rings), 1, 1e-12);
+    EXPECT_NEAR(unmatched[r] / border, 1, 1e-9) << "T-vertices or gaps";
+    EXPECT_NEAR(walls[r] / (border + 2 * length_of(receiver.contacts)), 1, 1e-9);
+  }
+}
+
+}  // namespace halfshade::test

@@ -116,6 +116,16 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   }
 }
 
+void EmitterOutline::copy_ends(std::vector<int>& ends) const {
+  ends.clear();
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges[e].to == edges[first].from) {
+      first = e + 1;
+      ends.push_back(static_cast<int>(first));
+    }
+}
+
 bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {
   edges.clear();
   exits_.clear();

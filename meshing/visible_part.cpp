@@ -94,11 +94,11 @@ void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int receiver
     eye = point + size * (1 + attempt) * (attempt % 2 == 0 ? 1 : -1) * nudge_direction;
   }
   m.fill_unobstructed(part);
-  if (m.arrangement.fully_lit) {
+  if (m.arrangement.fully_lit || m.chains.fill(m.outline, m.view)) {
     part.region = Region::lit;
     part.signature = lit_signature;
     part.pieces = part.unobstructed;
-    m.chains.copy_ends(part);
+    m.outline.copy_ends(part.chain_ends);
   } else if (m.chains.pieces.empty()) {
     part.region = Region::umbra;
     part.signature = umbra_signature;

@@ -1,5 +1,7 @@
 #include "meshing/boundary_chains.h"
 
+#include "meshing/mix_bits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,20 +16,13 @@ constexpr double widest_gap = 1e5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::uint64_t mix(std::uint64_t x) {  // a bijection that spreads every bit (splitmix64)
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
 /// Adds a straight piece of boundary to an extent.
 void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to) {
-  const Vec3 a = from - view.eye(), b = to - view.eye(), normal = a.cross(to - from);
+  const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
   const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
   if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
   extent.rounding +=
-      angle * thinnest * view.slack() / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
+      angle * thinnest * view.blur() / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
 }
 
 }  // namespace
@@ -58,11 +53,11 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
   const auto& all = arrangement.pieces;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (next_[i] >= 0) continue;
-    const Vec3 end = all[i].to - view.eye();
+    const Vec3 end = all[i].to - view.point();
     double best = HUGE_VAL;
     for (std::size_t j = 0; j < all.size(); ++j) {
       if (is_taken_[j] != 0) continue;
-      const Vec3 start = all[j].from - view.eye();
+      const Vec3 start = all[j].from - view.point();
       const double gap =
           (start.normalized() - end.normalized()).norm() * std::min(start.norm(), end.norm());
       if (gap < best) {
@@ -115,7 +110,7 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
       const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
       const auto from = static_cast<std::uint32_t>(pieces[i].edge);
       const auto to = static_cast<std::uint32_t>(next.edge);
-      signature += mix(mix(mix(from) + to) + kind);
+      signature += mix_bits(mix_bits(mix_bits(from) + to) + kind);
     }
     first = at(end);
   }
@@ -124,7 +119,8 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
 bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) const {
   Extent whole;
   for (const OutlineEdge& edge : outline.edges)
-    add(whole, view, view.corners[at(edge.from)].position, view.corners[at(edge.to)].position);
+    add(whole, view, view.corners[at(edge.from)].true_position,
+        view.corners[at(edge.to)].true_position);
   return (whole.flux - total_.flux).norm() <= whole.rounding + total_.rounding;
 }
 

@@ -84,7 +84,7 @@ void ShadowArrangement::place_crossing(Crossing& crossing) const {
   }
   if (is_clear) return;
   // Nearly one line: the middle of the common part will do where rounding hides the crossing.
-  const double noise = 16 * view_->slack() * normal[1].norm();
+  const double noise = 0.5 * view_->slack() * normal[1].norm();
   double t = 0;
   if (std::abs(first[0]) <= noise && std::abs(first[0] - drop[0]) <= noise) {
     const double from = along_segment(start[0], along[0], normal[0], start[1]);

@@ -1,30 +1,28 @@
 #include "meshing/boundary_chains.h"
 
+#include "meshing/mix_bits.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
 
-// Parts thinner than this many roundings of a distance are no parts: where occluders abut or touch
-// the line of sight, rounding decides whether there is a gap.
-constexpr double thinnest = 4;
+// Parts thinner than this many of the view's slacks, eight roundings of a length, are no parts:
+// where occluders abut or touch the outline, rounding decides whether there is a gap.
+constexpr double thinnest = 0.25;
 // Ends of pieces that rounding kept from meeting lie within this many roundings.
 constexpr double widest_gap = 1e5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-std::uint64_t mix(std::uint64_t x) {  // a bijection that spreads every bit (splitmix64)
-  x += 0x9e3779b97f4a7c15;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
-  return x ^ (x >> 31);
-}
-
-/// Where a point appears on the emitter's plane, relative to the eye.
-Vec3 image(const PointView& view, const Vec3& eye, const Vec3& p) {
-  const Vec3 direction = p - eye;
-  return view.distance() / -view.emitter().normal.dot(direction) * direction;
+/// Adds a straight piece of boundary to an extent.
+void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to) {
+  const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
+  const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
+  if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
+  extent.rounding +=
+      angle * thinnest * view.blur() / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
 }
 
 }  // namespace
@@ -53,14 +51,15 @@ void BoundaryChains::join_places(const ShadowArrangement& arrangement) {
 /// Where three edges all but meet in a point, a piece shorter than rounding may be missing.
 void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const PointView& view) {
   const auto& all = arrangement.pieces;
-  const Vec3 eye = view.eye();
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (next_[i] >= 0) continue;
-    const Vec3 end = image(view, eye, all[i].to);
+    const Vec3 end = all[i].to - view.point();
     double best = HUGE_VAL;
     for (std::size_t j = 0; j < all.size(); ++j) {
       if (is_taken_[j] != 0) continue;
-      const double gap = (image(view, eye, all[j].from) - end).norm();
+      const Vec3 start = all[j].from - view.point();
+      const double gap =
+          (start.normalized() - end.normalized()).norm() * std::min(start.norm(), end.norm());
       if (gap < best) {
         best = gap;
         next_[i] = static_cast<int>(j);
@@ -75,32 +74,29 @@ void BoundaryChains::add_chain(const ShadowArrangement& arrangement, const Point
                                int first) {
   const auto& all = arrangement.pieces;
   const std::size_t begin = pieces.size();
-  const Vec3 eye = view.eye(), origin = image(view, eye, all[at(first)].from);
-  Vec3 area = Vec3::Zero();
-  double length = 0, reach = 0;
+  Extent chain;
   int i = first;
   do {
     pieces.push_back(all[at(i)]);
-    const Vec3 a = image(view, eye, all[at(i)].from), b = image(view, eye, all[at(i)].to);
-    area += 0.5 * (a - origin).cross(b - origin);
-    length += (b - a).norm();
-    reach = std::max(reach, a.norm());
+    add(chain, view, all[at(i)].from, all[at(i)].to);
     const int next = next_[at(i)];
     next_[at(i)] = -1;
     i = next;
   } while (i != first);
-  // Rounding of a distance, as it appears from the point on the emitter's plane.
-  const double rounding = view.slack() * std::max(1., reach / view.distance());
-  if (area.norm() <= thinnest * rounding * length)
+  if (chain.flux.norm() <= chain.rounding) {
     pieces.resize(begin);
-  else
-    ends.push_back(static_cast<int>(pieces.size()));
+    return;
+  }
+  total_.flux += chain.flux;
+  total_.rounding += chain.rounding;
+  ends.push_back(static_cast<int>(pieces.size()));
 }
 
 void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView& view) {
   pieces.clear();
   ends.clear();
   signature = 0;
+  total_ = {};
   closed = true;
   join_places(arrangement);
   join_leftovers(arrangement, view);
@@ -114,16 +110,24 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
       const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
       const auto from = static_cast<std::uint32_t>(pieces[i].edge);
       const auto to = static_cast<std::uint32_t>(next.edge);
-      signature += mix(mix(mix(from) + to) + kind);
+      signature += mix_bits(mix_bits(mix_bits(from) + to) + kind);
     }
     first = at(end);
   }
 }
 
+bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) const {
+  Extent whole;
+  for (const OutlineEdge& edge : outline.edges)
+    add(whole, view, view.corners[at(edge.from)].true_position,
+        view.corners[at(edge.to)].true_position);
+  return (whole.flux - total_.flux).norm() <= whole.rounding + total_.rounding;
+}
+
 void BoundaryChains::copy(VisiblePart& part) const {
   for (const ArrangedPiece& piece : pieces)
     part.pieces.push_back({piece.from, piece.to, piece.edge});
-  copy_ends(part);
+  part.chain_ends.assign(ends.begin(), ends.end());
 }
 
 }  // namespace halfshade

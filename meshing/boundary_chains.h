@@ -6,6 +6,12 @@
 
 namespace halfshade {
 
+/// The size of a set of directions, from its boundary.
+struct Extent {
+  Vec3 flux = Vec3::Zero();  ///< the integral of the unit directions (Lambert)
+  double rounding = 0;       ///< about the size of a set as long but only as wide as rounding
+};
+
 /// Joins the pieces of an arrangement into closed chains. Keeps its buffers.
 class BoundaryChains {
  public:
@@ -16,14 +22,17 @@ class BoundaryChains {
 
   void link(const ShadowArrangement& arrangement, const PointView& view);
 
+  /// What lies outside the chains is no wider than rounding.
+  bool fill(const EmitterOutline& outline, const PointView& view) const;
+
   void copy(VisiblePart& part) const;
-  void copy_ends(VisiblePart& part) const { part.chain_ends.assign(ends.begin(), ends.end()); }
 
  private:
   void join_places(const ShadowArrangement& arrangement);
   void join_leftovers(const ShadowArrangement& arrangement, const PointView& view);
   void add_chain(const ShadowArrangement& arrangement, const PointView& view, int first);
 
+  Extent total_;               // of all chains
   std::vector<int> starts_;    // place → a piece that starts there
   std::vector<int> siblings_;  // piece → another that starts where it does
   std::vector<int> next_;      // piece → the piece that follows it

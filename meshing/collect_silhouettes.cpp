@@ -120,7 +120,7 @@ bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
   // Boxes need not be tight; these margins are far above rounding.
-  const double margin = 1e-9 * (pyramid.high - pyramid.low).maxCoeff() + 1e5 * view_->slack();
+  const double margin = 1e-9 * (pyramid.high - pyramid.low).maxCoeff() + 1e5 * view_->blur();
   if (a.is_ahead && b.is_ahead) {
     arc.low = a.image.cwiseMin(b.image).array() - margin;
     arc.high = a.image.cwiseMax(b.image).array() + margin;

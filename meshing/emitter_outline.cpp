@@ -15,7 +15,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 }  // namespace
 
 double EmitterOutline::height(const PointView& view, int corner) const {
-  const double h = normal_.dot(view.corners[at(corner)].position - point_);
+  const double h = normal_.dot(view.corners[at(corner)].true_position - point_);
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 
@@ -30,7 +30,7 @@ int EmitterOutline::cross_horizon(PointView& view, int from, int to) {
   const double a = height(view, from), b = height(view, to);
   if (a == 0) return from;
   if (b == 0) return to;
-  const Vec3 p = view.corners[at(from)].position, q = view.corners[at(to)].position;
+  const Vec3 p = view.corners[at(from)].true_position, q = view.corners[at(to)].true_position;
   const auto count = static_cast<std::int64_t>(exits_.size() + entries_.size());
   return view.add_corner(p + a / (a - b) * (q - p), view.first_free_rank() + count);
 }
@@ -48,7 +48,7 @@ void EmitterOutline::cut_ring(PointView& view,
     }
     if (from < 0 && to < 0) continue;
     const int c = cross_horizon(view, a, b);
-    const double along = horizon_.dot(view.corners[at(c)].position - point_);
+    const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
     if (from >= 0) {
       add_edge(view, a, c, -1 - ring[k].edge);
       exits_.push_back({along, c});
@@ -95,7 +95,7 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   pyramid.eye = point_;
   pyramid.normal = frame.normal;
   pyramid.plane_point = frame.origin;
-  pyramid.slack = 8 * view.slack();
+  pyramid.slack = 8 * view.blur();
   pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
   for (const OutlineEdge& edge : edges) {
     pyramid.low = pyramid.low.cwiseMin(view.corners[at(edge.from)].image);
@@ -114,6 +114,16 @@ void EmitterOutline::make_pyramid(const PointView& view) {
         (out.x() * frame.e1 + out.y() * frame.e2 + limit / view.distance() * frame.normal)
             .normalized());
   }
+}
+
+void EmitterOutline::copy_ends(std::vector<int>& ends) const {
+  ends.clear();
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges[e].to == edges[first].from) {
+      first = e + 1;
+      ends.push_back(static_cast<int>(first));
+    }
 }
 
 bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {

@@ -22,6 +22,9 @@ class EmitterOutline {
   /// False if nothing of the emitter lies above the horizon.
   bool make(PointView& view, const Vec3& point, const Vec3& normal, int emitter);
 
+  /// For each chain, where the next one starts.
+  void copy_ends(std::vector<int>& ends) const;
+
  private:
   struct Crossing {
     double along;

@@ -1,6 +1,9 @@
 #include "meshing/point_view.h"
 
+#include "meshing/mix_bits.h"
+
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +22,17 @@ constexpr double same_normal = 1 - 1e-6;
 constexpr double nearest_image = 1e-4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// A vector in [−length, length)³ that looks random.
+Vec3 scatter(std::int64_t rank, double length) {
+  Vec3 v;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t x = 3 * static_cast<std::uint64_t>(rank) + static_cast<std::uint64_t>(axis);
+    x = mix_bits(mix_bits(x) + std::bit_cast<std::uint64_t>(length));
+    v[axis] = length * (static_cast<double>(x >> 11) * 0x1p-52 - 1);
+  }
+  return v;
+}
 
 double reach(const Bounds& box, const Vec3& normal) {
   return 0.5 * normal.cwiseAbs().dot(box.high - box.low);
@@ -57,7 +71,7 @@ PointView::PointView(const Impl& scene)
       signs_(scene.triangles.size()),
       edge_on_(scene.surfaces.size()) {}
 
-void PointView::start(const Vec3& point, const Vec3& eye, const Vec3& normal, int emitter) {
+void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
   if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
     for (auto* marks : {&vertices_, &cuts_, &signs_, &edge_on_})
       std::fill(marks->begin(), marks->end(), Kept{});
@@ -65,10 +79,10 @@ void PointView::start(const Vec3& point, const Vec3& eye, const Vec3& normal, in
   }
   corners.clear();
   point_ = point;
-  eye_ = eye;
+  jitter_ = jitter;
   normal_ = normal;
   emitter_ = &scene_.surfaces[at(emitter)].frame;
-  distance_ = emitter_->height(eye);
+  distance_ = emitter_->height(point);
   slack_ = rounding * std::max(scene_.magnitude, point.lpNorm<Eigen::Infinity>());
 }
 
@@ -78,8 +92,9 @@ std::int64_t PointView::first_free_rank() const {
 
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   Corner corner;
-  corner.position = position;
-  corner.direction = position - eye_;
+  corner.true_position = corner.position = position;
+  if (jitter_ > 0) corner.position += scatter(rank, jitter_);
+  corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);
   if (corner.height <= slack_) corner.place = corner.height < -slack_ ? Place::beyond : Place::on;
@@ -105,7 +120,8 @@ int PointView::corner_of_cut(int edge) {
     int to = corner_of_vertex(scene_.edges[at(edge)].to);
     if (corners[at(from)].place == Place::beyond) std::swap(from, to);
     const Corner &a = corners[at(from)], &b = corners[at(to)];
-    const Vec3 position = a.position + a.height / (a.height - b.height) * (b.position - a.position);
+    const Vec3 position =
+        a.true_position + a.height / (a.height - b.height) * (b.true_position - a.true_position);
     const auto rank = static_cast<std::int64_t>(scene_.vertices.size()) + edge;
     kept = {query_, add_corner(position, rank)};
     corners.back().is_cut = true;
@@ -115,7 +131,7 @@ int PointView::corner_of_cut(int edge) {
 }
 
 int PointView::turn(int a, int b, int c) const {
-  return halfshade::turn(eye_, corners[at(a)], corners[at(b)], corners[at(c)]);
+  return halfshade::turn(point_, corners[at(a)], corners[at(b)], corners[at(c)]);
 }
 
 bool PointView::is_edge_on(int receiver) {
@@ -210,7 +226,7 @@ int PointView::cover(const Germ& germ) {
   const Corner& target = corners[at(germ.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
-  const Vec3 margin = Vec3::Constant(slack_ * last);
+  const Vec3 margin = Vec3::Constant(blur() * last);
   const Vec3 inverse =
       target.direction.unaryExpr([](double d) { return 1 / (std::abs(d) > 1e-300 ? d : 1e-300); });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
@@ -218,8 +234,8 @@ int PointView::cover(const Germ& germ) {
   while (depth > 0) {
     const int index = stack[--depth];
     const FlatTree::Node& node = tree.nodes[at(index)];
-    const Vec3 low = (node.box.low - margin - eye_).cwiseProduct(inverse);
-    const Vec3 high = (node.box.high + margin - eye_).cwiseProduct(inverse);
+    const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
+    const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
     const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding));
     if (enter > leave) continue;

@@ -11,8 +11,9 @@ namespace halfshade {
 /// Where a point lies with respect to the emitter's plane.
 enum class Place : std::int8_t { before = -1, on = 0, beyond = 1 };
 
-/// A vertex as seen from the point.
+/// A vertex as seen from the point. `position` is what decides, see PointView::start.
 struct Corner : SeenPoint {
+  Vec3 true_position = Vec3::Zero();
   double height = 0;  ///< above the emitter's plane; positive on the point's side
   Place place = Place::before;
   bool is_cut = false;        ///< where an edge pierces the emitter's plane
@@ -48,14 +49,16 @@ class PointView {
  public:
   explicit PointView(const OpaqueScene::Impl& scene);
 
-  /// `eye` is the point, or so little off it that no distance changes by more than rounding.
-  void start(const Vec3& point, const Vec3& eye, const Vec3& normal, int emitter);
+  /// With a positive `jitter` (a length), every corner decides as if it lay up to that far from
+  /// its true position, in a direction that depends on its rank.
+  void start(const Vec3& point, const Vec3& normal, int emitter, double jitter = 0);
 
   const OpaqueScene::Impl& scene() const { return scene_; }
   const PlaneFrame& emitter() const { return *emitter_; }
-  double distance() const { return distance_; }  ///< of the eye from the emitter's plane
+  double distance() const { return distance_; }  ///< of the point from the emitter's plane
   double slack() const { return slack_; }        ///< rounding of a distance
-  const Vec3& eye() const { return eye_; }
+  double blur() const { return slack_ + jitter_; }
+  const Vec3& point() const { return point_; }
 
   std::vector<Corner> corners;
   int corner_of_vertex(int vertex);
@@ -90,9 +93,9 @@ class PointView {
   const OpaqueScene::Impl& scene_;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
   std::uint32_t query_ = 0;
-  Vec3 point_, eye_, normal_;
+  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;
-  double distance_ = 0, slack_ = 0;
+  double distance_ = 0, slack_ = 0, jitter_ = 0;
 };
 
 }  // namespace halfshade

@@ -46,8 +46,8 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
 }
 
 Vec3 ShadowArrangement::position(const Arc& arc, double along) const {
-  const Vec3 &from = view_->corners[at(arc.from)].position,
-             &to = view_->corners[at(arc.to)].position;
+  const Vec3 &from = view_->corners[at(arc.from)].true_position,
+             &to = view_->corners[at(arc.to)].true_position;
   return along <= 0 ? from : along >= 1 ? to : from + along * (to - from);
 }
 

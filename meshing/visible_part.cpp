@@ -17,11 +17,11 @@ constexpr std::uint64_t lit_signature = 0x9d5c31a4e8f07b63;
 constexpr std::uint64_t umbra_signature = 0x3fb86a2c90d7154e;
 constexpr std::uint64_t away_signature = 0x71e40b9d256c8fa3;
 
-// Where rounding gives contradictory answers, the point is moved by about this much, relative to
-// the largest coordinate: a few roundings, in a direction that no scene has a reason to contain.
-constexpr double nudge = 0x1p-47;
-constexpr int most_nudges = 4;
-const Vec3 nudge_direction(0.5713, -0.3347, 0.7493);
+// Where rounding gives contradictory answers about edges that meet in a point, the vertices are
+// scattered by this much, relative to the largest coordinate: far enough to part the edges, and
+// little enough for the result to stay right to 1e-13. Four times as far at each further attempt.
+constexpr double least_jitter = 0x1p-46;
+constexpr int most_attempts = 6;
 
 void check(const OpaqueScene::Impl& scene, const Vec3& point, const Vec3& normal, int receiver) {
   if (receiver < 0 || static_cast<std::size_t>(receiver) >= scene.surfaces.size())
@@ -53,13 +53,13 @@ struct VisiblePartFinder::Impl {
   BoundaryChains chains;
 
   /// False if nothing of the emitter is in front and above the horizon.
-  bool try_from(const Vec3& point, const Vec3& eye, const Vec3& normal, int receiver);
+  bool try_with(double jitter, const Vec3& point, const Vec3& normal, int receiver);
   void fill_unobstructed(VisiblePart& part) const;
 };
 
-bool VisiblePartFinder::Impl::try_from(const Vec3& point, const Vec3& eye, const Vec3& normal,
+bool VisiblePartFinder::Impl::try_with(double jitter, const Vec3& point, const Vec3& normal,
                                        int receiver) {
-  view.start(point, eye, normal, receiver);
+  view.start(point, normal, receiver, jitter);
   if (!(view.distance() > view.slack()) || !outline.make(view, point, normal, receiver))
     return false;
   arrangement.build(view, outline);
@@ -69,8 +69,8 @@ bool VisiblePartFinder::Impl::try_from(const Vec3& point, const Vec3& eye, const
 
 void VisiblePartFinder::Impl::fill_unobstructed(VisiblePart& part) const {
   for (const OutlineEdge& edge : outline.edges)
-    part.unobstructed.push_back({view.corners[static_cast<std::size_t>(edge.from)].position,
-                                 view.corners[static_cast<std::size_t>(edge.to)].position,
+    part.unobstructed.push_back({view.corners[static_cast<std::size_t>(edge.from)].true_position,
+                                 view.corners[static_cast<std::size_t>(edge.to)].true_position,
                                  edge.edge});
 }
 
@@ -86,19 +86,19 @@ void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int receiver
   Impl& m = *impl_;
   check(m.view.scene(), point, normal, receiver);
   clear(part);
-  Vec3 eye = point;
-  for (int attempt = 0;; ++attempt) {
-    if (!m.try_from(point, eye, normal, receiver)) return;
-    if ((m.arrangement.is_consistent && m.chains.closed) || attempt == most_nudges) break;
-    const double size = std::max(m.view.scene().magnitude, point.lpNorm<Eigen::Infinity>()) * nudge;
-    eye = point + size * (1 + attempt) * (attempt % 2 == 0 ? 1 : -1) * nudge_direction;
+  const double size = std::max(m.view.scene().magnitude, point.lpNorm<Eigen::Infinity>());
+  double jitter = 0;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    if (!m.try_with(jitter * size, point, normal, receiver)) return;
+    if (m.arrangement.is_consistent && m.chains.closed) break;
+    jitter = std::max(4 * jitter, least_jitter);
   }
   m.fill_unobstructed(part);
-  if (m.arrangement.fully_lit) {
+  if (m.arrangement.fully_lit || m.chains.fill(m.outline, m.view)) {
     part.region = Region::lit;
     part.signature = lit_signature;
     part.pieces = part.unobstructed;
-    m.chains.copy_ends(part);
+    m.outline.copy_ends(part.chain_ends);
   } else if (m.chains.pieces.empty()) {
     part.region = Region::umbra;
     part.signature = umbra_signature;

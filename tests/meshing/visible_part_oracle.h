@@ -2,6 +2,7 @@
 
 #include "meshing/visible_part.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -10,6 +11,16 @@
 
 /// Independent ways to find what is visible of an emitter.
 namespace halfshade::test {
+
+/// The visible part, from scratch.
+inline VisiblePart find_visible(const SoundScene& scene, const Vec3& point,
+                                const Vec3& normal = Vec3::UnitZ(), int emitter = 0) {
+  const OpaqueScene opaque(scene);
+  VisiblePartFinder finder(opaque);
+  VisiblePart part;
+  finder.find(point, normal, emitter, part);
+  return part;
+}
 
 using LongVec = Eigen::Matrix<long double, 3, 1>;
 using LongVec2 = Eigen::Matrix<long double, 2, 1>;
@@ -23,8 +34,7 @@ inline double lambert(std::span<const BoundaryPiece> pieces, const Vec3& point,
     const LongVec b = piece.to.cast<long double>() - point.cast<long double>();
     const LongVec cross = a.cross(b);
     const long double sine = cross.norm();
-    if (sine > 0)
-      sum += std::atan2(sine, a.dot(b)) / sine * normal.cast<long double>().dot(cross);
+    if (sine > 0) sum += std::atan2(sine, a.dot(b)) / sine * normal.cast<long double>().dot(cross);
   }
   return static_cast<double>(-sum / (2 * std::numbers::pi_v<long double>));
 }
@@ -40,8 +50,7 @@ long double depth_inside(const Polygons& rings, const LongVec2& p) {
       const LongVec2 a = ring[k].template cast<long double>();
       const LongVec2 b = ring[(k + 1) % ring.size()].template cast<long double>(), along = b - a;
       const long double length2 = along.squaredNorm();
-      const long double t =
-          length2 > 0 ? std::clamp(along.dot(p - a) / length2, 0.L, 1.L) : 0.L;
+      const long double t = length2 > 0 ? std::clamp(along.dot(p - a) / length2, 0.L, 1.L) : 0.L;
       nearest = std::min(nearest, (p - a - t * along).norm());
       if ((a.y() > p.y()) != (b.y() > p.y()) &&
           p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * along.x())
@@ -72,8 +81,8 @@ inline long double hidden_depth(const SoundScene& scene, int emitter, const Vec3
   long double deepest = -HUGE_VALL;
   for (std::size_t r = 0; r < scene.receivers.size(); ++r)
     if (static_cast<int>(r) != emitter)
-      deepest = std::max(deepest, blocking_depth(scene.receivers[r], point.cast<long double>(),
-                                                 target));
+      deepest =
+          std::max(deepest, blocking_depth(scene.receivers[r], point.cast<long double>(), target));
   return deepest;
 }
 
@@ -109,6 +118,63 @@ inline int wrong_samples(const SoundScene& scene, int emitter, const Vec3& point
       if ((on_light > 0 && above > 0 && hidden < 0) != (seen > 0)) ++wrong;
     }
   return wrong;
+}
+
+/// Sutherland and Hodgman's clip of a convex polygon to (p − on)·inwards ≥ 0.
+inline std::vector<LongVec> clip(const std::vector<LongVec>& polygon, const LongVec& on,
+                                 const LongVec& inwards) {
+  std::vector<LongVec> kept;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const LongVec &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
+    const long double u = inwards.dot(a - on), v = inwards.dot(b - on);
+    if (u >= 0) kept.push_back(a);
+    if ((u > 0 && v < 0) || (u < 0 && v > 0)) kept.push_back(a + u / (u - v) * (b - a));
+  }
+  return kept;
+}
+
+inline long double lambert(const std::vector<LongVec>& polygon, const LongVec& point,
+                           const LongVec& normal) {
+  long double sum = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const LongVec a = polygon[k] - point, b = polygon[(k + 1) % polygon.size()] - point;
+    const LongVec cross = a.cross(b);
+    if (const long double sine = cross.norm(); sine > 0)
+      sum += std::atan2(sine, a.dot(b)) / sine * normal.dot(cross);
+  }
+  return -sum / (2 * std::numbers::pi_v<long double>);
+}
+
+/// Form factor to the visible part of a convex emitter behind convex polygons that lie between it
+/// and the point, by inclusion and exclusion, in extended precision.
+inline long double visible_factor(const std::vector<Vec3>& emitter,
+                                  std::span<const std::vector<Vec3>> occluders, const Vec3& point,
+                                  const Vec3& normal) {
+  const LongVec x = point.cast<long double>(), n = normal.cast<long double>();
+  std::vector<LongVec> above;
+  for (const Vec3& p : emitter) above.push_back(p.cast<long double>());
+  above = clip(above, x, n);
+  long double sum = 0;
+  for (unsigned subset = 0; subset < 1u << occluders.size(); ++subset) {
+    std::vector<LongVec> common = above;
+    int sign = 1;
+    for (std::size_t o = 0; o < occluders.size(); ++o) {
+      if ((subset >> o & 1) == 0) continue;
+      sign = -sign;
+      const auto& polygon = occluders[o];
+      LongVec middle = LongVec::Zero();
+      for (const Vec3& p : polygon)
+        middle += (p.cast<long double>() - x) / static_cast<long double>(polygon.size());
+      for (std::size_t k = 0; k < polygon.size(); ++k) {
+        const LongVec a = polygon[k].cast<long double>() - x;
+        const LongVec b = polygon[(k + 1) % polygon.size()].cast<long double>() - x;
+        const LongVec side = a.cross(b);
+        common = clip(common, x, side.dot(middle) > 0 ? side : LongVec(-side));
+      }
+    }
+    sum += sign * lambert(common, x, n);
+  }
+  return sum;
 }
 
 }  // namespace halfshade::test

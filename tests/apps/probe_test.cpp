@@ -17,9 +17,10 @@ const fs::path data = HALFSHADE_DATA;
 
 class Probe : public testing::Test {
  protected:
-  test::Outcome probe(std::vector<std::string> arguments) {
+  test::Outcome probe(std::vector<std::string> arguments,
+                      std::chrono::milliseconds interrupt_after = {}) {
     arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "probe"});
-    return test::run_program(std::move(arguments), folder_.path());
+    return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
   }
   void write(const std::string& name, const std::string& text) {
     std::ofstream(folder_.path() / name) << text;
@@ -122,6 +123,18 @@ TEST_F(Probe, ThreadsDoNotChangeTheBytes) {
     return file("o.csv");
   };
   EXPECT_EQ(bytes("1"), bytes("2"));
+}
+
+TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
+  const test::Outcome outcome =
+      probe({(data / "hundred_lights.obj").string(), "--grid", "floor", "--spacing", "0.02", "-o",
+             "o.csv", "--direct", "--json", "r.json"},
+            std::chrono::milliseconds(1500));
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
+  const auto report = nlohmann::json::parse(file("r.json"));
+  EXPECT_EQ(report.at("interrupted"), true);
+  EXPECT_EQ(report.at("points_done"), numbers("o.csv").size());
 }
 
 TEST_F(Probe, ExamplesOfTheHelpRun) {

@@ -191,6 +191,24 @@ double largest_change(double size, Move move, Turn turn) {
   return largest;
 }
 
+TEST(DirectLight, PointsOnASlantedSurfaceAreNotShadedByIt) {
+  // Rounding puts the points a hair in front of the floor or behind it.
+  Random random(8);
+  for (int scene = 0; scene < 10; ++scene) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(random(0, 6), random.direction()));
+    const Vec3 shift = random.in_box(Vec3::Constant(-10), Vec3::Constant(10));
+    const auto move = [&](const Vec3& p) -> Vec3 { return turn * p + shift; };
+    const SoundScene turned = moved(test::s1(), 10, move);
+    const DirectLightIndex index(turned);
+    for (int k = 0; k < 200; ++k) {
+      const double x = random(-1.9, 1.8), y = random(-1.9, 1.8);
+      const PointFactor factor =
+          index.factor({move({x, y, 0}), turned.receivers[2].frame.normal}, 0);
+      EXPECT_NEAR(factor.visible, s1_form_factor(x, y), 1e-14) << x << " " << y;
+    }
+  }
+}
+
 // The bounds: coordinates rounded relatively by ε = 1.1e-16 of the largest move the projection of
 // an occluder's edge by that times the ratio of distances (here at most 5), and the light changes
 // in proportion to the length of the edges (a few hundred times less than 1e4).

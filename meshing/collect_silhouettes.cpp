@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 // The first step of the arrangement: which edges are silhouettes seen from the point.
 
@@ -92,6 +93,7 @@ void ShadowArrangement::collect_cuts() {
     const Bounds& box = scene.faces.nodes[at(index)].box;
     return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
   };
+  const std::size_t first = arcs_.size();
   walk_tree(scene.faces, skip, [&](int triangle) {
     const int sign = view_->face_sign(triangle);
     if (sign == 0) return;
@@ -105,6 +107,32 @@ void ShadowArrangement::collect_cuts() {
       sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
     }
   });
+  join_repeated(first);
+}
+
+/// Faces that overlap in one plane may share two edges, and then their cuts are one. Edges of the
+/// scene are never repeated, but may lie in the emitter's plane, too.
+void ShadowArrangement::join_repeated(std::size_t first_cut) {
+  if (first_cut == arcs_.size()) return;
+  const auto ends = [](const Arc& arc) {
+    return std::pair(std::min(arc.from, arc.to), std::max(arc.from, arc.to));
+  };
+  const auto silhouettes = arcs_.begin() + static_cast<std::ptrdiff_t>(outline_->edges.size());
+  std::sort(silhouettes, arcs_.end(), [&](const Arc& a, const Arc& b) {
+    return std::pair(ends(a), a.edge) < std::pair(ends(b), b.edge);
+  });
+  auto kept = silhouettes;
+  for (auto arc = silhouettes; arc != arcs_.end();) {
+    Arc sum = *arc;
+    for (++arc; arc != arcs_.end() && ends(*arc) == ends(sum); ++arc)
+      sum.weight += arc->from == sum.from ? arc->weight : -arc->weight;
+    if (sum.weight < 0) {
+      std::swap(sum.from, sum.to);
+      sum.weight = -sum.weight;
+    }
+    if (sum.weight != 0) *kept++ = sum;
+  }
+  arcs_.erase(kept, arcs_.end());
 }
 
 void ShadowArrangement::add_arc(int from, int to, int weight, int edge) {

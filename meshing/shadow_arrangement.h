@@ -50,8 +50,8 @@ class ShadowArrangement {
   };
 
   void collect_silhouettes();
-  void collect_closed_edges();
   void collect_cuts();
+  void join_repeated(std::size_t first_cut);
   void consider_edge(int edge);
   void add_arc(int from, int to, int weight, int edge);
   bool set_box(Arc& arc) const;

@@ -56,8 +56,20 @@ struct RenderCommand {
   PictureOptions options;
 };
 
+struct ProbeCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  std::filesystem::path points;  ///< empty: a grid
+  std::string group;             ///< whose receivers carry the grid
+  double spacing = 0;            ///< of the grid, in scene units
+  std::filesystem::path output;
+  bool direct_only = false;  ///< no interreflection
+  SolveOptions options;      ///< of the solution that interreflection is gathered from
+};
+
 /// Each does its job and returns an exit code; errors are thrown as Error.
 int run(const SolveCommand& command, const Context& context);
 int run(const RenderCommand& command, const Context& context);
+int run(const ProbeCommand& command, const Context& context);
 
 }  // namespace halfshade

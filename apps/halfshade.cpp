@@ -141,6 +141,50 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
       std::string(exit_code_help));
 }
 
+void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) {
+  CLI::App* app = program.add_subcommand(
+      "probe", "Compute the irradiance at given points, with exact direct light");
+  app->add_option("scene", command.scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, …")
+      ->required()
+      ->type_name("SCENE");
+  CLI::Option* points =
+      app->add_option("--points", command.points,
+                      "Table with columns x, y, z, nx, ny, nz; others are kept as they are")
+          ->type_name("FILE");
+  CLI::Option* grid = app->add_option("--grid", command.group,
+                                      "Points in a square grid on the front of this group instead")
+                          ->type_name("GROUP");
+  CLI::Option* spacing =
+      app->add_option("--spacing", command.spacing, "Spacing of the grid in scene units")
+          ->check(CLI::PositiveNumber);
+  grid->needs(spacing)->excludes(points);
+  spacing->needs(grid);
+  app->add_option("-o,--output", command.output,
+                  "Result: .csv (the same rows with H_r,H_g,H_b,visible) or .vtp")
+      ->required()
+      ->type_name("FILE");
+  app->add_flag("--direct", command.direct_only,
+                "Only light straight from the emitters; else interreflection is gathered from a\n"
+                "solution by closed-form factors, with visibility by rays");
+  app->add_option("--elements", command.options.elements,
+                  "About how many elements to solve with, without --direct")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 1000000));
+  app->add_option("--materials", command.materials, "Materials file, as for solve")
+      ->type_name("FILE");
+  add_common(*app, common);
+  app->footer(
+      "Examples:\n"
+      "  halfshade probe data/s1.obj --points data/s1_points.csv -o s1.csv --direct\n"
+      "  halfshade probe data/bars.obj --grid floor --spacing 0.05 -o bars.vtp --direct\n"
+      "  halfshade probe data/cornell_box.obj --grid floor --spacing 40 -o cornell.csv --elements "
+      "1000\n\n" +
+      std::string(exit_code_help));
+  app->callback([points, grid] {
+    if (points->count() + grid->count() == 0) throw CLI::RequiredError("--points or --grid");
+  });
+}
+
 std::string joined(int argc, char** argv) {
   std::string line;
   for (int k = 0; k < argc; ++k) line += (k ? " " : "") + std::string(argv[k]);
@@ -156,8 +200,10 @@ int run_program(int argc, char** argv) {
   Context context;
   SolveCommand solve_command;
   RenderCommand render_command;
+  ProbeCommand probe_command;
   add_solve(program, solve_command, context.common);
   add_render(program, render_command, context.common);
+  add_probe(program, probe_command, context.common);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -177,8 +223,9 @@ int run_program(int argc, char** argv) {
                         bar.update(stage, fraction);
                       }};
   context.progress_ends = [&bar] { bar.clear(); };
-  return program.got_subcommand("solve") ? run(solve_command, context)
-                                         : run(render_command, context);
+  if (program.got_subcommand("solve")) return run(solve_command, context);
+  if (program.got_subcommand("probe")) return run(probe_command, context);
+  return run(render_command, context);
 }
 
 }  // namespace

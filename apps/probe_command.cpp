@@ -1,0 +1,134 @@
+#include "apps/commands.h"
+#include "io/atomic_file.h"
+#include "io/read_points.h"
+#include "io/read_scene.h"
+#include "io/write_points.h"
+#include "meshing/core/error.h"
+#include "solver/gather.h"
+#include "solver/surface_grid.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+namespace halfshade {
+namespace {
+
+/// Points computed at a time: what is lost of finished work when the user interrupts.
+constexpr std::size_t block = 4096;
+
+void check_output(const std::filesystem::path& path) {
+  if (!is_points_path(path))
+    throw Error(
+        ErrorCode::usage, path.string(),
+        fmt::format("the extension '{}' is none of .csv and .vtp", path.extension().string()));
+  const auto folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw Error(ErrorCode::unwritable, path.string(),
+                fmt::format("the folder '{}' does not exist", folder.string()));
+}
+
+/// The same progress as a part of a larger whole that begins at `done` and takes `share` of it.
+Progress part_of(const Progress& progress, double done, double share) {
+  return {progress.stop, [&progress, done, share](std::string_view stage, double fraction) {
+            progress(stage, done + share * fraction);
+          }};
+}
+
+/// Calls `compute` for block after block of points until all are done or the user stops; returns
+/// how many are done.
+template <class Compute>
+std::size_t in_blocks(std::span<const SurfacePoint> points, const Progress& progress,
+                      Compute compute) {
+  const auto count = static_cast<double>(points.size());
+  for (std::size_t done = 0; done < points.size(); done += block) {
+    const auto some = points.subspan(done, std::min(block, points.size() - done));
+    compute(done, some,
+            part_of(progress, static_cast<double>(done) / count,
+                    static_cast<double>(some.size()) / count));
+    if (progress.stopped()) return done;
+  }
+  return points.size();
+}
+
+/// Exact direct light at the points that were reached before the user stopped.
+std::vector<DirectLight> direct_light(const SoundScene& scene, std::span<const SurfacePoint> points,
+                                      const Progress& progress) {
+  const DirectLightIndex index(scene);
+  std::vector<DirectLight> light;
+  light.reserve(points.size());
+  const std::size_t done = in_blocks(
+      points, progress, [&](std::size_t, std::span<const SurfacePoint> some, const Progress& p) {
+        const std::vector<DirectLight> next = index.irradiance(some, p);
+        light.insert(light.end(), next.begin(), next.end());
+      });
+  light.resize(done);
+  return light;
+}
+
+/// Adds the light that was reflected to the points that were reached; drops the others.
+void add_reflected(const Scene& scene, const SolveOptions& options,
+                   std::span<const SurfacePoint> points, const Progress& progress,
+                   std::vector<DirectLight>& light) {
+  const SolveResult solved = solve(scene, options, progress);
+  if (solved.interrupted) return light.clear();
+  const VisibilityIndex visibility(occluders(solved.scene));
+  const std::size_t done = in_blocks(
+      points.first(light.size()), progress,
+      [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+        const std::vector<Rgb> reflected = reflected_irradiance(solved, visibility, some, p);
+        for (std::size_t k = 0; k < some.size(); ++k) light[first + k].irradiance += reflected[k];
+      });
+  light.resize(done);
+}
+
+void write_report(const ProbeCommand& command, const Context& context, std::size_t points,
+                  std::size_t done, double seconds) {
+  const nlohmann::ordered_json report = {{"version", context.provenance.version},
+                                         {"command_line", context.provenance.command_line},
+                                         {"points", points},
+                                         {"points_done", done},
+                                         {"direct_only", command.direct_only},
+                                         {"seconds", seconds},
+                                         {"interrupted", done < points},
+                                         {"outputs", {command.output.string()}}};
+  write_atomically(context.common.json, report.dump(2) + "\n");
+}
+
+}  // namespace
+
+int run(const ProbeCommand& command, const Context& context) {
+  check_output(command.output);
+  const auto start = std::chrono::steady_clock::now();
+  const SceneFile file = read_scene(command.scene, command.materials);
+  require_emitter(file.scene);
+  const SoundScene sound = make_sound(file.scene);
+  const PointTable table = command.points.empty()
+                               ? point_table(surface_grid(sound, command.group, command.spacing))
+                               : read_points(command.points);
+  std::vector<DirectLight> light = direct_light(sound, table.points, context.progress);
+  if (!command.direct_only)
+    add_reflected(file.scene, command.options, table.points, context.progress, light);
+  context.progress_ends();
+  if (!context.common.quiet)
+    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  write_points(table, light, context.provenance, command.output);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const std::size_t points = table.points.size();
+  if (!context.common.json.empty())
+    write_report(command, context, points, light.size(), seconds.count());
+  if (!context.common.quiet) {
+    fmt::print("points       {}\n", light.size());
+    if (context.common.verbose) fmt::print("{:<12} {:.2f} s\n", "probe", seconds.count());
+    fmt::print("wrote        {}\n", command.output.string());
+  }
+  if (light.size() == points) return exit_done;
+  fmt::print(stderr, "interrupted: {} of {} points were computed and written\n", light.size(),
+             points);
+  return exit_interrupted;
+}
+
+}  // namespace halfshade

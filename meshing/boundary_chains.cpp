@@ -1,0 +1,133 @@
+#include "meshing/boundary_chains.h"
+
+#include "meshing/mix_bits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+// Parts thinner than this many of the view's slacks, eight roundings of a length, are no parts:
+// where occluders abut or touch the outline, rounding decides whether there is a gap.
+constexpr double thinnest = 0.25;
+// Ends of pieces that rounding kept from meeting lie within this many roundings.
+constexpr double widest_gap = 1e5;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Adds a straight piece of boundary to an extent.
+void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to) {
+  const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
+  const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
+  if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
+  extent.rounding +=
+      angle * thinnest * view.blur() / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
+}
+
+}  // namespace
+
+/// A piece's follower starts where it ends.
+void BoundaryChains::join_places(const ShadowArrangement& arrangement) {
+  const auto& all = arrangement.pieces;
+  starts_.assign(at(arrangement.place_count), -1);
+  siblings_.assign(all.size(), -1);
+  next_.assign(all.size(), -1);
+  is_taken_.assign(all.size(), 0);
+  for (std::size_t i = all.size(); i-- > 0;) {
+    int& start = starts_[at(all[i].start)];
+    siblings_[i] = start;
+    start = static_cast<int>(i);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    int& start = starts_[at(all[i].end)];
+    next_[i] = start;
+    if (start < 0) continue;
+    is_taken_[at(start)] = 1;
+    start = siblings_[at(start)];
+  }
+}
+
+/// Where three edges all but meet in a point, a piece shorter than rounding may be missing.
+void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const PointView& view) {
+  const auto& all = arrangement.pieces;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (next_[i] >= 0) continue;
+    const Vec3 end = all[i].to - view.point();
+    double best = HUGE_VAL;
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      if (is_taken_[j] != 0) continue;
+      const Vec3 start = all[j].from - view.point();
+      const double gap =
+          (start.normalized() - end.normalized()).norm() * std::min(start.norm(), end.norm());
+      if (gap < best) {
+        best = gap;
+        next_[i] = static_cast<int>(j);
+      }
+    }
+    is_taken_[at(next_[i])] = 1;
+    closed = closed && best <= widest_gap * view.slack();
+  }
+}
+
+void BoundaryChains::add_chain(const ShadowArrangement& arrangement, const PointView& view,
+                               int first) {
+  const auto& all = arrangement.pieces;
+  const std::size_t begin = pieces.size();
+  Extent chain;
+  int i = first;
+  do {
+    pieces.push_back(all[at(i)]);
+    add(chain, view, all[at(i)].from, all[at(i)].to);
+    const int next = next_[at(i)];
+    next_[at(i)] = -1;
+    i = next;
+  } while (i != first);
+  if (chain.flux.norm() <= chain.rounding) {
+    pieces.resize(begin);
+    return;
+  }
+  total_.flux += chain.flux;
+  total_.rounding += chain.rounding;
+  ends.push_back(static_cast<int>(pieces.size()));
+}
+
+void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView& view) {
+  pieces.clear();
+  ends.clear();
+  signature = 0;
+  total_ = {};
+  closed = true;
+  join_places(arrangement);
+  join_leftovers(arrangement, view);
+  for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
+    if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
+  // A sum does not depend on where chains start, nor on their order.
+  std::size_t first = 0;
+  for (const int end : ends) {
+    for (std::size_t i = first; i < at(end); ++i) {
+      const ArrangedPiece& next = pieces[i + 1 < at(end) ? i + 1 : first];
+      const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
+      const auto from = static_cast<std::uint32_t>(pieces[i].edge);
+      const auto to = static_cast<std::uint32_t>(next.edge);
+      signature += mix_bits(mix_bits(mix_bits(from) + to) + kind);
+    }
+    first = at(end);
+  }
+}
+
+bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) const {
+  Extent whole;
+  for (const OutlineEdge& edge : outline.edges)
+    add(whole, view, view.corners[at(edge.from)].true_position,
+        view.corners[at(edge.to)].true_position);
+  return (whole.flux - total_.flux).norm() <= whole.rounding + total_.rounding;
+}
+
+void BoundaryChains::copy(VisiblePart& part) const {
+  for (const ArrangedPiece& piece : pieces)
+    part.pieces.push_back({piece.from, piece.to, piece.edge});
+  part.chain_ends.assign(ends.begin(), ends.end());
+}
+
+}  // namespace halfshade

@@ -1,0 +1,252 @@
+#include "solver/direct_light.h"
+
+#include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
+#include "solver/edge_derivatives.h"
+#include "solver/edge_sum.h"
+#include "solver/quadrature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace halfshade {
+namespace {
+
+constexpr std::size_t chunk = 64;  // points of one task
+
+/// An emitter is passed over without asking the exact predicates only if it lies below the horizon,
+/// or the point behind it, by more than this times the coordinates' size.
+constexpr double clearly = 1e-12;
+
+struct Target {
+  std::vector<std::vector<Vec3>> rings;  ///< counter-clockwise seen from the front, then the holes
+  Vec3 centre, half;                     ///< of the bounding box
+  Vec3 origin, normal;                   ///< of its plane
+  Rgb exitance;
+  double strength = 0;  ///< mean of the exitance's channels
+  double scale = 0;     ///< size of its coordinates
+  int plane = 0;
+};
+
+Target make_target(const SoundScene& scene, const Receiver& receiver) {
+  Target target;
+  Eigen::AlignedBox3d box;
+  for (const Ring& ring : receiver.rings) {
+    std::vector<Vec3>& corners = target.rings.emplace_back();
+    for (const Vec2& p : ring) {
+      corners.push_back(receiver.frame.to_space(p));
+      box.extend(corners.back());
+    }
+  }
+  target.centre = box.center();
+  target.half = 0.5 * box.sizes();
+  target.origin = receiver.frame.origin;
+  target.normal = receiver.frame.normal;
+  target.exitance = scene.materials[static_cast<std::size_t>(receiver.material)].exitance;
+  target.strength = target.exitance.mean();
+  target.scale = target.centre.lpNorm<1>() + target.half.lpNorm<1>();
+  target.plane = receiver.plane;
+  return target;
+}
+
+/// True if no light can pass between the two for sure, whatever is in between.
+bool is_clearly_away(const Target& target, const SurfacePoint& point) {
+  const double margin = clearly * (target.scale + point.position.lpNorm<1>());
+  if (target.normal.dot(point.position - target.origin) < -margin) return true;
+  const double highest =
+      point.normal.dot(target.centre - point.position) + point.normal.cwiseAbs().dot(target.half);
+  return highest < -margin;
+}
+
+struct Worker {
+  VisiblePartFinder finder;
+  VisiblePart part;
+};
+
+/// Finders that are not in use. Grows to the number of threads that work at the same time.
+class WorkerPool {
+ public:
+  explicit WorkerPool(const OpaqueScene& scene) : scene_(scene) {}
+
+  std::unique_ptr<Worker> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty())
+      return std::make_unique<Worker>(Worker{VisiblePartFinder(scene_), VisiblePart()});
+    std::unique_ptr<Worker> worker = std::move(free_.back());
+    free_.pop_back();
+    return worker;
+  }
+
+  void give_back(std::unique_ptr<Worker> worker) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(worker));
+  }
+
+ private:
+  const OpaqueScene& scene_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> free_;
+};
+
+/// A worker on loan. One whose job has thrown is not given back.
+class Loan {
+ public:
+  explicit Loan(WorkerPool& pool)
+      : pool_(pool), worker_(pool.take()), exceptions_(std::uncaught_exceptions()) {}
+  ~Loan() {
+    if (std::uncaught_exceptions() == exceptions_) pool_.give_back(std::move(worker_));
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  Worker* operator->() const { return worker_.get(); }
+  Worker& operator*() const { return *worker_; }
+
+ private:
+  WorkerPool& pool_;
+  std::unique_ptr<Worker> worker_;
+  int exceptions_;
+};
+
+/// Leaves the boundary in worker.part.
+PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint& point, int id) {
+  PointFactor factor;
+  worker.finder.find(point.position, point.normal, id, worker.part);
+  factor.region = worker.part.region;
+  factor.signature = worker.part.signature;
+  if (factor.region == Region::away) return factor;
+  factor.unobstructed = unobstructed_factor(point.position, point.normal, target.rings);
+  if (factor.region == Region::lit) factor.visible = factor.unobstructed;
+  if (factor.region == Region::penumbra)
+    factor.visible = std::min(factor.unobstructed,
+                              enclosed_factor(point.position, point.normal, worker.part.pieces));
+  return factor;
+}
+
+}  // namespace
+
+struct DirectLightIndex::Impl {
+  OpaqueScene opaque;
+  std::vector<Target> targets;  // by receiver
+  std::vector<int> emitters;
+  WorkerPool pool;
+
+  explicit Impl(const SoundScene& scene) : opaque(scene), pool(opaque) {
+    for (const Receiver& receiver : scene.receivers) {
+      targets.push_back(make_target(scene, receiver));
+      if (targets.back().strength > 0) emitters.push_back(static_cast<int>(targets.size()) - 1);
+    }
+  }
+
+  const Target& target(int receiver) const {
+    if (receiver < 0 || receiver >= static_cast<int>(targets.size()))
+      throw Error(ErrorCode::contract, "DirectLightIndex",
+                  fmt::format("there is no receiver {} among {}", receiver, targets.size()));
+    return targets[static_cast<std::size_t>(receiver)];
+  }
+
+  DirectLight gather(Worker& worker, const SurfacePoint& point, int plane) const {
+    DirectLight light;
+    double visible = 0, unobstructed = 0, strongest = 0;
+    for (const int emitter : emitters) {
+      const Target& source = targets[static_cast<std::size_t>(emitter)];
+      if (source.plane == plane || is_clearly_away(source, point)) continue;
+      const PointFactor factor = find_factor(worker, source, point, emitter);
+      light.irradiance += factor.visible * source.exitance;
+      visible += factor.visible * source.strength;
+      unobstructed += factor.unobstructed * source.strength;
+      if (factor.unobstructed * source.strength > strongest) {
+        strongest = factor.unobstructed * source.strength;
+        light.region = factor.region;
+      }
+    }
+    if (unobstructed > 0) light.visible = visible / unobstructed;
+    return light;
+  }
+};
+
+DirectLightIndex::DirectLightIndex(const SoundScene& scene)
+    : impl_(std::make_unique<Impl>(scene)) {}
+DirectLightIndex::~DirectLightIndex() = default;
+DirectLightIndex::DirectLightIndex(DirectLightIndex&&) noexcept = default;
+DirectLightIndex& DirectLightIndex::operator=(DirectLightIndex&&) noexcept = default;
+
+std::span<const int> DirectLightIndex::emitters() const { return impl_->emitters; }
+
+PointFactor DirectLightIndex::factor(const SurfacePoint& point, int emitter) const {
+  const Target& target = impl_->target(emitter);
+  if (is_clearly_away(target, point)) return {};
+  const Loan worker(impl_->pool);
+  return find_factor(*worker, target, point, emitter);
+}
+
+PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& point,
+                                                            int emitter) const {
+  const Target& target = impl_->target(emitter);
+  if (is_clearly_away(target, point)) return {};
+  const Loan worker(impl_->pool);
+  PointFactorDerivatives result;
+  result.factor = find_factor(*worker, target, point, emitter);
+  const EdgeDerivatives derivatives = edge_derivatives(point.position, point.normal, worker->part);
+  result.gradient = derivatives.gradient;
+  result.hessian = derivatives.hessian;
+  return result;
+}
+
+void DirectLightIndex::visible_part(const SurfacePoint& point, int receiver,
+                                    VisiblePart& part) const {
+  impl_->target(receiver);
+  const Loan worker(impl_->pool);
+  worker->finder.find(point.position, point.normal, receiver, part);
+}
+
+DirectLight DirectLightIndex::irradiance(const SurfacePoint& point, int plane) const {
+  const Loan worker(impl_->pool);
+  return impl_->gather(*worker, point, plane);
+}
+
+std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
+                                                      const Progress& progress) const {
+  std::vector<DirectLight> light(points.size());
+  parallel_for((points.size() + chunk - 1) / chunk,
+               [&](std::size_t c) {
+                 const Loan worker(impl_->pool);
+                 const std::size_t end = std::min(points.size(), (c + 1) * chunk);
+                 for (std::size_t k = c * chunk; k < end; ++k)
+                   light[k] = impl_->gather(*worker, points[k], -1);
+               },
+               progress, "direct light");
+  return light;
+}
+
+ChannelArray element_direct_irradiance(const SoundScene& scene, const ElementTable& elements,
+                                       const DirectLightIndex& index, int points_per_element,
+                                       const Progress& progress) {
+  const int degree = points_per_element <= 1   ? 1
+                     : points_per_element <= 3 ? 2
+                     : points_per_element <= 6 ? 4
+                                               : 6;
+  const auto rule = triangle_rule(degree);
+  ChannelArray mean = ChannelArray::Zero(elements.count(), 3);
+  const auto element = [&](std::size_t e) {
+    const auto [a, b, c] = elements.triangle(static_cast<int>(e));
+    const int plane = scene.receivers[static_cast<std::size_t>(elements.receiver[e])].plane;
+    Rgb sum = Rgb::Zero();
+    for (const TriangleNode& node : rule) {
+      const SurfacePoint point{a + node.u * (b - a) + node.v * (c - a), elements.normal[e]};
+      sum += node.weight * index.irradiance(point, plane).irradiance;
+    }
+    mean.row(static_cast<Eigen::Index>(e)) = sum.transpose();
+  };
+  const std::size_t count = elements.corners.size();
+  parallel_for((count + chunk - 1) / chunk,
+               [&](std::size_t c) {
+                 for (std::size_t e = c * chunk; e < std::min(count, (c + 1) * chunk); ++e)
+                   element(e);
+               },
+               progress, "direct light");
+  return mean;
+}
+
+}  // namespace halfshade

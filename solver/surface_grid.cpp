@@ -1,0 +1,64 @@
+#include "solver/surface_grid.h"
+
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+constexpr double max_points = 1e8;
+
+/// By the crossings of a ray along +x (even–odd); on the border either answer may come out.
+bool contains(const Receiver& receiver, const Vec2& p) {
+  bool inside = false;
+  for (const Ring& ring : receiver.rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (p.x() < x) inside = !inside;
+    }
+  return inside;
+}
+
+void add_grid(const Receiver& receiver, double spacing, std::vector<SurfacePoint>& points) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& p : receiver.rings.front()) box.extend(p);
+  const Eigen::Array2d cells = (box.sizes().array() / spacing).floor().max(1);
+  if (static_cast<double>(points.size()) + cells.prod() > max_points)
+    throw Error(ErrorCode::too_large, "grid",
+                fmt::format("a spacing of {} makes more than {} points", spacing, max_points));
+  const Vec2 first = box.center() - 0.5 * spacing * (cells - 1).matrix();
+  for (int j = 0; j < static_cast<int>(cells.y()); ++j)
+    for (int i = 0; i < static_cast<int>(cells.x()); ++i)
+      if (const Vec2 p = first + spacing * Vec2(i, j); contains(receiver, p))
+        points.push_back({receiver.frame.to_space(p), receiver.frame.normal});
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_grid(const SoundScene& scene, std::string_view name,
+                                       double spacing) {
+  if (!(spacing > 0 && std::isfinite(spacing)))
+    throw Error(ErrorCode::contract, "grid",
+                fmt::format("the spacing ({}) must be positive", spacing));
+  const auto group = std::find(scene.groups.begin(), scene.groups.end(), name);
+  if (group == scene.groups.end())
+    throw Error(ErrorCode::usage, "grid",
+                fmt::format("there is no group '{}'; the scene has {}", name,
+                            fmt::join(scene.groups, ", ")));
+  std::vector<SurfacePoint> points;
+  for (const Receiver& receiver : scene.receivers)
+    if (receiver.group == static_cast<int>(group - scene.groups.begin()) && !receiver.back)
+      add_grid(receiver, spacing, points);
+  if (points.empty())
+    throw Error(ErrorCode::usage, "grid",
+                fmt::format("a spacing of {} puts no point on the group '{}'", spacing, name));
+  return points;
+}
+
+}  // namespace halfshade

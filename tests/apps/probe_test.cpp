@@ -1,0 +1,201 @@
+#include "tests/support/process.h"
+#include "tests/support/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+namespace halfshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data = HALFSHADE_DATA;
+
+class Probe : public testing::Test {
+ protected:
+  test::Outcome probe(std::vector<std::string> arguments,
+                      std::chrono::milliseconds interrupt_after = {}) {
+    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "probe"});
+    return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
+  }
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_.path() / name) << text;
+  }
+  std::string file(const std::string& name) { return test::contents(folder_.path() / name); }
+  bool exists(const std::string& name) { return fs::exists(folder_.path() / name); }
+  const fs::path& folder() const { return folder_.path(); }
+
+  /// The numbers of a table below its header.
+  std::vector<std::vector<double>> numbers(const std::string& name) {
+    std::istringstream lines(file(name));
+    std::vector<std::vector<double>> rows;
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      rows.emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');)
+        rows.back().push_back(std::stod(cell));
+    }
+    return rows;
+  }
+
+ private:
+  test::TempDir folder_;
+};
+
+const std::string s1 = (data / "s1.obj").string();
+const std::string s1_points = (data / "s1_points.csv").string();
+
+TEST_F(Probe, GivesTheKnownValuesOfS1) {
+  const test::Outcome outcome = probe({s1, "--points", s1_points, "-o", "o.csv", "--direct"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(file("o.csv").substr(0, 38), "x,y,z,nx,ny,nz,H_r,H_g,H_b,visible\n0,0");
+  const auto rows = numbers("o.csv");
+  ASSERT_EQ(rows.size(), 7u);
+  constexpr double want[6] = {0, 0, 0.018916915317, 0.033762803811, 0.040681704379, 0.032271304623};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(rows[k][6], want[k], 1e-12);
+    EXPECT_EQ(rows[k][6], rows[k][7]);
+    EXPECT_EQ(rows[k][6], rows[k][8]);
+  }
+  EXPECT_EQ(rows[0][9], 0) << "umbra";
+  EXPECT_GT(rows[2][9], 0);
+  EXPECT_LT(rows[2][9], 1);
+  EXPECT_EQ(rows[5][9], 1) << "lit";
+}
+
+TEST_F(Probe, PutsAGridOnAGroup) {
+  ASSERT_EQ(probe({s1, "--grid", "receiver", "--spacing", "0.5", "-o", "o.csv", "--direct", "-q"})
+                .exit_code,
+            0);
+  const auto rows = numbers("o.csv");
+  EXPECT_EQ(rows.size(), 49u) << "3.7984 / 0.5 = 7 squares a side";
+  for (const auto& row : rows) {
+    EXPECT_LT(std::abs(row[0] + 0.0379), 1.8992);
+    EXPECT_EQ(row[2], 0);
+    EXPECT_EQ(row[5], 1);
+    const double far = std::max(std::abs(row[0]), std::abs(row[1]));
+    EXPECT_EQ(row[9] == 0, far < 0.25);
+    EXPECT_EQ(row[9] == 1, far > 1.25);
+  }
+  ASSERT_EQ(probe({s1, "--grid", "receiver", "--spacing", "0.5", "-o", "o.vtp", "--direct", "-q"})
+                .exit_code,
+            0);
+  EXPECT_NE(file("o.vtp").find("NumberOfPoints=\"49\""), std::string::npos);
+}
+
+TEST_F(Probe, AddsInterreflectionUnlessToldNotTo) {
+  // White furnace: E = 1 − rho on every wall makes B = 1 everywhere, hence H = 1.
+  write("p.csv", "0.3,0.4,0.5,0,0,1\n0.5,0.2,0.7,1,0,0\n0.1,0.9,0.5,0.6,0,-0.8\n");
+  const std::string cube = (data / "furnace_cube.obj").string();
+  ASSERT_EQ(probe({cube, "--points", "p.csv", "-o", "all.csv", "--elements", "600"}).exit_code, 0);
+  ASSERT_EQ(probe({cube, "--points", "p.csv", "-o", "direct.csv", "--direct"}).exit_code, 0);
+  const auto all = numbers("all.csv"), direct = numbers("direct.csv");
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_NEAR(all[k][6], 1, 2e-3);
+    EXPECT_LT(direct[k][6], 0.9);
+  }
+}
+
+TEST_F(Probe, ReportsAsJsonAndKeepsQuiet) {
+  const test::Outcome outcome =
+      probe({s1, "--points", s1_points, "-o", "o.csv", "--direct", "-q", "--json", "r.json"});
+  EXPECT_EQ(outcome.out + outcome.err, "");
+  const auto report = nlohmann::json::parse(file("r.json"));
+  EXPECT_EQ(report.at("points"), 7);
+  EXPECT_EQ(report.at("points_done"), 7);
+  EXPECT_EQ(report.at("interrupted"), false);
+  EXPECT_EQ(report.at("direct_only"), true);
+}
+
+TEST_F(Probe, ThreadsDoNotChangeTheBytes) {
+  const auto bytes = [&](const std::string& threads) {
+    EXPECT_EQ(probe({(data / "bars.obj").string(), "--grid", "floor", "--spacing", "0.2", "-o",
+                     "o.csv", "--direct", "-q", "--threads", threads})
+                  .exit_code,
+              0);
+    return file("o.csv");
+  };
+  EXPECT_EQ(bytes("1"), bytes("2"));
+}
+
+TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
+  const test::Outcome outcome =
+      probe({(data / "hundred_lights.obj").string(), "--grid", "floor", "--spacing", "0.02", "-o",
+             "o.csv", "--direct", "--json", "r.json"},
+            std::chrono::milliseconds(1500));
+  EXPECT_EQ(outcome.exit_code, 130);
+  EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
+  const auto report = nlohmann::json::parse(file("r.json"));
+  EXPECT_EQ(report.at("interrupted"), true);
+  EXPECT_EQ(report.at("points_done"), numbers("o.csv").size());
+}
+
+TEST_F(Probe, ExamplesOfTheHelpRun) {
+  fs::create_directory_symlink(data, folder() / "data");
+  std::istringstream help(probe({"--help"}).out);
+  int ran = 0;
+  for (std::string line; std::getline(help, line);) {
+    std::istringstream words(line);
+    std::vector<std::string> arguments;
+    for (std::string word; words >> word;) arguments.push_back(word);
+    if (arguments.size() < 4 || arguments[0] != "halfshade" || arguments[1] != "probe") continue;
+    arguments.erase(arguments.begin(), arguments.begin() + 2);
+    const test::Outcome outcome = probe(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
+    ++ran;
+  }
+  EXPECT_GE(ran, 3);
+  for (const char* name : {"s1.csv", "bars.vtp", "cornell.csv"}) EXPECT_TRUE(exists(name)) << name;
+}
+
+TEST_F(Probe, SaysInOneSentenceWhatIsWrong) {
+  write("bad.csv", "x,y,z,nx,ny,nz\n1,2,3,0,0,1\n1,2,3,0,0,0\n");
+  write("nan.csv", "x,y,z,nx,ny,nz\n1,nan,3,0,0,1\n");
+  write("dark.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string names;
+  };
+  const std::vector<Wrong> all = {
+      {{s1, "--points", "none.csv", "-o", "o.csv"}, 3, "none.csv"},
+      {{s1, "--points", "bad.csv", "-o", "o.csv"}, 3, "bad.csv:3"},
+      {{s1, "--points", "nan.csv", "-o", "o.csv"}, 3, "nan.csv:2"},
+      {{"none.obj", "--points", s1_points, "-o", "o.csv"}, 3, "none.obj"},
+      {{"dark.obj", "--points", s1_points, "-o", "o.csv"}, 3, "emit"},
+      {{s1, "--points", s1_points, "-o", "o.txt"}, 2, ".txt"},
+      {{s1, "--points", s1_points, "-o", "none/o.csv"}, 5, "none"},
+      {{s1, "--grid", "ceiling", "--spacing", "1", "-o", "o.csv"}, 2, "ceiling"},
+      {{s1, "--grid", "receiver", "--spacing", "1e-9", "-o", "o.csv"}, 3, "1e-09"},
+  };
+  for (const Wrong& wrong : all) {
+    const test::Outcome outcome = probe(wrong.arguments);
+    EXPECT_EQ(outcome.exit_code, wrong.exit_code) << outcome.err;
+    EXPECT_NE(outcome.err.find(wrong.names), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_FALSE(exists("o.csv"));
+  }
+}
+
+TEST_F(Probe, RefusesContradictoryUsage) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{s1, "-o", "o.csv"},
+        {s1, "--points", s1_points},
+        {s1, "--grid", "receiver", "-o", "o.csv"},
+        {s1, "--spacing", "1", "--points", s1_points, "-o", "o.csv"},
+        {s1, "--grid", "receiver", "--spacing", "1", "--points", s1_points, "-o", "o.csv"},
+        {s1, "--grid", "receiver", "--spacing", "0", "-o", "o.csv"}}) {
+    EXPECT_EQ(probe(arguments).exit_code, 2);
+    EXPECT_FALSE(exists("o.csv"));
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+
+/// Counts calls of operator new. Include in one source file of a test program only.
+namespace halfshade::test {
+
+inline std::atomic<std::size_t> allocation_count{0};
+inline std::size_t allocations() { return allocation_count; }
+
+inline void* counted(std::size_t size) {
+  ++allocation_count;
+  if (void* p = std::malloc(size)) return p;
+  throw std::bad_alloc();
+}
+
+}  // namespace halfshade::test
+
+void* operator new(std::size_t size) { return halfshade::test::counted(size); }
+void* operator new[](std::size_t size) { return halfshade::test::counted(size); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }

@@ -1,0 +1,125 @@
+#pragma once
+
+#include "meshing/core/tolerance.h"
+#include "meshing/repair.h"
+#include "tests/support/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+/// Sound scenes made without the repair, so that tests of what comes after it do not depend on it.
+namespace halfshade::test {
+
+/// Adds a polygon with holes as a receiver. Rings lie in one plane; the first runs
+/// counter-clockwise seen from the front, the holes clockwise.
+inline void add_receiver(SoundScene& scene, const std::vector<std::vector<Vec3>>& rings,
+                         int material) {
+  Receiver receiver;
+  receiver.frame = fit_plane(rings.front());
+  for (const std::vector<Vec3>& ring : rings) {
+    Ring& flat = receiver.rings.emplace_back();
+    for (const Vec3& p : ring) flat.push_back(receiver.frame.to_plane(p));
+  }
+  receiver.material = material;
+  receiver.faces = {static_cast<int>(scene.receivers.size())};
+  receiver.face_rings = {receiver.rings.front()};
+  receiver.plane = static_cast<int>(scene.receivers.size());
+  for (const Receiver& other : scene.receivers)
+    if (std::abs(std::abs(other.frame.normal.dot(receiver.frame.normal)) - 1) < 1e-13 &&
+        std::abs(other.frame.height(receiver.frame.origin)) < 1e-12 * scene.tolerance.scene_size) {
+      receiver.plane = other.plane;
+      break;
+    }
+  scene.receivers.push_back(receiver);
+}
+
+/// Materials 0 (does not emit) and 1 (E = 1), a nominal size, and nothing else.
+inline SoundScene empty_sound_scene(double size) {
+  SoundScene scene;
+  scene.materials.resize(2);
+  scene.materials[0].name = "dark";
+  scene.materials[1].name = "light";
+  scene.materials[1].exitance = Rgb::Ones();
+  scene.groups = {"all"};
+  scene.tolerance.scene_size = size;
+  scene.tolerance.length = scene.tolerance.planarity = 1e-9 * size;
+  return scene;
+}
+
+/// One receiver a face.
+inline SoundScene as_it_is(const Scene& scene) {
+  SoundScene sound;
+  sound.materials = scene.materials;
+  sound.groups = scene.groups;
+  sound.tolerance = make_tolerance(scene);
+  for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f)
+    add_receiver(sound, {face_corners(scene, f)},
+                 scene.faces[static_cast<std::size_t>(f)].material);
+  return sound;
+}
+
+/// S1: a light of 1 × 1 at z = 2 that looks down, an occluder of 0.75 × 0.75 at z = 1, a floor.
+/// Receivers 0, 1 and 2. data/s1.md derives what is known of it.
+inline SoundScene s1() {
+  SoundScene scene = empty_sound_scene(5.5);
+  const auto square = [](double low, double high, double z) {
+    return std::vector<Vec3>{{low, low, z}, {high, low, z}, {high, high, z}, {low, high, z}};
+  };
+  std::vector<Vec3> light = square(-0.5, 0.5, 2);
+  std::reverse(light.begin(), light.end());
+  add_receiver(scene, {light}, 1);
+  add_receiver(scene, {square(-0.375, 0.375, 1)}, 0);
+  add_receiver(scene, {square(-1.9371, 1.8613, 0)}, 0);
+  return scene;
+}
+
+/// Seeded random numbers that come out the same with every standard library.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double operator()(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
+  }
+  int integer(int low, int high) {
+    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
+  }
+  Vec3 in_box(const Vec3& low, const Vec3& high) {
+    return {(*this)(low.x(), high.x()), (*this)(low.y(), high.y()), (*this)(low.z(), high.z())};
+  }
+  Vec3 direction() {
+    for (;;)
+      if (const Vec3 v = in_box(Vec3::Constant(-1), Vec3::Ones());
+          v.squaredNorm() < 1 && v.squaredNorm() > 0.01)
+        return v.normalized();
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// A convex polygon of 3…7 corners on a circle.
+inline std::vector<Vec3> random_polygon(Random& random, const Vec3& centre, const Vec3& normal,
+                                        double radius) {
+  const PlaneFrame frame = make_frame(centre, normal);
+  const int corners = random.integer(3, 7);
+  std::vector<Vec3> polygon;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * M_PI * (k + random(0.1, 0.9)) / corners;
+    polygon.push_back(frame.to_space(radius * Vec2(std::cos(angle), std::sin(angle))));
+  }
+  return polygon;
+}
+
+/// The six outward faces of a turned box.
+inline std::array<std::vector<Vec3>, 6> random_box(Random& random, const Vec3& centre,
+                                                   double size) {
+  const Vec3 half = random.in_box(Vec3::Constant(0.2 * size), Vec3::Constant(size));
+  auto faces = box_faces(-half, half, false);
+  const Eigen::AngleAxisd turn(random(0, 6), random.direction());
+  for (auto& face : faces)
+    for (Vec3& p : face) p = centre + turn * p;
+  return faces;
+}
+
+}  // namespace halfshade::test

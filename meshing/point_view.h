@@ -77,6 +77,8 @@ class PointView {
   int clipped(int triangle, std::array<int, 4>& polygon);
   /// How many faces cover a germ that lies inside the pyramid.
   int cover(const Germ& germ);
+  /// The receivers that the last call of cover found, perhaps repeatedly.
+  std::span<const int> covering() const { return covering_; }
   /// ±1 if triangle abc, as it runs, covers the germ; else 0.
   int covers(int a, int b, int c, const Germ& germ) const;
 
@@ -92,6 +94,7 @@ class PointView {
 
   const OpaqueScene::Impl& scene_;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
+  std::vector<int> covering_;
   std::uint32_t query_ = 0;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;

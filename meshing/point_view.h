@@ -57,7 +57,9 @@ class PointView {
   const PlaneFrame& emitter() const { return *emitter_; }
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
   double slack() const { return slack_; }        ///< rounding of a distance
-  double blur() const { return slack_ + jitter_; }
+  double jitter() const { return jitter_; }
+  /// How far anything may be from where it should be.
+  double blur() const { return slack_ + 2 * jitter_; }
   const Vec3& point() const { return point_; }
 
   std::vector<Corner> corners;

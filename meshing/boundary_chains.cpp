@@ -21,8 +21,9 @@ void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to
   const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
   const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
   if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
-  extent.rounding +=
-      angle * thinnest * view.blur() / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
+  // Two scattered edges part by up to 2 √3 times as much as their corners move along an axis.
+  const double width = thinnest * view.slack() + 4 * view.jitter();
+  extent.rounding += angle * width / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
 }
 
 }  // namespace

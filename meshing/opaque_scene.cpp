@@ -173,6 +173,11 @@ OpaqueScene::OpaqueScene(const SoundScene& scene) : impl_(std::make_unique<Impl>
 
 int OpaqueScene::edge_count() const { return static_cast<int>(impl_->edges.size()); }
 
+std::array<Vec3, 2> OpaqueScene::edge_ends(int edge) const {
+  const Impl::Edge& e = impl_->edges[at(edge)];
+  return {impl_->vertices[at(e.from)], impl_->vertices[at(e.to)]};
+}
+
 OpaqueScene::~OpaqueScene() = default;
 OpaqueScene::OpaqueScene(OpaqueScene&&) noexcept = default;
 OpaqueScene& OpaqueScene::operator=(OpaqueScene&&) noexcept = default;

@@ -217,10 +217,12 @@ int PointView::cover_by(int triangle, const Germ& germ) {
   const int count = clipped(triangle, p);
   int sum = 0;
   for (int k = 2; k < count; ++k) sum += covers(p[0], p[at(k - 1)], p[at(k)], germ);
+  if (sum != 0) covering_.push_back(scene_.triangles[at(triangle)].receiver);
   return sign * sum;
 }
 
 int PointView::cover(const Germ& germ) {
+  covering_.clear();
   const FlatTree& tree = scene_.faces;
   if (tree.nodes.empty()) return 0;
   const Corner& target = corners[at(germ.from)];

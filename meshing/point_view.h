@@ -57,7 +57,9 @@ class PointView {
   const PlaneFrame& emitter() const { return *emitter_; }
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
   double slack() const { return slack_; }        ///< rounding of a distance
-  double blur() const { return slack_ + jitter_; }
+  double jitter() const { return jitter_; }
+  /// How far anything may be from where it should be.
+  double blur() const { return slack_ + 2 * jitter_; }
   const Vec3& point() const { return point_; }
 
   std::vector<Corner> corners;
@@ -77,6 +79,8 @@ class PointView {
   int clipped(int triangle, std::array<int, 4>& polygon);
   /// How many faces cover a germ that lies inside the pyramid.
   int cover(const Germ& germ);
+  /// The receivers that the last call of cover found, perhaps repeatedly.
+  std::span<const int> covering() const { return covering_; }
   /// ±1 if triangle abc, as it runs, covers the germ; else 0.
   int covers(int a, int b, int c, const Germ& germ) const;
 
@@ -92,6 +96,7 @@ class PointView {
 
   const OpaqueScene::Impl& scene_;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
+  std::vector<int> covering_;
   std::uint32_t query_ = 0;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;

@@ -25,6 +25,14 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     set_box(arc);
     arcs_.push_back(arc);
   }
+  first_cover_ = view.cover({arcs_[0].from, arcs_[0].to, 1});
+  for (const int receiver : view.covering())
+    if (is_hidden_by(receiver)) {
+      crossings_.clear();
+      fully_lit = false;
+      place_count = 0;
+      return;
+    }
   collect_silhouettes();
   meetings_.assign(view.corners.size(), {});
   for (std::size_t i = outline.edges.size(); i < arcs_.size(); ++i) {
@@ -43,6 +51,24 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     fully_lit = pieces[i].start == place_of(outline.edges[i].from) &&
                 pieces[i].end == place_of(outline.edges[i].to);
   place_count = place_of(static_cast<int>(view.corners.size()));
+}
+
+/// Whether a receiver that covers a direction in the pyramid covers all: its border stays outside.
+bool ShadowArrangement::is_hidden_by(int receiver) {
+  const auto& surface = view_->scene().surfaces[at(receiver)];
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
+    const auto ring = view_->scene().ring(r);
+    int from = view_->corner_of_vertex(ring.back().vertex);
+    for (const auto& next : ring) {
+      const int to = view_->corner_of_vertex(next.vertex);
+      if (view_->corners[at(to)].place == Place::beyond ||
+          !outline_->pyramid.is_outside(view_->corners[at(from)].direction,
+                                        view_->corners[at(to)].direction))
+        return false;
+      from = to;
+    }
+  }
+  return true;
 }
 
 Vec3 ShadowArrangement::position(const Arc& arc, double along) const {
@@ -72,7 +98,9 @@ void ShadowArrangement::walk_outline() {
     const Arc arc = arcs_[i];
     const Meeting& meeting = meetings_[at(arc.from)];
     // Just inside; the count carries over from the edge before unless silhouettes meet here.
-    if (reached != arc.from || meeting.in + meeting.out > 0)
+    if (i == 0)
+      cover = first_cover_;
+    else if (reached != arc.from || meeting.in + meeting.out > 0)
       cover = view_->cover({arc.from, arc.to, 1});
     double from = 0;
     int place = place_of(arc.from);

@@ -49,6 +49,7 @@ class ShadowArrangement {
     int cover = 0;  // right of the silhouette, just inside the outline
   };
 
+  bool is_hidden_by(int receiver);
   void collect_silhouettes();
   void collect_cuts();
   void join_repeated(std::size_t first_cut);
@@ -74,6 +75,7 @@ class ShadowArrangement {
   Vec3 position(const Arc& arc, double along) const;
   int side_of(const Crossing& crossing, int arc) const { return crossing.arc[0] == arc ? 0 : 1; }
 
+  int first_cover_ = 0;  // just inside the outline, after the start of its first edge
   PointView* view_ = nullptr;
   const EmitterOutline* outline_ = nullptr;
   std::vector<Arc> arcs_;  // the outline's first

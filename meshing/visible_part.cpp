@@ -94,7 +94,7 @@ void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int receiver
     jitter = std::max(4 * jitter, least_jitter);
   }
   m.fill_unobstructed(part);
-  if (m.arrangement.fully_lit || m.chains.fill(m.outline, m.view)) {
+  if (m.arrangement.fully_lit || (!m.chains.pieces.empty() && m.chains.fill(m.outline, m.view))) {
     part.region = Region::lit;
     part.signature = lit_signature;
     part.pieces = part.unobstructed;

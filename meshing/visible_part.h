@@ -3,6 +3,7 @@
 #include "meshing/core/types.h"
 #include "meshing/repair.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -54,6 +55,8 @@ class OpaqueScene {
   OpaqueScene& operator=(OpaqueScene&&) noexcept;
 
   int edge_count() const;
+  /// Where an edge of the scene runs; `edge` is in [0, edge_count()).
+  std::array<Vec3, 2> edge_ends(int edge) const;
 
   struct Impl;
   const Impl& impl() const { return *impl_; }

@@ -214,6 +214,78 @@ TEST(VisiblePartLimits, AWallThatIsTheLightSharesItsEdgesWithItsNeighbours) {
   }
 }
 
+TEST(VisiblePartLimits, AWallWithAWindowHidesAllButTheWindow) {
+  const Polygon window = {{.5, -.2, .8}, {.5, .3, .8}, {.5, .3, 1.4}, {.5, -.2, 1.4}};
+  const Polygon wall = {{.5, -9, -1}, {.5, 9, -1}, {.5, 9, 9}, {.5, -9, 9}};
+  SoundScene scene = with_light({ground});
+  test::add_receiver(scene, {wall, test::reversed(window)});
+  test::finish(scene);
+  Dice dice(15);
+  int partly = 0;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 point(dice(.6, 2), dice(-1, 1), 0);
+    // What the window shows is what it would hide.
+    const double exact = exact_factor(light, {}, point) - exact_factor(light, {window}, point);
+    const VisiblePart part = find_visible(scene, point);
+    EXPECT_NEAR(factor(part, point), exact, 1e-14);
+    EXPECT_EQ(part.region == Region::umbra, exact < 1e-17) << exact;
+    partly += part.region == Region::penumbra ? 1 : 0;
+  }
+  EXPECT_GT(partly, 50);
+}
+
+/// Boxes, plates and triangles on a coarse grid: most edges are parallel, many lie on one line or
+/// meet in a point, as seen from anywhere or from points on the grid.
+SoundScene grid_scene(Dice& dice, double step) {
+  const auto grid = [&](double low, double high) {
+    return step * std::round(dice(low, high) / step);
+  };
+  SoundScene scene = with_light({ground});
+  for (int count = 1 + dice(12); count > 0; --count) {
+    const double x = grid(-1.5, 1), y = grid(-1.5, 1), z = grid(0, 1.75);
+    const Vec3 low(x, y, z), high = low + step * Vec3(1 + dice(3), 1 + dice(3), 1 + dice(3));
+    Polygon triangle;
+    for (int k = 0; k < 3; ++k) {
+      const double u = grid(-1.5, 1.5), v = grid(-1.5, 1.5);
+      triangle.emplace_back(u, v, step + grid(0, 1.75));
+    }
+    const int kind = dice(3);
+    if (kind == 0)
+      test::add_box(scene, low, high);
+    else if (kind == 1)
+      test::add_receiver(scene, facing_down(x, high.x(), y, high.y(), z + step));
+    else if (area_vector(triangle).norm() > 1e-3)
+      test::add_receiver(scene, triangle);
+  }
+  test::finish(scene);
+  return scene;
+}
+
+TEST(VisiblePartLimits, GridScenesSeenFromTheGridAgreeWithSampledSightLines) {
+  int tested = 0, partly = 0;
+  for (unsigned seed = 0; seed < 80; ++seed) {
+    Dice dice(seed);
+    const double step = seed % 2 == 0 ? .25 : .3;
+    const SoundScene scene = grid_scene(dice, step);
+    const OpaqueScene opaque(scene);
+    VisiblePartFinder finder(opaque);
+    VisiblePart part;
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 point(step * (dice(13) - 6), step * (dice(13) - 6), 0);
+      finder.find(point, up, 0, part);
+      EXPECT_EQ(test::wrong_samples(scene, 0, point, up, part, 10, 1e-9, tested), 0)
+          << "seed " << seed << ", point " << point.transpose();
+      const double visible = factor(part, point),
+                   whole = test::lambert(part.unobstructed, point, up);
+      EXPECT_GE(visible, -1e-15);
+      EXPECT_LE(visible, whole + 1e-15);
+      partly += part.region == Region::penumbra ? 1 : 0;
+    }
+  }
+  EXPECT_GT(partly, 600);
+  EXPECT_GT(tested, 100000);
+}
+
 /// Largest relative error of the form factor over some points of a scene that is scaled, then
 /// moved.
 double largest_error(double scale, const Vec3& shift) {

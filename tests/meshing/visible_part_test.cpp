@@ -231,6 +231,29 @@ TEST(VisiblePart, ChainsAreClosedAndRunOneAfterTheOther) {
   }
 }
 
+TEST(VisiblePart, PiecesLieOnTheEdgesTheyName) {
+  const SoundScene scene = test::square_over_square();
+  const OpaqueScene opaque(scene);
+  const VisiblePart part = find_visible(scene, {.75, .3, 0});
+  int occluded = 0;
+  for (const BoundaryPiece& piece : part.pieces) {
+    std::array<Vec3, 2> ends;
+    if (piece.edge < 0) {
+      const Ring& ring = scene.receivers[0].rings[0];
+      const auto k = static_cast<std::size_t>(-1 - piece.edge);
+      ends = {scene.receivers[0].frame.to_space(ring[k]),
+              scene.receivers[0].frame.to_space(ring[(k + 1) % ring.size()])};
+    } else {
+      ASSERT_LT(piece.edge, opaque.edge_count());
+      ends = opaque.edge_ends(piece.edge);
+      ++occluded;
+    }
+    for (const Vec3& p : {piece.from, piece.to})
+      EXPECT_LT((p - ends[0]).cross(ends[1] - ends[0]).norm(), 1e-15);
+  }
+  EXPECT_EQ(occluded, 2);
+}
+
 TEST(VisiblePart, BrokenRequestsAreRefused) {
   const SoundScene scene = test::square_over_square();
   EXPECT_THROW(find_visible(scene, {0, 0, 0}, up, 2), Error);

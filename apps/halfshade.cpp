@@ -72,7 +72,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
                   "Only light reflected at most N times (default: all)")
       ->check(CLI::Range(0, 100000));
   app->add_option("--rays", options.exchange.rays_per_pair,
-                  "Visibility rays for each pair of elements; four times as many where one emits")
+                  "Visibility rays for a pair of elements, on average")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
   const std::map<std::string, Closure> closures = {
@@ -209,9 +209,6 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? exit_done : exit_usage;
   }
-  solve_command.options.exchange.rays_per_emitter_pair =
-      4 * solve_command.options.exchange.rays_per_pair;
-
   const Interrupt interrupt;
   const int hardware = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const tbb::global_control threads(

@@ -54,6 +54,14 @@ void add_strings(vtkFieldData* data, const char* name, const std::vector<std::st
   data->AddArray(array);
 }
 
+/// 0 lit, 1 penumbra, 2 umbra, 3 where no emitter lies above the horizon.
+std::vector<int> region_codes(const std::vector<Region>& regions) {
+  std::vector<int> codes;
+  codes.reserve(regions.size());
+  for (const Region region : regions) codes.push_back(static_cast<int>(region));
+  return codes;
+}
+
 void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   const ElementTable& elements = result.elements;
   const Solution& solution = result.solution;
@@ -64,6 +72,7 @@ void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   add_channels(data, "reflectance", solution.rho);
   const Eigen::ArrayXd& error = solution.error_estimate;
   add_numbers(data, "error_estimate", {error.data(), error.data() + error.size()});
+  if (!solution.region.empty()) add_integers(data, "region", region_codes(solution.region));
   add_integers(data, "order", std::vector<int>(elements.corners.size(), 0));
   add_integers(data, "face", elements.face);
   add_integers(data, "group", elements.group);

@@ -220,33 +220,63 @@ std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoi
   return light;
 }
 
-ChannelArray element_direct_irradiance(const SoundScene& scene, const ElementTable& elements,
-                                       const DirectLightIndex& index, int points_per_element,
-                                       const Progress& progress) {
+ElementDirectLight element_direct_light(const SoundScene& scene, const ElementTable& elements,
+                                        const DirectLightIndex& index, int points_per_element,
+                                        const Progress& progress) {
   const int degree = points_per_element <= 1   ? 1
                      : points_per_element <= 3 ? 2
                      : points_per_element <= 6 ? 4
                                                : 6;
   const auto rule = triangle_rule(degree);
-  ChannelArray mean = ChannelArray::Zero(elements.count(), 3);
+  const std::size_t count = elements.corners.size();
+  ElementDirectLight light;
+  light.emitters.assign(index.emitters().begin(), index.emitters().end());
+  light.factor =
+      Eigen::ArrayXXd::Zero(elements.count(), static_cast<Eigen::Index>(light.emitters.size()));
+  light.region.assign(count, Region::away);
   const auto element = [&](std::size_t e) {
     const auto [a, b, c] = elements.triangle(static_cast<int>(e));
     const int plane = scene.receivers[static_cast<std::size_t>(elements.receiver[e])].plane;
-    Rgb sum = Rgb::Zero();
-    for (const TriangleNode& node : rule) {
-      const SurfacePoint point{a + node.u * (b - a) + node.v * (c - a), elements.normal[e]};
-      sum += node.weight * index.irradiance(point, plane).irradiance;
+    double strongest = 0;
+    for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+      const Receiver& source = scene.receivers[static_cast<std::size_t>(light.emitters[k])];
+      if (source.plane == plane) continue;
+      double visible = 0, unobstructed = 0;
+      for (const TriangleNode& node : rule) {
+        const SurfacePoint point{a + node.u * (b - a) + node.v * (c - a), elements.normal[e]};
+        const PointFactor factor = index.factor(point, light.emitters[k]);
+        visible += node.weight * factor.visible;
+        unobstructed += node.weight * factor.unobstructed;
+      }
+      light.factor(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(k)) = visible;
+      const double strength =
+          unobstructed * scene.materials[static_cast<std::size_t>(source.material)].exitance.mean();
+      if (strength <= strongest) continue;
+      strongest = strength;
+      light.region[e] = visible == 0              ? Region::umbra
+                        : visible == unobstructed ? Region::lit
+                                                  : Region::penumbra;
     }
-    mean.row(static_cast<Eigen::Index>(e)) = sum.transpose();
   };
-  const std::size_t count = elements.corners.size();
   parallel_for((count + chunk - 1) / chunk,
                [&](std::size_t c) {
                  for (std::size_t e = c * chunk; e < std::min(count, (c + 1) * chunk); ++e)
                    element(e);
                },
                progress, "direct light");
-  return mean;
+  return light;
+}
+
+ChannelArray irradiance_of(const ElementDirectLight& light, const SoundScene& scene) {
+  ChannelArray irradiance = ChannelArray::Zero(light.factor.rows(), 3);
+  for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+    const Receiver& source = scene.receivers[static_cast<std::size_t>(light.emitters[k])];
+    const Rgb& exitance = scene.materials[static_cast<std::size_t>(source.material)].exitance;
+    irradiance +=
+        (light.factor.col(static_cast<Eigen::Index>(k)).matrix() * exitance.matrix().transpose())
+            .array();
+  }
+  return irradiance;
 }
 
 }  // namespace halfshade

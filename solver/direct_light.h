@@ -79,11 +79,23 @@ class DirectLightIndex {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Mean direct irradiance of each element in W/m², one row an element, by the symmetric rule over
-/// the triangle that has at least `points_per_element` nodes (at most 12); see triangle_rule. Only
-/// the averaging is approximate. On all threads; if stopped, elements not reached stay zero.
-ChannelArray element_direct_irradiance(const SoundScene& scene, const ElementTable& elements,
-                                       const DirectLightIndex& index, int points_per_element,
-                                       const Progress& progress = {});
+/// Direct light on the elements of a mesh, per unit of exitance.
+struct ElementDirectLight {
+  std::vector<int> emitters;  ///< receivers with E > 0
+  Eigen::ArrayXXd factor;     ///< mean form factor: one row an element, one column an emitter
+  std::vector<Region>
+      region;  ///< of each element, with respect to the emitter that is strongest there
+};
+
+/// Form factors from points to the visible parts of all emitters, averaged over each element by the
+/// symmetric rule with at least `points_per_element` nodes (at most 12); see triangle_rule. Only
+/// the averaging is approximate. An element is in the penumbra if its points do not agree. On all
+/// threads; if stopped, elements not reached stay zero.
+ElementDirectLight element_direct_light(const SoundScene& scene, const ElementTable& elements,
+                                        const DirectLightIndex& index, int points_per_element,
+                                        const Progress& progress = {});
+
+/// Irradiance in W/m² that comes of it, one row an element.
+ChannelArray irradiance_of(const ElementDirectLight& light, const SoundScene& scene);
 
 }  // namespace halfshade

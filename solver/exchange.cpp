@@ -37,7 +37,6 @@ struct Shape {
   Vec3 centre;
   double radius, area;
   Eigen::AlignedBox3d box;
-  bool emits;
 };
 
 std::vector<Shape> make_shapes(const SoundScene& scene, const ElementTable& elements) {
@@ -55,8 +54,6 @@ std::vector<Shape> make_shapes(const SoundScene& scene, const ElementTable& elem
       shape.radius = std::max(shape.radius, (p - shape.centre).norm());
       shape.box.extend(p);
     }
-    const auto material = static_cast<std::size_t>(elements.material[k]);
-    shape.emits = (scene.materials[material].exitance > 0).any();
   }
   return shapes;
 }
@@ -135,10 +132,10 @@ class Assembly {
   /// More rays where more light is at stake: pairs with the mean form factor 1/n get the number
   /// asked for.
   int ray_count(const Shape& a, const Shape& b, double mutual_area) const {
-    const int mean = a.emits || b.emits ? options_.rays_per_emitter_pair : options_.rays_per_pair;
     const double F = mutual_area / std::min(a.area, b.area);
     const double stake = std::sqrt(F * static_cast<double>(shapes_.size()));
-    return std::max(1, static_cast<int>(mean * std::clamp(stake, 1 / ray_spread, ray_spread)));
+    return std::max(1, static_cast<int>(options_.rays_per_pair *
+                                        std::clamp(stake, 1 / ray_spread, ray_spread)));
   }
 
   void fill_row(int i) {
@@ -227,13 +224,10 @@ std::vector<bool> closed_rows(const Exchange& exchange, Closure closure) {
 Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options,
                           const Progress& progress) {
-  if (!(options.tolerance > 0 && options.tolerance < 1) || options.rays_per_pair < 1 ||
-      options.rays_per_emitter_pair < 1)
-    throw Error(
-        ErrorCode::contract, "compute_exchange",
-        fmt::format(
-            "tolerance {} must lie in (0, 1) and rays per pair {} and {} must be at least 1",
-            options.tolerance, options.rays_per_pair, options.rays_per_emitter_pair));
+  if (!(options.tolerance > 0 && options.tolerance < 1) || options.rays_per_pair < 1)
+    throw Error(ErrorCode::contract, "compute_exchange",
+                fmt::format("tolerance {} must lie in (0, 1) and rays per pair {} be at least 1",
+                            options.tolerance, options.rays_per_pair));
   require_memory(elements.corners.size());
   Exchange exchange;
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),

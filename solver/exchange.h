@@ -23,9 +23,8 @@ enum class Closure {
 };
 
 struct ExchangeOptions {
-  double tolerance = 1e-4;         ///< relative error of an unobstructed form factor, in (0, 1)
-  int rays_per_pair = 16;          ///< visibility samples for a pair of elements, ≥ 1
-  int rays_per_emitter_pair = 64;  ///< the same where one of them emits
+  double tolerance = 1e-4;  ///< relative error of an unobstructed form factor, in (0, 1)
+  int rays_per_pair = 16;  ///< visibility samples for a pair of elements of mean form factor, ≥ 1
   Closure closure = Closure::automatic;
 };
 

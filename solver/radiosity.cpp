@@ -14,11 +14,12 @@ namespace {
 
 /// One channel of the problem.
 struct Channel {
-  Eigen::VectorXd rho, exitance;
+  Eigen::VectorXd rho, exitance, direct_irradiance;
 };
 
 struct ChannelSolution {
-  Eigen::VectorXd radiosity, irradiance, direct_irradiance;
+  Eigen::VectorXd radiosity, irradiance;
+  Eigen::VectorXd reflected;  ///< what the irradiance was gathered from
 };
 
 Eigen::VectorXd irradiance_from(const Exchange& exchange, const Eigen::VectorXd& B) {
@@ -47,12 +48,11 @@ void require_somewhere_to_go(const Exchange& exchange, const Channel& channel) {
 }
 
 ChannelSolution sum_bounces(const Exchange& exchange, const Channel& channel, int bounces) {
-  ChannelSolution solution;
-  solution.direct_irradiance = irradiance_from(exchange, channel.exitance);
-  solution.radiosity = channel.exitance;
-  solution.irradiance = Eigen::VectorXd::Zero(channel.rho.size());
+  const Eigen::VectorXd dark = Eigen::VectorXd::Zero(channel.rho.size());
+  ChannelSolution solution{channel.exitance, dark, dark};
   for (int bounce = 0; bounce < bounces; ++bounce) {
-    solution.irradiance = irradiance_from(exchange, solution.radiosity);
+    solution.reflected = solution.radiosity - channel.exitance;
+    solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
     solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
   }
   return solution;
@@ -75,11 +75,10 @@ ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
   // (A/rho − M) B = A E/rho for rho > 0, scaled by its diagonal: y = √(A/rho) B.
   const Eigen::VectorXd scale = (channel.rho.array() / exchange.area).sqrt().matrix();
   ChannelSolution solution;
-  solution.direct_irradiance = irradiance_from(exchange, channel.exitance);
   // The light of black elements goes to the right-hand side; solving for the reflected part R = B −
   // E instead of B does that for all elements at once: (A/rho − M) R = M E.
   const Eigen::VectorXd b =
-      scale.cwiseProduct((solution.direct_irradiance.array() * exchange.area).matrix());
+      scale.cwiseProduct((channel.direct_irradiance.array() * exchange.area).matrix());
   const ScaledOperator matrix(exchange.matrix, scale, -1);
   ConjugateGradients cg(matrix);
   cg.setTolerance(options.tolerance);
@@ -88,8 +87,8 @@ ChannelSolution solve_channel(const Exchange& exchange, const Channel& channel,
   report.iterations = static_cast<int>(cg.iterations());
   report.residual = b.norm() > 0 ? (b - matrix.apply(y)).norm() / b.norm() : 0;
   // Rounding may leave the reflected part of an unlit element a hair below zero.
-  const Eigen::VectorXd reflected = scale.cwiseProduct(y).cwiseMax(0.);
-  solution.irradiance = irradiance_from(exchange, channel.exitance + reflected);
+  solution.reflected = scale.cwiseProduct(y).cwiseMax(0.);
+  solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
   solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
   return solution;
 }
@@ -100,7 +99,8 @@ void balance_power(const Exchange& exchange, const Channel& channel,
   const Eigen::ArrayXd sees = multiply(exchange.matrix, Eigen::VectorXd::Ones(area.size())).array();
   report.emitted_power = (area * channel.exitance.array()).sum();
   report.absorbed_power = (area * (1 - channel.rho.array()) * solution.irradiance.array()).sum();
-  report.escaped_power = (solution.radiosity.array() * (area - sees)).sum();
+  report.escaped_power = report.emitted_power - (area * channel.direct_irradiance.array()).sum() +
+                         ((solution.radiosity - channel.exitance).array() * (area - sees)).sum();
   report.balance =
       report.emitted_power > 0
           ? std::abs(report.emitted_power - report.absorbed_power - report.escaped_power) /
@@ -115,14 +115,19 @@ bool is_grey(const ChannelArray& values) {
 }  // namespace
 
 Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
-                         const ChannelArray& exitance, const RadiosityOptions& options,
-                         RadiosityReport& report, const Progress& progress) {
+                         const ChannelArray& exitance, const ChannelArray& direct_irradiance,
+                         const RadiosityOptions& options, RadiosityReport& report,
+                         const Progress& progress) {
   report = {};
   report.channels = is_grey(rho) && is_grey(exitance) ? 1 : 3;
-  Solution solution{rho, exitance, rho, rho, rho, {}};
+  const ChannelArray dark = ChannelArray::Zero(rho.rows(), 3);
+  Solution solution{rho, exitance, dark, dark, dark, {}, {}};
   for (int c = 0; c < report.channels; ++c) {
     progress("radiosity", c / static_cast<double>(report.channels));
-    const Channel channel{rho.col(c).matrix(), exitance.col(c).matrix()};
+    Channel channel{rho.col(c).matrix(), exitance.col(c).matrix(), {}};
+    channel.direct_irradiance = direct_irradiance.rows() > 0
+                                    ? Eigen::VectorXd(direct_irradiance.col(c))
+                                    : irradiance_from(exchange, channel.exitance);
     ChannelReport& channel_report = report.channel[static_cast<std::size_t>(c)];
     report.unknowns =
         std::max(report.unknowns, static_cast<int>((channel.rho.array() > 0).count()));
@@ -138,7 +143,7 @@ Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
     balance_power(exchange, channel, part, channel_report);
     solution.radiosity.col(c) = part.radiosity.array();
     solution.irradiance.col(c) = part.irradiance.array();
-    solution.direct_irradiance.col(c) = part.direct_irradiance.array();
+    solution.direct_irradiance.col(c) = channel.direct_irradiance.array();
   }
   for (int c = report.channels; c < 3; ++c) {
     report.channel[static_cast<std::size_t>(c)] = report.channel[0];

@@ -19,7 +19,7 @@ struct ChannelReport {
   double residual = 0;        ///< ‖b − S y‖ / ‖b‖ of the system solved
   double emitted_power = 0;   ///< Σ A E, in W (for lengths in metres)
   double absorbed_power = 0;  ///< Σ A (1 − rho) H
-  double escaped_power = 0;   ///< Σ B (A − Σ_j A F(·,j)): what leaves through openings
+  double escaped_power = 0;   ///< what leaves through openings, of direct and of reflected light
   double balance = 0;         ///< |emitted − absorbed − escaped| / emitted
 };
 
@@ -30,14 +30,15 @@ struct RadiosityReport {
   bool converged = true;
 };
 
-/// Solves B = E + rho·F B for each channel by conjugate gradients on the symmetric positive
-/// definite form, preconditioned by its diagonal; elements with rho = 0 are eliminated. With
-/// `bounces` it sums the Neumann series instead. `rho` and `exitance` have one row an element.
+/// Solves B = E + rho·(H_d + F (B − E)) for each channel by conjugate gradients on the symmetric
+/// positive definite form, preconditioned by its diagonal; elements with rho = 0 are eliminated.
+/// With `bounces` it sums the Neumann series instead. `rho` and `exitance` have one row an element.
 /// The error estimate is left empty.
 /// Throws Error(invalid_input) where a closed enclosure of perfect reflectors (rho = 1) would gain
 /// energy without end.
 Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
-                         const ChannelArray& exitance, const RadiosityOptions& options,
-                         RadiosityReport& report, const Progress& progress = {});
+                         const ChannelArray& exitance, const ChannelArray& direct_irradiance,
+                         const RadiosityOptions& options, RadiosityReport& report,
+                         const Progress& progress = {});
 
 }  // namespace halfshade

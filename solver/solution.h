@@ -1,6 +1,10 @@
 #pragma once
 
+#include "meshing/visible_part.h"
+
 #include <Eigen/Core>
+
+#include <vector>
 
 namespace halfshade {
 
@@ -14,6 +18,7 @@ struct Solution {
   ChannelArray radiosity;          ///< B = E + rho·H
   ChannelArray irradiance;         ///< H
   ChannelArray direct_irradiance;  ///< the part of H that comes straight from emitters
+  std::vector<Region> region;      ///< with respect to the strongest emitter; empty if not known
   Eigen::ArrayXd error_estimate;   ///< of the irradiance, see recovery_estimate
 };
 

@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/patch_mesh.h"
 #include "meshing/visibility.h"
+#include "solver/direct_light.h"
 #include "solver/recovery_estimate.h"
 
 #include <fmt/format.h>
@@ -28,7 +29,7 @@ class Stages {
     reports_.push_back({name, elapsed.count(), count, {}});
   }
 
-  void leave_out_if(bool needless, const char* name, const char* because) {
+  void leave_out_if(bool needless, const char* name, const std::string& because) {
     if (needless) reports_.push_back({name, 0, 0, because});
   }
 
@@ -67,6 +68,40 @@ ElementTable make_mesh(const SoundScene& scene, const SolveOptions& options,
     elements = PatchMesh(scene, mesh_options, progress).elements();
   }
   return elements;
+}
+
+/// Why direct light needs no stage of its own; empty if it does.
+std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice) {
+  constexpr double most = 0.5;
+  if (choice == DirectLightBy::exact) return {};
+  if (choice == DirectLightBy::matrix) return "the matrix was asked for";
+  double all = 0, emitting = 0;
+  for (const Receiver& receiver : scene.receivers) {
+    const Material& material = scene.materials[static_cast<std::size_t>(receiver.material)];
+    all += area(receiver);
+    if ((material.exitance > 0).any()) emitting += area(receiver);
+  }
+  return emitting > most * all
+             ? "most surfaces emit, so that direct light is no sharper than reflected"
+             : "";
+}
+
+/// In a closed enclosure everything an emitter sends arrives somewhere. Averaging over elements
+/// loses or gains a little where shadows cut them; one factor for each emitter puts that right.
+void conserve_power(ElementDirectLight& light, const SoundScene& scene,
+                    const ElementTable& elements, const Enclosures& enclosures) {
+  const Eigen::Map<const Eigen::ArrayXd> areas(elements.area.data(), elements.count());
+  for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+    const auto first =
+        std::find(elements.receiver.begin(), elements.receiver.end(), light.emitters[k]);
+    if (first == elements.receiver.end() ||
+        !enclosures.is_closed(static_cast<int>(first - elements.receiver.begin())))
+      continue;
+    auto factors = light.factor.col(static_cast<Eigen::Index>(k));
+    const double arriving = (areas * factors).sum();
+    if (arriving > 0)
+      factors *= area(scene.receivers[static_cast<std::size_t>(light.emitters[k])]) / arriving;
+  }
 }
 
 void check(const SolveOptions& options) {
@@ -109,11 +144,26 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
                       "no surface can come between two others");
   stages.leave_out_if(!exchange.report.closure_enforced && !exchange.report.closed, "closure",
                       "light can leave the scene");
-  ChannelArray rho, exitance;
+  ChannelArray rho, exitance, direct_irradiance;
+  std::vector<Region> region;
+  const std::string needless = direct_light_needless(result.scene, options.direct_light);
+  stages.leave_out_if(!needless.empty(), "exact direct light", needless);
+  if (needless.empty())
+    stages.run("exact direct light", [&] {
+      const DirectLightIndex index(result.scene);
+      ElementDirectLight light = element_direct_light(result.scene, result.elements, index,
+                                                      options.direct_points, progress);
+      if (exchange.report.closure_enforced)
+        conserve_power(light, result.scene, result.elements, exchange.enclosures);
+      direct_irradiance = irradiance_of(light, result.scene);
+      region = std::move(light.region);
+      return light.emitters.size();
+    });
   material_arrays(result.scene, result.elements, rho, exitance);
   stages.run("radiosity", [&] {
-    result.solution =
-        solve_radiosity(exchange, rho, exitance, options.radiosity, result.radiosity, progress);
+    result.solution = solve_radiosity(exchange, rho, exitance, direct_irradiance, options.radiosity,
+                                      result.radiosity, progress);
+    result.solution.region = std::move(region);
     return static_cast<std::size_t>(result.radiosity.unknowns);
   });
   stages.leave_out_if(result.radiosity.unknowns == 0, "interreflection", "no surface reflects");

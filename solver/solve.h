@@ -14,11 +14,19 @@
 
 namespace halfshade {
 
+enum class DirectLightBy {
+  automatic,  ///< exact, unless emitters are most of the scene, as in a furnace
+  exact,      ///< closed forms on exactly visible parts at points of each element
+  matrix      ///< the same form factors as reflected light
+};
+
 struct SolveOptions {
   int elements =
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
   double max_length = 0;     ///< longest element edge in scene units; 0: derived from `elements`
   int max_elements = 40000;  ///< refuse to make more; memory grows with the square
+  DirectLightBy direct_light = DirectLightBy::automatic;
+  int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;
   RadiosityOptions radiosity;
 };

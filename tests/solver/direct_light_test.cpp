@@ -238,7 +238,7 @@ TEST(DirectLight, LosesOnlyWhatRoundingTakesWhenTheSceneIsFarAway) {
       100 * 6e6 * epsilon);
 }
 
-TEST(ElementDirectIrradiance, IsTheMeanOverTheElement) {
+TEST(ElementDirectLight, IsTheMeanOverTheElement) {
   // Lit elements of S1, whose mean is known from the exact form factor between rectangles.
   const SoundScene scene = test::s1();
   ElementTable elements;
@@ -246,25 +246,47 @@ TEST(ElementDirectIrradiance, IsTheMeanOverTheElement) {
   elements.corners = {{0, 1, 2}, {0, 2, 3}};
   elements.normal = {up, up};
   elements.receiver = {2, 2};
-  const ChannelArray mean = element_direct_irradiance(scene, elements, DirectLightIndex(scene), 12);
+  const auto mean_with = [&](int points) {
+    return irradiance_of(element_direct_light(scene, elements, DirectLightIndex(scene), points),
+                         scene);
+  };
+  const ChannelArray mean = mean_with(12);
   const double want =
       test::offset_parallel_rectangles({1.3, 1.7}, {-0.2, 0.2}, {-0.5, 0.5}, {-0.5, 0.5}, 2);
   EXPECT_NEAR(mean.col(0).mean(), want, 1e-9);
-  const ChannelArray coarse =
-      element_direct_irradiance(scene, elements, DirectLightIndex(scene), 1);
+  const ChannelArray coarse = mean_with(1);
   EXPECT_NEAR(coarse.col(0).mean(), want, 1e-3);
   EXPECT_GT(std::abs(coarse.col(0).mean() - want), 1e-7);
 }
 
-TEST(ElementDirectIrradiance, OfALightUnderItselfIsZero) {
+TEST(ElementDirectLight, NamesTheRegionOfEachElement) {
+  const SoundScene scene = test::s1();
+  ElementTable elements;
+  elements.points = {{-.1, 0, 0}, {.1, 0, 0},  {0, .1, 0},    // umbra: |x|, |y| < .25
+                     {.5, 0, 0},  {.7, 0, 0},  {.6, .1, 0},   // penumbra
+                     {1.4, 0, 0}, {1.6, 0, 0}, {1.5, .1, 0},  // lit: |x| > 1.25
+                     {.2, 0, 0},  {.4, 0, 0},  {.3, .1, 0}};  // partly umbra
+  elements.corners = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}, {9, 10, 11}};
+  elements.normal = {up, up, up, up};
+  elements.receiver = {2, 2, 2, 2};
+  const ElementDirectLight light =
+      element_direct_light(scene, elements, DirectLightIndex(scene), 6);
+  EXPECT_EQ(light.region,
+            (std::vector<Region>{Region::umbra, Region::penumbra, Region::lit, Region::penumbra}));
+  EXPECT_EQ(light.factor(0, 0), 0);
+}
+
+TEST(ElementDirectLight, OfALightUnderItselfIsZero) {
   const SoundScene scene = test::s1();
   ElementTable elements;
   elements.points = {{-0.5, -0.5, 2}, {-0.5, 0.5, 2}, {0.5, 0.5, 2}};
   elements.corners = {{0, 1, 2}};
   elements.normal = {-up};
   elements.receiver = {0};
-  const ChannelArray mean = element_direct_irradiance(scene, elements, DirectLightIndex(scene), 3);
-  EXPECT_TRUE((mean == 0).all());
+  const ElementDirectLight light =
+      element_direct_light(scene, elements, DirectLightIndex(scene), 3);
+  EXPECT_TRUE((light.factor == 0).all());
+  EXPECT_EQ(light.region, std::vector<Region>{Region::away});
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ ChannelArray grey(const Eigen::ArrayXd& values) { return values.replicate(1, 3);
 
 Solution solved(const Exchange& exchange, const ChannelArray& rho, const ChannelArray& exitance,
                 RadiosityReport& report, RadiosityOptions options = {}) {
-  return solve_radiosity(exchange, rho, exitance, options, report);
+  return solve_radiosity(exchange, rho, exitance, {}, options, report);
 }
 
 TEST(Radiosity, ConcentricSpheres) {

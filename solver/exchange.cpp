@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <limits>
 #include <unistd.h>
 #include <vector>
 
@@ -97,7 +98,14 @@ class Assembly {
         options_(options),
         shapes_(make_shapes(scene, elements)),
         pairs_(scene, visibility, progress),
-        upper_(shapes_.size()) {}
+        run_end_(shapes_.size()),
+        upper_(shapes_.size()) {
+    for (std::size_t e = run_end_.size(); e-- > 0;) {
+      const bool last =
+          e + 1 == run_end_.size() || elements.receiver[e] != elements.receiver[e + 1];
+      run_end_[e] = last ? static_cast<int>(e) + 1 : run_end_[e + 1];
+    }
+  }
 
   /// False if stopped.
   bool run(const Progress& progress) {
@@ -147,7 +155,10 @@ class Assembly {
     for (int j = i + 1; j < elements_.count(); ++j) {
       const int s = elements_.receiver[static_cast<std::size_t>(j)];
       const Sight sight = r == s ? Sight::none : pairs_.sight(r, s);
-      if (sight == Sight::none) continue;
+      if (sight == Sight::none) {
+        j = run_end_[static_cast<std::size_t>(j)] - 1;
+        continue;
+      }
       const Shape& b = shapes_[static_cast<std::size_t>(j)];
       double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
       if (!(value > 0)) continue;
@@ -170,20 +181,30 @@ class Assembly {
   ExchangeOptions options_;
   std::vector<Shape> shapes_;
   ReceiverPairs pairs_;
+  std::vector<int> run_end_;  ///< element → end of the run of elements of its receiver
   std::vector<std::vector<Factor>> upper_;
   std::atomic<std::size_t> rays_ = 0;
 };
 
-void require_memory(std::size_t elements) {
+void require_memory(const ElementTable& elements) {
+  // Elements of one receiver do not see each other.
+  std::vector<double> in_receiver;
+  for (const int r : elements.receiver) {
+    in_receiver.resize(std::max(in_receiver.size(), static_cast<std::size_t>(r) + 1));
+    ++in_receiver[static_cast<std::size_t>(r)];
+  }
+  const double n = static_cast<double>(elements.corners.size());
+  double pairs = n * n;
+  for (const double m : in_receiver) pairs -= m * m;
   const double available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                            static_cast<double>(sysconf(_SC_PAGESIZE)) * memory_share;
-  const double n = static_cast<double>(elements), needed = n * n * bytes_per_factor;
-  if (needed > available || n * n >= 2147483648.)
+  const double needed = pairs * bytes_per_factor;
+  if (needed > available || pairs > std::numeric_limits<int>::max())
     throw Error(
         ErrorCode::too_large, "compute_exchange",
         fmt::format("form factors among {} elements may take {:.1f} GB, more than {:.1f} GB that "
-                    "can be used (and at most 46340 elements); ask for fewer elements",
-                    elements, needed / 1e9, available / 1e9));
+                    "can be used, or too many to count; ask for fewer elements",
+                    elements.corners.size(), needed / 1e9, available / 1e9));
 }
 
 void report_closure(Exchange& exchange) {
@@ -228,7 +249,7 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
     throw Error(ErrorCode::contract, "compute_exchange",
                 fmt::format("tolerance {} must lie in (0, 1) and rays per pair {} be at least 1",
                             options.tolerance, options.rays_per_pair));
-  require_memory(elements.corners.size());
+  require_memory(elements);
   Exchange exchange;
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
                                                    static_cast<Eigen::Index>(elements.area.size()));

@@ -191,6 +191,7 @@ TEST(Exchange, RefusesWhatDoesNotFit) {
   try {
     ElementTable many;
     many.corners.resize(200000, few.corners[0]);
+    for (int e = 0; e < 200000; ++e) many.receiver.push_back(e % 6);
     compute_exchange(cube.scene, many, VisibilityIndex(occluders(cube.scene)));
     FAIL() << "no error";
   } catch (const Error& e) {

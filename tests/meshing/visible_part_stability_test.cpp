@@ -6,13 +6,12 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
 
-// Signatures, determinism, memory and cost.
+// Signatures, determinism and memory.
 
 namespace halfshade {
 namespace {
@@ -103,28 +102,6 @@ TEST(VisiblePartFinder, ASpheresHiddenPartIsThatOfItsOutline) {
                         test::lambert(part.pieces, Vec3::Zero(), Vec3::UnitZ());
   EXPECT_NEAR(hidden, .09, .09 * 2e-3);
   EXPECT_LT(hidden, .09);
-}
-
-double microseconds_per_point(int levels) {
-  const SoundScene scene = sphere_scene(levels);
-  const OpaqueScene opaque(scene);
-  VisiblePartFinder finder(opaque);
-  VisiblePart part;
-  double best = HUGE_VAL;
-  for (int round = 0; round < 5; ++round) {
-    const auto start = std::chrono::steady_clock::now();
-    Dice dice(4);
-    for (int k = 0; k < 200; ++k)
-      finder.find({dice(-1, 1), dice(-1, 1), 0}, Vec3::UnitZ(), 0, part);
-    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
-    best = std::min(best, 1e6 * time.count() / 200);
-  }
-  return best;
-}
-
-TEST(VisiblePartFinder, CostFollowsTheSilhouetteNotTheFaces) {
-  const double coarse = microseconds_per_point(1), fine = microseconds_per_point(5);
-  EXPECT_LT(std::log(fine / coarse) / std::log(256.), 0.6) << coarse << " µs, " << fine << " µs";
 }
 
 TEST(OpaqueScene, JoinsCornersAndSplitsEdgesAtTJunctions) {

@@ -8,10 +8,9 @@
 #include <benchmark/benchmark.h>
 
 #include <chrono>
-#include <cstdlib>
 
 // Exact direct light against the best Monte-Carlo estimate we know how to write, in one run and on
-// all threads. Scenes are read from $HALFSHADE_DATA, or from ./data.
+// all threads.
 
 namespace halfshade {
 namespace {
@@ -205,10 +204,7 @@ void compare(benchmark::State& state, const SoundScene& scene, double half, std:
 
 void direct_light_of_file(benchmark::State& state, const std::string& name, double half,
                           std::size_t count) {
-  const char* folder = std::getenv("HALFSHADE_DATA");
-  const std::filesystem::path path =
-      std::filesystem::path(folder ? folder : "data") / (name + ".obj");
-  if (!std::filesystem::exists(path)) return state.SkipWithError("set HALFSHADE_DATA");
+  const std::filesystem::path path = std::filesystem::path(HALFSHADE_DATA) / (name + ".obj");
   compare(state, make_sound(read_scene(path).scene), half, count, 8);
 }
 BENCHMARK_CAPTURE(direct_light_of_file, s1, "s1", 1.3, 64)->Iterations(1);

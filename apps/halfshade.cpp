@@ -82,6 +82,13 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
          "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave'")
       ->transform(CLI::CheckedTransformer(closures, CLI::ignore_case))
       ->default_str("auto");
+  const std::map<std::string, DirectLightBy> direct_lights = {{"auto", DirectLightBy::automatic},
+                                                              {"exact", DirectLightBy::exact},
+                                                              {"matrix", DirectLightBy::matrix}};
+  app->add_option("--direct-light", options.direct_light,
+                  "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'")
+      ->transform(CLI::CheckedTransformer(direct_lights, CLI::ignore_case))
+      ->default_str("auto");
   add_common(*app, common);
   app->footer(
       "Examples:\n"

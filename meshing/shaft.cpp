@@ -15,14 +15,14 @@ namespace halfshade {
 namespace {
 
 // More edges of a polygon than this cost more in tests than they save in candidates.
-constexpr std::size_t kMaxEdges = 16;  // two sides each, two polygons: 64 bits
+constexpr std::size_t most_edges = 16;  // two sides each, two polygons: 64 bits
 
 // Relative to the shaft's size. Any half-space that touches the hull is valid, so this decides how
 // tight the shaft is, not whether it is right.
-constexpr double kTight = 1e-9;
+constexpr double tightness = 1e-9;
 
 // Squared difference of unit normals that are one but for rounding.
-constexpr double kSameNormal = 1e-26;
+constexpr double same_normal_sine = 1e-26;
 
 using Edge = std::pair<Vec3, Vec3>;
 
@@ -62,12 +62,12 @@ std::vector<Edge> hull_edges(std::span<const Vec3> polygon) {
   const double length = (q - r).norm();
   if (!(length > 0)) return {};
   const Vec3 area = area_vector(polygon);
-  if (!(area.norm() > kTight * length * length)) return {{q, r}};
+  if (!(area.norm() > tightness * length * length)) return {{q, r}};
   const PlaneFrame frame = make_frame(p, area);
   std::vector<Vec2> flat;
   for (const Vec3& x : polygon) flat.push_back(frame.to_plane(x));
   const auto hull = convex_hull(flat);
-  const std::size_t step = (hull.size() + kMaxEdges - 1) / kMaxEdges;
+  const std::size_t step = (hull.size() + most_edges - 1) / most_edges;
   std::vector<Edge> edges;
   for (std::size_t i = 0; i < hull.size(); i += step)
     edges.emplace_back(polygon[hull[i]], polygon[hull[(i + 1) % hull.size()]]);
@@ -86,7 +86,7 @@ void add_side(Shaft& shaft, const Vec3& normal, const Vec3& touched, double slac
   for (const Vec3& p : shaft.corners) side.limit = std::max(side.limit, normal.dot(p));
   if (side.limit - normal.dot(touched) > slack) return;
   for (const Shaft::Side& other : shaft.sides)
-    if ((other.normal - normal).squaredNorm() < kSameNormal) return;
+    if ((other.normal - normal).squaredNorm() < same_normal_sine) return;
   shaft.sides.push_back(side);
 }
 
@@ -104,7 +104,7 @@ void add_tangents(Shaft& shaft, const Edge& edge, double slack, std::vector<Vec2
     middle += seen.back();
   }
   if (seen.empty()) return;
-  if (middle.squaredNorm() < kTight) middle = {-seen.front().y(), seen.front().x()};
+  if (middle.squaredNorm() < tightness) middle = {-seen.front().y(), seen.front().x()};
   const auto [low, high] =
       std::minmax_element(seen.begin(), seen.end(), [&](const Vec2& v, const Vec2& w) {
         return pseudo_angle(middle, v) < pseudo_angle(middle, w);
@@ -125,7 +125,7 @@ Shaft make_shaft(std::span<const Vec3> a, std::span<const Vec3> b, double tolera
     shaft.low = shaft.low.cwiseMin(p);
     shaft.high = shaft.high.cwiseMax(p);
   }
-  const double slack = kTight * (shaft.high - shaft.low).norm();
+  const double slack = tightness * (shaft.high - shaft.low).norm();
   const std::vector<Edge> edges_a = hull_edges(a), edges_b = hull_edges(b);
   std::vector<Vec2> seen;
   for (const auto* edges : {&edges_a, &edges_b})

@@ -12,12 +12,12 @@
 namespace halfshade {
 namespace {
 
-constexpr unsigned kLeaf = 4;  // triangles
+constexpr unsigned leaf_size = 4;  // triangles
 
 /// A node as Embree builds it.
 struct RawNode {
   std::array<RawNode*, 2> children{};
-  std::array<int, kLeaf> triangles{};
+  std::array<int, leaf_size> triangles{};
   int count = 0;  // of a leaf's triangles; 0 in inner nodes
 };
 
@@ -114,7 +114,7 @@ TriangleTree::TriangleTree(const TriangleSoup& soup, const Vec3& centre) {
   const Owner<RTCBVH> bvh(rtcNewBVH(device.get()));
   RTCBuildArguments arguments = rtcDefaultBuildArguments();
   arguments.maxBranchingFactor = 2;
-  arguments.maxLeafSize = kLeaf;
+  arguments.maxLeafSize = leaf_size;
   arguments.bvh = bvh.get();
   arguments.primitives = primitives.data();
   arguments.primitiveCount = arguments.primitiveArrayCapacity = primitives.size();

@@ -27,29 +27,29 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t kPacket = 16;    // lanes of an Embree packet
-constexpr std::size_t kChunk = 1024;   // segments of one task; a multiple of kPacket
-constexpr std::size_t kSerial = 4096;  // batches up to this size are not worth a task
+constexpr std::size_t packet_size = 16;     // lanes of an Embree packet
+constexpr std::size_t chunk_size = 1024;    // segments of one task; a multiple of packet_size
+constexpr std::size_t serial_limit = 4096;  // batches up to this size are not worth a task
 
 // Embree's coordinates lie in [−1, 1], and a line through a triangle there is off by about ten
 // roundings, 2^-20. Edges are moved outwards by four times that, and rays, whose ends suffer more
-// at grazing angles, lengthened by much more. Corners move by at most kMiter times as much.
-constexpr double kEnlarge = 0x1p-18;
-constexpr double kLengthen = 0x1p-12;
-constexpr double kMiter = 64;
+// at grazing angles, lengthened by much more. Corners move by at most miter_limit times as much.
+constexpr double enlargement = 0x1p-18;
+constexpr double lengthening = 0x1p-12;
+constexpr double miter_limit = 64;
 
 // Relative to the scene's size: a point this close to a triangle's plane lies in it, and a line
 // this close to its border meets it. Points that were computed to lie there do so within about
 // 1e-15.
-constexpr double kInPlane = 1e-10;
-constexpr double kOnBorder = 1e-12;
-constexpr double kInShaft = 1e-12;
+constexpr double in_plane_distance = 1e-10;
+constexpr double on_border_distance = 1e-12;
+constexpr double in_shaft_distance = 1e-12;
 
 // A packet whose origins and ends lie this close together is traced as one bundle, else ray by ray:
 // measured, either is up to three times as fast as the other beyond this.
-constexpr double kBundle = 0.2;
+constexpr double bundle_spread = 0.2;
 
-constexpr double kMaxExtent = 1e30;  // sixth powers of lengths occur
+constexpr double largest_extent = 1e30;  // sixth powers of lengths occur
 
 struct DeviceRelease {
   void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -98,7 +98,7 @@ struct Ray {
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
 bool clip_to_cube(Ray& ray) {
-  const double half = 1 + 2 * kLengthen;
+  const double half = 1 + 2 * lengthening;
   double enter = 0, leave = ray.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = ray.origin[axis], d = ray.direction[axis];
@@ -200,15 +200,15 @@ void VisibilityIndex::Impl::measure() {
     }
   const double half = (high / 2 - low / 2).maxCoeff();
   const double reach = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
-  if (!(half < kMaxExtent) || (half > 0 && half < 1 / kMaxExtent))
+  if (!(half < largest_extent) || (half > 0 && half < 1 / largest_extent))
     throw Error(ErrorCode::contract, "VisibilityIndex",
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
   centre = low / 2 + high / 2;
   if (half > 0) scale = std::exp2(-std::ilogb(half) - 1);
   const double rounding = 16 * std::numeric_limits<double>::epsilon() * reach;
-  in_plane = kInPlane * half + rounding;
-  on_border = kOnBorder * half + rounding;
-  in_shaft = kInShaft * half + rounding;
+  in_plane = in_plane_distance * half + rounding;
+  on_border = on_border_distance * half + rounding;
+  in_shaft = in_shaft_distance * half + rounding;
 }
 
 void VisibilityIndex::Impl::build() {
@@ -227,7 +227,7 @@ void VisibilityIndex::Impl::build() {
   throw_on_error(device.get());
   std::iota(corners, corners + 3 * soup.triangles.size(), 0u);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (const Vec3& p : enlarged(SoupTriangle(soup, t), kEnlarge / scale, kMiter))
+    for (const Vec3& p : enlarged(SoupTriangle(soup, t), enlargement / scale, miter_limit))
       for (int axis = 0; axis < 3; ++axis) *points++ = narrow((p[axis] - centre[axis]) * scale);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_occlusion);
   rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
@@ -246,9 +246,9 @@ std::optional<Ray> VisibilityIndex::Impl::ray(const Segment& segment) const {
   const double length = way.norm();
   if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return std::nullopt;
   const Vec3 direction = way / length;
-  Ray ray{from - kLengthen * direction, direction, length + 2 * kLengthen};
+  Ray ray{from - lengthening * direction, direction, length + 2 * lengthening};
   const bool inside =
-      std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>()) <= 1 + kLengthen;
+      std::max(from.lpNorm<Eigen::Infinity>(), to.lpNorm<Eigen::Infinity>()) <= 1 + lengthening;
   if (!inside && !clip_to_cube(ray)) return std::nullopt;
   return ray;
 }
@@ -266,15 +266,15 @@ Query VisibilityIndex::Impl::query(bool coherent) const {
 void VisibilityIndex::Impl::packet(std::span<const Segment> segments,
                                    std::span<std::uint8_t> result) const {
   alignas(64) RTCRay16 rays{};
-  alignas(64) int valid[kPacket] = {};
+  alignas(64) int valid[packet_size] = {};
   std::optional<Ray> first;
   bool bundle = true;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const std::optional<Ray> r = ray(segments[i]);
     if (!r) continue;
     if (!first) first = r;
-    bundle = bundle && (r->origin - first->origin).squaredNorm() < kBundle * kBundle &&
-             (r->end() - first->end()).squaredNorm() < kBundle * kBundle;
+    bundle = bundle && (r->origin - first->origin).squaredNorm() < bundle_spread * bundle_spread &&
+             (r->end() - first->end()).squaredNorm() < bundle_spread * bundle_spread;
     valid[i] = -1;
     rays.org_x[i] = narrow(r->origin.x());
     rays.org_y[i] = narrow(r->origin.y());
@@ -339,14 +339,14 @@ void VisibilityIndex::blocked(std::span<const Segment> segments,
     return;
   }
   const auto run = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; i += kPacket) {
-      const std::size_t count = std::min(kPacket, end - i);
+    for (std::size_t i = begin; i < end; i += packet_size) {
+      const std::size_t count = std::min(packet_size, end - i);
       impl_->packet(segments.subspan(i, count), result.subspan(i, count));
     }
   };
-  if (segments.size() <= kSerial) return run(0, segments.size());
-  parallel_for((segments.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    run(chunk * kChunk, std::min((chunk + 1) * kChunk, segments.size()));
+  if (segments.size() <= serial_limit) return run(0, segments.size());
+  parallel_for((segments.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+    run(chunk * chunk_size, std::min((chunk + 1) * chunk_size, segments.size()));
   });
 }
 
@@ -356,7 +356,7 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   if (!impl.scene || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   const Vec3 unit = direction.stableNormalized();
   if (unit.isZero()) return std::nullopt;
-  const Vec3 start = (origin - impl.centre) * impl.scale - kLengthen * unit;
+  const Vec3 start = (origin - impl.centre) * impl.scale - lengthening * unit;
   Ray ray{start, unit, std::numeric_limits<double>::infinity()};
   if (!clip_to_cube(ray)) return std::nullopt;
   Query query = impl.query(false);

@@ -132,6 +132,16 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
     result.elements = make_mesh(result.scene, options, progress);
     return result.elements.corners.size();
   });
+  ElementDirectLight light;
+  const std::string needless = direct_light_needless(result.scene, options.direct_light);
+  stages.leave_out_if(!needless.empty(), "exact direct light", needless);
+  if (needless.empty())
+    stages.run("exact direct light", [&] {
+      const DirectLightIndex index(result.scene);
+      light = element_direct_light(result.scene, result.elements, index, options.direct_points,
+                                   progress);
+      return light.emitters.size();
+    });
   Exchange exchange;
   stages.run("form factors", [&] {
     const VisibilityIndex visibility(occluders(result.scene));
@@ -145,25 +155,16 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
   stages.leave_out_if(!exchange.report.closure_enforced && !exchange.report.closed, "closure",
                       "light can leave the scene");
   ChannelArray rho, exitance, direct_irradiance;
-  std::vector<Region> region;
-  const std::string needless = direct_light_needless(result.scene, options.direct_light);
-  stages.leave_out_if(!needless.empty(), "exact direct light", needless);
-  if (needless.empty())
-    stages.run("exact direct light", [&] {
-      const DirectLightIndex index(result.scene);
-      ElementDirectLight light = element_direct_light(result.scene, result.elements, index,
-                                                      options.direct_points, progress);
-      if (exchange.report.closure_enforced)
-        conserve_power(light, result.scene, result.elements, exchange.enclosures);
-      direct_irradiance = irradiance_of(light, result.scene);
-      region = std::move(light.region);
-      return light.emitters.size();
-    });
+  if (needless.empty()) {
+    if (exchange.report.closure_enforced)
+      conserve_power(light, result.scene, result.elements, exchange.enclosures);
+    direct_irradiance = irradiance_of(light, result.scene);
+  }
   material_arrays(result.scene, result.elements, rho, exitance);
   stages.run("radiosity", [&] {
     result.solution = solve_radiosity(exchange, rho, exitance, direct_irradiance, options.radiosity,
                                       result.radiosity, progress);
-    result.solution.region = std::move(region);
+    result.solution.region = std::move(light.region);
     return static_cast<std::size_t>(result.radiosity.unknowns);
   });
   stages.leave_out_if(result.radiosity.unknowns == 0, "interreflection", "no surface reflects");

@@ -13,7 +13,7 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t kSegments = 1 << 16;
+constexpr std::size_t segment_count = 1 << 16;
 
 /// Sized so that about half of all segments are blocked for any number.
 TriangleSoup scene(std::int64_t triangles) {
@@ -26,7 +26,7 @@ std::vector<Segment> segments(bool coherent) {
   test::Random random(2);
   std::vector<Segment> out;
   Segment bundle{Vec3::Zero(), Vec3::Zero()};
-  for (std::size_t i = 0; i < kSegments; ++i) {
+  for (std::size_t i = 0; i < segment_count; ++i) {
     if (!coherent || i % 64 == 0) bundle = {random.point(0, 1), random.point(0, 1)};
     const double spread = coherent ? 0.01 : 0;
     out.push_back({bundle.from + random.point(0, spread), bundle.to + random.point(0, spread)});
@@ -51,32 +51,32 @@ void rays_single(benchmark::State& state, bool coherent) {
   const VisibilityIndex index(scene(state.range(0)));
   const auto rays = segments(coherent);
   std::size_t i = 0;
-  for (auto _ : state) benchmark::DoNotOptimize(index.blocked(rays[i++ % kSegments]));
+  for (auto _ : state) benchmark::DoNotOptimize(index.blocked(rays[i++ % segment_count]));
   count(state, 1);
 }
 
 /// Batches small enough to stay on the calling thread.
 void rays_packets(benchmark::State& state, bool coherent) {
-  constexpr std::size_t kBatch = 64;
+  constexpr std::size_t batch_size = 64;
   const VisibilityIndex index(scene(state.range(0)));
   const auto rays = segments(coherent);
-  std::vector<std::uint8_t> result(kBatch);
+  std::vector<std::uint8_t> result(batch_size);
   std::size_t i = 0;
   for (auto _ : state) {
-    index.blocked(std::span(rays).subspan(i % kSegments, kBatch), result);
-    i += kBatch;
+    index.blocked(std::span(rays).subspan(i % segment_count, batch_size), result);
+    i += batch_size;
   }
-  count(state, kBatch);
+  count(state, batch_size);
 }
 
 void rays_batch(benchmark::State& state, bool coherent) {
   const VisibilityIndex index(scene(state.range(0)));
   const auto rays = segments(coherent);
-  std::vector<std::uint8_t> result(kSegments);
+  std::vector<std::uint8_t> result(segment_count);
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(state.range(1)));
   for (auto _ : state) index.blocked(rays, result);
-  count(state, kSegments);
+  count(state, segment_count);
 }
 
 void first_hits(benchmark::State& state) {
@@ -84,7 +84,7 @@ void first_hits(benchmark::State& state) {
   const auto rays = segments(false);
   std::size_t i = 0;
   for (auto _ : state) {
-    const Segment& s = rays[i++ % kSegments];
+    const Segment& s = rays[i++ % segment_count];
     benchmark::DoNotOptimize(index.first_hit(s.from, s.to - s.from));
   }
   count(state, 1);

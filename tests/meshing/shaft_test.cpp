@@ -63,9 +63,10 @@ bool between(const std::array<Vec3, 3>& triangle, const Polygon& a, const Polygo
   return !candidates(soup, a, b).empty();
 }
 
-const Polygon kFloor = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-const Polygon kCeiling = {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
-const Polygon kWall = {{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}};  // meets the floor in an edge
+const Polygon floor_square = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+const Polygon ceiling_square = {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}};
+const Polygon wall_square = {
+    {1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}};  // meets the floor in an edge
 
 TEST(Shaft, HoldsEveryTriangleThatBlocksASegment) {
   Random random(1);
@@ -171,15 +172,18 @@ TEST(Shaft, LeavesOutTrianglesThatOnlyTouch) {
     for (const double side : {0.0, 1.0}) {
       std::array<Vec3, 3> face = {Vec3(0.2, 0.2, 0.2), Vec3(0.9, 0.3, 0.3), Vec3(0.4, 0.8, 0.9)};
       for (Vec3& p : face) p[axis] = side;
-      EXPECT_FALSE(between(face, kFloor, kCeiling)) << axis << side;
+      EXPECT_FALSE(between(face, floor_square, ceiling_square)) << axis << side;
       // Moved in by a little: between the two, unless it stands on edge to them.
-      EXPECT_TRUE(between(scaled(face, 1e-9), kFloor, kCeiling)) << axis << side;
-      EXPECT_FALSE(between(scaled(face, -1e-9), kFloor, kCeiling)) << axis << side;
+      EXPECT_TRUE(between(scaled(face, 1e-9), floor_square, ceiling_square)) << axis << side;
+      EXPECT_FALSE(between(scaled(face, -1e-9), floor_square, ceiling_square)) << axis << side;
     }
   // Leaning on an edge, on a corner, from outside.
-  EXPECT_FALSE(between({Vec3(1, 0, 0), Vec3(1, 0, 1), Vec3(2, -1, 0.5)}, kFloor, kCeiling));
-  EXPECT_FALSE(between({Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 2)}, kFloor, kCeiling));
-  EXPECT_FALSE(between({Vec3(1, 1, 0.5), Vec3(2, 1, 0.5), Vec3(1, 2, 0.5)}, kFloor, kCeiling));
+  EXPECT_FALSE(
+      between({Vec3(1, 0, 0), Vec3(1, 0, 1), Vec3(2, -1, 0.5)}, floor_square, ceiling_square));
+  EXPECT_FALSE(
+      between({Vec3(1, 1, 1), Vec3(2, 1, 1), Vec3(1, 2, 2)}, floor_square, ceiling_square));
+  EXPECT_FALSE(
+      between({Vec3(1, 1, 0.5), Vec3(2, 1, 0.5), Vec3(1, 2, 0.5)}, floor_square, ceiling_square));
 }
 
 TEST(Shaft, LeavesOutTrianglesWithBothPolygonsOnOneSide) {
@@ -195,26 +199,30 @@ TEST(Shaft, LeavesOutTrianglesWithBothPolygonsOnOneSide) {
 
 TEST(Shaft, OfPolygonsThatShareAnEdgeIsTheWedge) {
   // Floor and wall: the hull is the prism z ≤ x over the floor.
-  EXPECT_TRUE(between({Vec3(0.5, 0.2, 0), Vec3(0.5, 0.8, 0), Vec3(0.5, 0.5, 0.4)}, kFloor, kWall));
+  EXPECT_TRUE(between({Vec3(0.5, 0.2, 0), Vec3(0.5, 0.8, 0), Vec3(0.5, 0.5, 0.4)}, floor_square,
+                      wall_square));
+  EXPECT_FALSE(between({Vec3(0.2, 0.2, 0.5), Vec3(0.2, 0.8, 0.5), Vec3(0.4, 0.5, 0.6)},
+                       floor_square, wall_square));
+  EXPECT_FALSE(between({Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0.5, 1)}, floor_square, wall_square));
   EXPECT_FALSE(
-      between({Vec3(0.2, 0.2, 0.5), Vec3(0.2, 0.8, 0.5), Vec3(0.4, 0.5, 0.6)}, kFloor, kWall));
-  EXPECT_FALSE(between({Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0.5, 1)}, kFloor, kWall));
-  EXPECT_FALSE(between({kFloor[0], kFloor[1], kFloor[2]}, kFloor, kWall));
-  EXPECT_FALSE(between({kWall[0], kWall[1], kWall[2]}, kFloor, kWall));
+      between({floor_square[0], floor_square[1], floor_square[2]}, floor_square, wall_square));
+  EXPECT_FALSE(
+      between({wall_square[0], wall_square[1], wall_square[2]}, floor_square, wall_square));
 }
 
 TEST(Shaft, OfAPolygonBesideTheOthersPlaneKeepsThatPlane) {
   // A wall that stands on the floor's plane beyond its edge: things in and below the plane are out.
-  Polygon wall = kWall;
+  Polygon wall = wall_square;
   for (Vec3& p : wall) p.x() = 1.5;
-  const Shaft shaft = make_shaft(kFloor, wall, 1e-12);
+  const Shaft shaft = make_shaft(floor_square, wall, 1e-12);
   const auto down = std::count_if(shaft.sides.begin(), shaft.sides.end(), [](const auto& side) {
     return (side.normal + Vec3::UnitZ()).norm() < 1e-12 && std::abs(side.limit) < 1e-12;
   });
   EXPECT_EQ(down, 1);
   EXPECT_EQ(shaft.sides.size(), 5u);  // below, above (tilted), behind the wall, left, right
-  EXPECT_FALSE(between({Vec3(1.2, 0.2, 0), Vec3(1.4, 0.8, 0), Vec3(1.3, 0.5, 0)}, kFloor, wall));
-  EXPECT_TRUE(between({Vec3(1.2, 0, 0), Vec3(1.2, 1, 0), Vec3(1.2, 0.5, 0.1)}, kFloor, wall));
+  EXPECT_FALSE(
+      between({Vec3(1.2, 0.2, 0), Vec3(1.4, 0.8, 0), Vec3(1.3, 0.5, 0)}, floor_square, wall));
+  EXPECT_TRUE(between({Vec3(1.2, 0, 0), Vec3(1.2, 1, 0), Vec3(1.2, 0.5, 0.1)}, floor_square, wall));
 }
 
 TEST(Shaft, SidesHoldBothPolygonsAndTouchThem) {
@@ -238,17 +246,17 @@ TEST(Shaft, SidesHoldBothPolygonsAndTouchThem) {
 }
 
 TEST(Shaft, OfAConvexPairHasTheFacetsOfItsHull) {
-  EXPECT_EQ(make_shaft(kFloor, kCeiling, 1e-12).sides.size(), 6u);
-  EXPECT_EQ(make_shaft(kFloor, kWall, 1e-12).sides.size(), 5u);
+  EXPECT_EQ(make_shaft(floor_square, ceiling_square, 1e-12).sides.size(), 6u);
+  EXPECT_EQ(make_shaft(floor_square, wall_square, 1e-12).sides.size(), 5u);
   const Polygon apex = {{0.5, 0.5, 2}};
-  EXPECT_EQ(make_shaft(kFloor, apex, 1e-12).sides.size(), 5u);  // a pyramid
-  EXPECT_EQ(make_shaft(apex, kFloor, 1e-12).sides.size(), 5u);
+  EXPECT_EQ(make_shaft(floor_square, apex, 1e-12).sides.size(), 5u);  // a pyramid
+  EXPECT_EQ(make_shaft(apex, floor_square, 1e-12).sides.size(), 5u);
   Polygon turned;  // the antiprism over a square: two squares and eight triangles
   for (int k = 0; k < 4; ++k) {
     const double angle = 0.7853981633974483 * (2 * k);
     turned.emplace_back(0.5 + 0.7 * std::cos(angle), 0.5 + 0.7 * std::sin(angle), 1);
   }
-  EXPECT_EQ(make_shaft(kFloor, turned, 1e-12).sides.size(), 10u);
+  EXPECT_EQ(make_shaft(floor_square, turned, 1e-12).sides.size(), 10u);
 }
 
 TEST(Shaft, OfPointsIsTheSegment) {
@@ -263,11 +271,11 @@ TEST(Shaft, OfPointsIsTheSegment) {
 }
 
 TEST(Shaft, OfCoplanarPolygonsHoldsOnlyWhatCrossesTheirPlane) {
-  Polygon next = kFloor;
+  Polygon next = floor_square;
   for (Vec3& p : next) p.x() += 2;
-  EXPECT_FALSE(between({Vec3(1.2, 0, 0), Vec3(1.8, 0, 0), Vec3(1.5, 1, 0)}, kFloor, next));
-  EXPECT_FALSE(between({Vec3(1.5, 0, 0), Vec3(1.5, 1, 0), Vec3(1.5, 0.5, 1)}, kFloor, next));
-  EXPECT_TRUE(between({Vec3(1.5, 0, -1), Vec3(1.5, 1, -1), Vec3(1.5, 0.5, 1)}, kFloor, next));
+  EXPECT_FALSE(between({Vec3(1.2, 0, 0), Vec3(1.8, 0, 0), Vec3(1.5, 1, 0)}, floor_square, next));
+  EXPECT_FALSE(between({Vec3(1.5, 0, 0), Vec3(1.5, 1, 0), Vec3(1.5, 0.5, 1)}, floor_square, next));
+  EXPECT_TRUE(between({Vec3(1.5, 0, -1), Vec3(1.5, 1, -1), Vec3(1.5, 0.5, 1)}, floor_square, next));
 }
 
 TEST(Shaft, WithManyVerticesStaysConservative) {
@@ -342,8 +350,8 @@ TEST(Shaft, ConcurrentQueriesEqualSerialOnes) {
 
 TEST(Shaft, OddInputIsAnswered) {
   const TriangleSoup soup = lattice();
-  EXPECT_TRUE(candidates(TriangleSoup{}, kFloor, kCeiling).empty());
-  EXPECT_THROW(candidates(soup, {}, kFloor), std::runtime_error);
+  EXPECT_TRUE(candidates(TriangleSoup{}, floor_square, ceiling_square).empty());
+  EXPECT_THROW(candidates(soup, {}, floor_square), std::runtime_error);
   EXPECT_TRUE(candidates(soup, {{5, 5, 5}}, {{5, 5, 5}}).empty());
   const Polygon line = {{0, 0, 5}, {5, 0, 5}, {10, 0, 5}}, point = {{5, 10, 5.01}};
   EXPECT_FALSE(candidates(soup, line, point).size() > 200);
@@ -352,9 +360,9 @@ TEST(Shaft, OddInputIsAnswered) {
   EXPECT_EQ(candidates(soup, repeated, target), candidates(soup, plain, target));
   TriangleSoup flat;
   test::add_triangle(flat, {0.5, 0.5, 0.5}, {0.6, 0.5, 0.5}, {0.7, 0.5, 0.5});  // no area
-  EXPECT_TRUE(candidates(flat, kFloor, kCeiling).empty());
+  EXPECT_TRUE(candidates(flat, floor_square, ceiling_square).empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NO_THROW(candidates(soup, {{nan, 0, 0}, {1, nan, 0}, {0, 1, 0}}, kCeiling));
+  EXPECT_NO_THROW(candidates(soup, {{nan, 0, 0}, {1, nan, 0}, {0, 1, 0}}, ceiling_square));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 using test::Random;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 std::vector<Segment> random_segments(int count, Random& random, double low = 0, double high = 1) {
   std::vector<Segment> segments;
@@ -223,7 +223,7 @@ TEST(Visibility, FirstHitIsTheNearestOfBruteForce) {
     for (const Segment& s : random_segments(1000, random)) {
       const Vec3 direction = s.to - s.from, end = s.from + 10 * direction;
       std::size_t nearest = soup.triangles.size();
-      double distance = kInfinity;
+      double distance = infinite;
       bool clear = true;
       for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
         const auto c = test::corners(soup, t);
@@ -308,7 +308,7 @@ TEST(Visibility, BrokenSegmentsAreNotBlocked) {
   const VisibilityIndex index(square(0.5));
   const Vec3 below(0.4, 0.3, 0), above(0.4, 0.3, 1);
   std::vector<Segment> segments = {{below, above}, {below, below}};
-  for (const double bad : {kNaN, kInfinity, -kInfinity, 1e308})
+  for (const double bad : {not_a_number, infinite, -infinite, 1e308})
     for (int axis = 0; axis < 3; ++axis) {
       Vec3 broken = above;
       broken[axis] = bad;
@@ -322,7 +322,7 @@ TEST(Visibility, BrokenSegmentsAreNotBlocked) {
   EXPECT_EQ(result, one_by_one(index, segments));
   EXPECT_EQ(std::count(result.begin(), result.end(), 1), 1);
   EXPECT_FALSE(index.first_hit(below, {0, 0, 0}));
-  EXPECT_FALSE(index.first_hit(below, {0, 0, kNaN}));
+  EXPECT_FALSE(index.first_hit(below, {0, 0, not_a_number}));
 }
 
 TEST(Visibility, ConcurrentQueriesEqualSerialOnes) {
@@ -368,7 +368,7 @@ TEST(Visibility, RefusesInconsistentSoups) {
   soup.triangles[1][2] = 6;
   expect_refused(soup, "triangle 1 has corner 6 of 6");
   soup = square(0);
-  soup.points[3].y() = kNaN;
+  soup.points[3].y() = not_a_number;
   expect_refused(soup, "point 3 is not finite");
   soup = square(1e200);
   soup.points[0].x() = -1e200;

@@ -84,18 +84,18 @@ TEST(WritePly, HoldsTheMeshAndItsLight) {
   ASSERT_EQ(ply.vertices.size(), 16U);
   ASSERT_EQ(ply.triangles.size(), 18U);
   for (std::size_t i = 0; i < 16; ++i) {
-    EXPECT_EQ(ply.vertices[i].x, static_cast<float>(result.elements.points[i].x()));
-    EXPECT_EQ(ply.vertices[i].y, static_cast<float>(result.elements.points[i].y()));
+    EXPECT_EQ(+ply.vertices[i].x, static_cast<float>(result.elements.points[i].x()));
+    EXPECT_EQ(+ply.vertices[i].y, static_cast<float>(result.elements.points[i].y()));
   }
   for (std::size_t i = 0; i < 18; ++i) {
-    EXPECT_EQ(ply.triangles[i].count, 3);
+    EXPECT_EQ(+ply.triangles[i].count, 3);
     for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(ply.triangles[i].corners[k], result.elements.corners[i][k]);
+      EXPECT_EQ(+ply.triangles[i].corners[k], result.elements.corners[i][k]);
   }
   // The corner (1, 0) belongs to one element, number 4.
-  EXPECT_EQ(ply.vertices[3].r, static_cast<float>(result.solution.radiosity(4, 0)));
-  EXPECT_EQ(ply.vertices[3].g, static_cast<float>(result.solution.radiosity(4, 1)));
-  EXPECT_EQ(ply.vertices[3].b, static_cast<float>(result.solution.radiosity(4, 2)));
+  EXPECT_EQ(+ply.vertices[3].r, static_cast<float>(result.solution.radiosity(4, 0)));
+  EXPECT_EQ(+ply.vertices[3].g, static_cast<float>(result.solution.radiosity(4, 1)));
+  EXPECT_EQ(+ply.vertices[3].b, static_cast<float>(result.solution.radiosity(4, 2)));
 }
 
 TEST(WritePly, ColoursFollowTheStatedExposure) {

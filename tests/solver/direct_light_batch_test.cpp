@@ -1,30 +1,9 @@
 #include "solver/direct_light.h"
+#include "tests/support/allocations.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<std::size_t> allocations{0};
-
-void* counted(std::size_t size) {
-  ++allocations;
-  if (void* p = std::malloc(size > 0 ? size : 1)) return p;
-  throw std::bad_alloc();
-}
-}  // namespace
-
-// Replaces the allocation of the whole test program by one that counts.
-void* operator new(std::size_t size) { return counted(size); }
-void* operator new[](std::size_t size) { return counted(size); }
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete[](void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
 
 namespace halfshade {
 namespace {
@@ -57,28 +36,29 @@ std::vector<SurfacePoint> random_points(std::size_t count) {
 }
 
 TEST(DirectLightBatch, AllocatesNothingPerPointInTheSteadyState) {
+  if (!test::counts_allocations) GTEST_SKIP() << "a sanitizer allocates";
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const DirectLightIndex index(scene_with_lights());
   const std::vector<SurfacePoint> points = random_points(4096);
   index.irradiance(points);  // buffers grow
   const auto count = [&](std::size_t n) {
-    const std::size_t before = allocations;
+    const std::size_t before = test::allocations();
     index.irradiance(std::span(points).first(n));
-    return allocations - before;
+    return test::allocations() - before;
   };
   const std::size_t few = count(64), many = count(4096);
   EXPECT_LE(many, few + 64 * 2) << "a task of 64 points may cost something, a point nothing";
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   double sum = 0;
   for (const SurfacePoint& p : points) sum += index.factor(p, 0).visible;
-  EXPECT_EQ(allocations - before, 0u);
+  EXPECT_EQ(test::allocations() - before, 0u);
   EXPECT_GT(sum, 0);
 }
 
 TEST(DirectLightBatch, CountsAllocationsAtAll) {
-  const std::size_t before = allocations;
+  const std::size_t before = test::allocations();
   const DirectLightIndex index(scene_with_lights());
-  EXPECT_GT(allocations - before, 10u);
+  EXPECT_GT(test::allocations() - before, 10u);
 }
 
 TEST(DirectLightBatch, ThreadsAndOrderDoNotChangeABit) {

@@ -58,6 +58,7 @@ inline SolveResult sample_result(int n) {
     s.rho.row(i) = material.rho;
     s.exitance.row(i) = material.exitance;
     s.error_estimate[i] = x / 13;
+    s.region.push_back(static_cast<Region>(i % 4));
     s.direct_irradiance.row(i) = Rgb(1 + x / 3, 2 + x / 7, 3 + x / 11);
     s.irradiance.row(i) = s.direct_irradiance.row(i) + 0.1;
     s.radiosity.row(i) = s.exitance.row(i) + s.rho.row(i) * s.irradiance.row(i);

@@ -113,6 +113,7 @@ TEST_P(WriteVtk, AnotherReaderFindsTheSameLightToTheLastBit) {
   const Eigen::ArrayXd& error = result.solution.error_estimate;
   expect_numbers(cells, "error_estimate", {error.begin(), error.end()});
   expect_integers(cells, "order", std::vector<int>(18, 0));
+  expect_integers(cells, "region", {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1});
   expect_integers(cells, "face", result.elements.face);
   expect_integers(cells, "group", result.elements.group);
   expect_integers(cells, "material", result.elements.material);

@@ -11,6 +11,9 @@
 namespace halfshade {
 namespace {
 
+// How far from 1 the length of a normal that was normalised may be.
+constexpr double rounding = 1e-15;
+
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 6> names = {"x", "y", "z", "nx", "ny", "nz"};
@@ -118,7 +121,7 @@ class PointReader {
           path_, line_,
           fmt::format("the normal of point {} has length zero", table_.points.size() + 1));
     // A normal of unit length stays as it is, to the last digit.
-    const bool is_unit = std::abs(length - 1) < 1e-15;
+    const bool is_unit = std::abs(length - 1) < rounding;
     table_.points.push_back({{v[0], v[1], v[2]}, is_unit ? normal : normal.stableNormalized()});
     table_.rows.emplace_back(text);
   }

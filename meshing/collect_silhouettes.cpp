@@ -9,6 +9,11 @@
 namespace halfshade {
 namespace {
 
+// How much boxes are enlarged, relative to the outline's size and to the rounding of a corner: far
+// above what can go wrong, and little enough to keep the boxes useful.
+constexpr double box_margin = 1e-9;
+constexpr double blur_margin = 1e5;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// All faces below a node look towards the eye, or all look away from it.
@@ -148,7 +153,8 @@ bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
   // Boxes need not be tight; these margins are far above rounding.
-  const double margin = 1e-9 * (pyramid.high - pyramid.low).maxCoeff() + 1e5 * view_->blur();
+  const double margin =
+      box_margin * (pyramid.high - pyramid.low).maxCoeff() + blur_margin * view_->blur();
   if (a.is_ahead && b.is_ahead) {
     arc.low = a.image.cwiseMin(b.image).array() - margin;
     arc.high = a.image.cwiseMax(b.image).array() + margin;

@@ -7,6 +7,9 @@
 namespace halfshade {
 namespace {
 
+// Corners that turn by less than this, relative to the widest, may be straight or reflex.
+constexpr double clearly_convex = 1e-6;
+
 using Impl = OpaqueScene::Impl;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -25,7 +28,7 @@ bool is_convex_quad(const Ring& ring) {
     least = std::min(least, area);
     most = std::max(most, area);
   }
-  return least > 1e-6 * most;
+  return least > clearly_convex * most;
 }
 
 /// The vertex whose image in the plane lies nearest to q.

@@ -10,6 +10,9 @@
 namespace halfshade {
 namespace {
 
+// Stands for 0 where directions are inverted; its inverse is still finite.
+constexpr double least_slope = 1e-300;
+
 using Impl = OpaqueScene::Impl;
 
 // What rounding may put a point off a plane that it was computed to lie in, relative to the largest
@@ -229,8 +232,8 @@ int PointView::cover(const Germ& germ) {
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
   const Vec3 margin = Vec3::Constant(blur() * last);
-  const Vec3 inverse =
-      target.direction.unaryExpr([](double d) { return 1 / (std::abs(d) > 1e-300 ? d : 1e-300); });
+  const Vec3 inverse = target.direction.unaryExpr(
+      [](double d) { return 1 / (std::abs(d) > least_slope ? d : least_slope); });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
   stack[depth++] = 0;
   while (depth > 0) {

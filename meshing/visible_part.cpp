@@ -12,6 +12,9 @@
 namespace halfshade {
 namespace {
 
+// How far the square of a unit normal's length may be from 1.
+constexpr double unit_enough = 1e-6;
+
 // Any fixed numbers.
 constexpr std::uint64_t lit_signature = 0x9d5c31a4e8f07b63;
 constexpr std::uint64_t umbra_signature = 0x3fb86a2c90d7154e;
@@ -27,7 +30,7 @@ void check(const OpaqueScene::Impl& scene, const Vec3& point, const Vec3& normal
   if (receiver < 0 || static_cast<std::size_t>(receiver) >= scene.surfaces.size())
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("there is no receiver {} among {}", receiver, scene.surfaces.size()));
-  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < 1e-6))
+  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < unit_enough))
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("the point ({}, {}, {}) must be finite and its normal ({}, {}, {}) of "
                             "length 1",

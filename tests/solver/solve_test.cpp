@@ -71,6 +71,20 @@ TEST(WhiteFurnace, LRoomWithAnInnerObstruction) {
   }
 }
 
+TEST(WhiteFurnace, CubeWithATwoSidedSheet) {
+  Scene scene = cube();
+  const int sheet = test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{.2, .3, .4}, {.7, .3, .5}, {.7, .8, .5}, {.2, .8, .4}}, sheet);
+  scene.materials[static_cast<std::size_t>(sheet)].two_sided = true;
+  make_furnace(scene, 4);
+  const SolveResult result = solve(scene, with_length(0.3));
+  EXPECT_EQ(result.scene.receivers.size(), 8u);
+  EXPECT_TRUE(result.exchange.closed);
+  EXPECT_LE(furnace_error(result), 1e-10);
+  scene.materials[static_cast<std::size_t>(sheet)].two_sided = false;
+  EXPECT_FALSE(solve(scene, with_length(0.3)).exchange.closed) << "its back swallows light";
+}
+
 TEST(WhiteFurnace, WithoutEnforcementTheErrorIsThatOfTheClosure) {
   Scene scene = test::l_room(true);
   make_furnace(scene, 3);

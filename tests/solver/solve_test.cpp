@@ -120,6 +120,35 @@ TEST(FluxBalance, MeanIrradianceOfALRoomIsExact) {
   EXPECT_LE(result.radiosity.channel[0].balance, 1e-9);
 }
 
+TEST(DirectLight, ByClosedFormsAndByTheMatrixAgreeInTheMean) {
+  // Two ways that share no visibility code: silhouettes at points, rays between elements.
+  Scene scene = cube();
+  set_all(scene, 0.5, 0);
+  scene.materials[5].exitance = Rgb::Constant(1);
+  const int sheet = test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{.2, .3, .4}, {.7, .3, .5}, {.7, .8, .5}, {.2, .8, .4}}, sheet);
+  scene.materials[static_cast<std::size_t>(sheet)].two_sided = true;
+  const auto means = [&](DirectLightBy way) {
+    SolveOptions options;
+    options.elements = 1500;
+    options.direct_light = way;
+    const SolveResult result = solve(scene, options);
+    Eigen::ArrayXd power = Eigen::ArrayXd::Zero(8), area = power;
+    for (int e = 0; e < result.elements.count(); ++e) {
+      const auto k = static_cast<std::size_t>(e);
+      const int r = result.elements.receiver[k];
+      power[r] += result.elements.area[k] * result.solution.direct_irradiance(e, 0);
+      area[r] += result.elements.area[k];
+    }
+    EXPECT_LE(result.radiosity.channel[0].balance, 1e-9);
+    EXPECT_EQ(result.solution.region.empty(), way == DirectLightBy::matrix);
+    return Eigen::ArrayXd(power / area);
+  };
+  const Eigen::ArrayXd exact = means(DirectLightBy::exact), rays = means(DirectLightBy::matrix);
+  EXPECT_LE((exact - rays).abs().maxCoeff(), 2e-4);
+  EXPECT_GT(exact.maxCoeff(), 0.4);
+}
+
 TEST(ConjugateGradients, IterationsDoNotGrowWithTheMesh) {
   Scene scene = cube();
   set_all(scene, 0.999, 0);

@@ -27,7 +27,6 @@ struct Target {
   Rgb exitance;
   double strength = 0;  ///< mean of the exitance's channels
   double scale = 0;     ///< size of its coordinates
-  int plane = 0;
 };
 
 Target make_target(const SoundScene& scene, const Receiver& receiver) {
@@ -47,7 +46,6 @@ Target make_target(const SoundScene& scene, const Receiver& receiver) {
   target.exitance = scene.materials[static_cast<std::size_t>(receiver.material)].exitance;
   target.strength = target.exitance.mean();
   target.scale = target.centre.lpNorm<1>() + target.half.lpNorm<1>();
-  target.plane = receiver.plane;
   return target;
 }
 
@@ -146,12 +144,12 @@ struct DirectLightIndex::Impl {
     return targets[static_cast<std::size_t>(receiver)];
   }
 
-  DirectLight gather(Worker& worker, const SurfacePoint& point, int plane) const {
+  DirectLight gather(Worker& worker, const SurfacePoint& point) const {
     DirectLight light;
     double visible = 0, unobstructed = 0, strongest = 0;
     for (const int emitter : emitters) {
       const Target& source = targets[static_cast<std::size_t>(emitter)];
-      if (source.plane == plane || is_clearly_away(source, point)) continue;
+      if (is_clearly_away(source, point)) continue;
       const PointFactor factor = find_factor(worker, source, point, emitter);
       light.irradiance += factor.visible * source.exitance;
       visible += factor.visible * source.strength;
@@ -201,9 +199,9 @@ void DirectLightIndex::visible_part(const SurfacePoint& point, int receiver,
   worker->finder.find(point.position, point.normal, receiver, part);
 }
 
-DirectLight DirectLightIndex::irradiance(const SurfacePoint& point, int plane) const {
+DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
   const Loan worker(impl_->pool);
-  return impl_->gather(*worker, point, plane);
+  return impl_->gather(*worker, point);
 }
 
 std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
@@ -214,7 +212,7 @@ std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoi
                  const Loan worker(impl_->pool);
                  const std::size_t end = std::min(points.size(), (c + 1) * chunk);
                  for (std::size_t k = c * chunk; k < end; ++k)
-                   light[k] = impl_->gather(*worker, points[k], -1);
+                   light[k] = impl_->gather(*worker, points[k]);
                },
                progress, "direct light");
   return light;

@@ -70,9 +70,8 @@ class DirectLightIndex {
   std::vector<DirectLight> irradiance(std::span<const SurfacePoint> points,
                                       const Progress& progress = {}) const;
 
-  /// The same for one point on the calling thread, leaving out emitters in the plane with this id
-  /// (Receiver::plane; −1: none), which a point known to lie in it cannot see.
-  DirectLight irradiance(const SurfacePoint& point, int plane = -1) const;
+  /// The same for one point on the calling thread.
+  DirectLight irradiance(const SurfacePoint& point) const;
 
  private:
   struct Impl;

@@ -19,6 +19,9 @@ struct ElementTable {
   std::vector<double> area;                    ///< squared scene units
   std::vector<int> receiver, face, group, material;
   std::vector<int> level;  ///< number of splits above it in the hierarchy
+  /// [k]: the lowest order of the discontinuity curves along the edge from corner k to k+1 (0 on
+  /// borders and contact lines); −1 where there is none.
+  std::vector<std::array<int, 3>> edge_order;
 
   int count() const { return static_cast<int>(corners.size()); }
   /// The three corners' positions.

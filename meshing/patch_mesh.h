@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/progress.h"
+#include "meshing/curve_mesh.h"
 #include "meshing/element_table.h"
 #include "meshing/planar_mesh.h"
 
@@ -18,7 +19,9 @@ struct PatchHierarchy {
 };
 
 /// The adaptive element mesh over all receivers of a scene. Invariant: the mesh of each receiver is
-/// conforming (no T-vertices), covers it, and has an edge chain along every contact line.
+/// conforming (no T-vertices), covers it, and has an edge chain along every contact line. Where
+/// receivers share an edge, or an edge lies on another as a contact line, both are subdivided
+/// alike, and stay so.
 class PatchMesh {
  public:
   /// Meshes every receiver with `options`, in parallel. Throws Error(too_large) if more than
@@ -26,6 +29,11 @@ class PatchMesh {
   /// reached are left coarse.
   PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
             const Progress& progress = {});
+
+  /// Takes the mesh of each receiver as it is, one an entry. `curve_order[id]` is the order of the
+  /// discontinuity that the lines with that id stand for.
+  PatchMesh(const SoundScene& scene, std::span<const CurveMesh> meshes,
+            std::span<const int> curve_order);
   ~PatchMesh();
   PatchMesh(PatchMesh&&) noexcept;
   PatchMesh& operator=(PatchMesh&&) noexcept;

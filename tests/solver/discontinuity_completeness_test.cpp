@@ -101,9 +101,11 @@ TEST(DiscontinuityCompleteness, EventsAtTheHorizonAreSmoothToTheSecondOrder) {
     const SegmentAudit audit = auditor.run(index.emitters(), 150, 3);
     for (const SignatureChange& change : audit.at_horizon) {
       const Vec2 across = (change.after - change.before).normalized();
+      // Near the edges of occluders the irradiance varies fast.
+      const double clear = std::min(change.miss, 2e-4 * scene.tolerance.scene_size);
       const auto jump = test::JumpMeter(scene, index)
                             .measure(change.receiver, change.emitter,
-                                     0.5 * (change.before + change.after), across, change.miss);
+                                     0.5 * (change.before + change.after), across, clear);
       if (!jump) continue;
       ++measured;
       EXPECT_NEAR(jump->jump[0], 0, 1e-13) << auditor.describe(change);

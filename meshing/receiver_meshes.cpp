@@ -74,6 +74,14 @@ WallEdges wall_edges(const CurveMesh& mesh) {
   return walls;
 }
 
+CurveMesh without_curves(PlanarMesh mesh) {
+  CurveMesh result;
+  result.is_d0.assign(mesh.constrained_edges.size(), true);
+  result.curve_begin.assign(mesh.constrained_edges.size() + 1, 0);
+  result.mesh = std::move(mesh);
+  return result;
+}
+
 std::vector<int> edge_orders(const CurveMesh& mesh, std::span<const int> curve_order) {
   std::vector<int> orders;
   for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {

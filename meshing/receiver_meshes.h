@@ -29,6 +29,9 @@ WallEdges wall_edges(const PlanarMesh& mesh);
 /// The constrained edges on rings and contact lines.
 WallEdges wall_edges(const CurveMesh& mesh);
 
+/// A mesh all of whose constrained edges lie on rings and contact lines.
+CurveMesh without_curves(PlanarMesh mesh);
+
 /// [constrained edge]: the lowest order of what lies there; 0 on rings and contact lines. Throws
 /// Error(contract) if a curve has no order.
 std::vector<int> edge_orders(const CurveMesh& mesh, std::span<const int> curve_order);

@@ -81,7 +81,8 @@ class Search {
       report_.swaths += tracer->counts().swaths;
       report_.pieces += tracer->counts().pieces;
     }
-    for (const DiscontinuityCurve& curve : curves_) ++report_.found[static_cast<std::size_t>(curve.kind)];
+    for (const DiscontinuityCurve& curve : curves_)
+      ++report_.found[static_cast<std::size_t>(curve.kind)];
     report_.merged += merge_coincident(curves_, scene_.tolerance.length);
     predict_jumps();
     return std::move(curves_);
@@ -95,9 +96,10 @@ class Search {
     parallel_for(
         count,
         [&](std::size_t i) {
-          auto tracer = tracers_.take(
-              [&] { return std::make_unique<SwathTracer>(scene_, opaque_, stage_); });
-          generate(static_cast<int>(i), [&](const Swath& swath) { tracer->trace(swath, found[i]); });
+          auto tracer =
+              tracers_.take([&] { return std::make_unique<SwathTracer>(scene_, opaque_, stage_); });
+          generate(static_cast<int>(i),
+                   [&](const Swath& swath) { tracer->trace(swath, found[i]); });
           tracers_.give_back(std::move(tracer));
         },
         progress_, name);

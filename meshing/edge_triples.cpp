@@ -13,10 +13,10 @@ namespace {
 
 // How often spans are halved until one of them is nearer to the emitter than the other.
 constexpr int most_halvings = 6;
+// The sine of the angle between spans below which they have no common point.
+constexpr double parallel = 1e-12;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// False only if the convex hull of four points misses that of the emitter.
 bool hull_meets(const EmitterStage& stage, const std::array<Vec2, 4>& points) {
@@ -142,6 +142,27 @@ void coplanar_swath(const EmitterStage& stage, Swath swath, const Span3& base, c
   if ((to - along.dot(to) * along).norm() > stage.slack) sink(swath);
 }
 
+/// Lines through the point where two spans cross, if they do so other than at their ends, and a
+/// third span.
+void crossing_swath(const EmitterStage& stage, Swath swath, const Span3& a, const Span3& b,
+                    const Span3& third, const SwathSink& sink) {
+  const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
+  if (!(normal.norm() > parallel * u.norm() * v.norm())) return;
+  const double s = (b.from - a.from).cross(v).dot(normal) / normal.squaredNorm();
+  const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
+  if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;
+  const auto is_end = [&](const Span3& span, const Vec3& p) {
+    return (p - span.from).norm() <= stage.slack || (p - span.to).norm() <= stage.slack;
+  };
+  swath.apex = a.at(s);
+  if (is_end(a, swath.apex) && is_end(b, swath.apex)) return;  // events with a vertex
+  const Vec3 along = third.direction().normalized(), to = swath.apex - third.from;
+  if ((to - along.dot(to) * along).norm() <= stage.slack) return;
+  swath.is_planar = true;
+  swath.base = third;
+  sink(swath);
+}
+
 /// Sends the swath through three spans, in whatever shape it has.
 void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& spans,
           const SwathSink& sink) {
@@ -150,6 +171,7 @@ void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& s
     if (are_coplanar(spans[at(i)], spans[at(j)], stage.slack)) {
       splits = true;
       coplanar_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
+      crossing_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
     }
   if (splits) return;
   swath.is_planar = false;
@@ -175,9 +197,10 @@ void pair_swaths(const EmitterStage& stage, int a, int b, const SwathSink& sink)
   const StageEdge &first = stage.edges[at(a)], &second = stage.edges[at(b)];
   for (const OutlinePiece& piece : stage.outline) {
     Swath swath;
-    swath.source = {CurveKind::eee,
-                    {piece.feature, {Feature::Kind::edge, first.id}, {Feature::Kind::edge, second.id}},
-                    3};
+    swath.source = {
+        CurveKind::eee,
+        {piece.feature, {Feature::Kind::edge, first.id}, {Feature::Kind::edge, second.id}},
+        3};
     swath.group = {piece.id, first.id, second.id};
     std::sort(swath.group.begin(), swath.group.end());
     swath.silhouettes = {a, b, -1};

@@ -63,8 +63,8 @@ class Builder {
       const Impl::Triangle& triangle = opaque_.triangles[at(incidence.triangle)];
       if (lies_in_emitter_plane(triangle)) continue;
       const Receiver& receiver = scene_.receivers[at(triangle.receiver)];
-      const auto [face, is_new] = by_plane.emplace(
-          receiver.plane, StageEdge::Face{receiver.frame.normal, 0});
+      const auto [face, is_new] =
+          by_plane.emplace(receiver.plane, StageEdge::Face{receiver.frame.normal, 0});
       const bool same_way = face->second.normal.dot(receiver.frame.normal) > 0;
       face->second.direction += same_way ? incidence.direction : -incidence.direction;
     }
@@ -136,12 +136,12 @@ class Builder {
       for (std::size_t k = 0; k < ring.size(); ++k) {
         const auto &here = ring[k], &next = ring[(k + 1) % ring.size()];
         const auto& before = ring[(k + ring.size() - 1) % ring.size()];
-        const Vec3 &from = opaque_.vertices[at(here.vertex)], &to = opaque_.vertices[at(next.vertex)];
+        const Vec3 &from = opaque_.vertices[at(here.vertex)],
+                   &to = opaque_.vertices[at(next.vertex)];
         stage_.outline.push_back(
             {{from, to}, -1 - here.edge, {Feature::Kind::emitter_edge, here.edge}});
         if (before.edge == here.edge) continue;
-        OutlinePoint& corner =
-            corner_at(here.vertex, {Feature::Kind::emitter_vertex, here.edge});
+        OutlinePoint& corner = corner_at(here.vertex, {Feature::Kind::emitter_vertex, here.edge});
         corner.edges.push_back(-1 - before.edge);
         corner.edges.push_back(-1 - here.edge);
       }
@@ -188,8 +188,10 @@ class Builder {
         const int a = triangle.corner[k], b = triangle.corner[(k + 1) % 3];
         front = front || is_in_front(a);
         behind = behind || height_[at(a)] < -stage_.slack;
-        if (is_on(a)) ends.push_back(opaque_.vertices[at(a)]);
-        else if (!is_on(b) && is_in_front(a) != is_in_front(b)) ends.push_back(cut(triangle.edge[k]));
+        if (is_on(a))
+          ends.push_back(opaque_.vertices[at(a)]);
+        else if (!is_on(b) && is_in_front(a) != is_in_front(b))
+          ends.push_back(cut(triangle.edge[k]));
       }
       if (!front || !behind || ends.size() != 2 || !meets_emitter({ends[0], ends[1]})) continue;
       stage_.outline.push_back({{ends[0], ends[1]},
@@ -197,8 +199,7 @@ class Builder {
                                 {Feature::Kind::face, triangle.receiver}});
       for (const int e : triangle.edge) {
         const Impl::Edge& edge = opaque_.edges[at(e)];
-        if (!is_on(edge.from) && !is_on(edge.to) &&
-            is_in_front(edge.from) != is_in_front(edge.to))
+        if (!is_on(edge.from) && !is_on(edge.to) && is_in_front(edge.from) != is_in_front(edge.to))
           cut_edges.insert(e);
       }
     }
@@ -243,7 +244,8 @@ class Builder {
         const OutlinePiece &a = stage_.outline[i], &b = stage_.outline[j];
         if (a.id < 0 && b.id < 0) continue;
         const Vec2 p = stage_.frame.to_plane(a.span.from), q = stage_.frame.to_plane(b.span.from);
-        const Vec2 u = stage_.frame.to_plane(a.span.to) - p, v = stage_.frame.to_plane(b.span.to) - q;
+        const Vec2 u = stage_.frame.to_plane(a.span.to) - p,
+                   v = stage_.frame.to_plane(b.span.to) - q;
         const double d = cross_2d(u, v);
         const double s = cross_2d(q - p, v) / d, t = cross_2d(q - p, u) / d;
         if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) continue;

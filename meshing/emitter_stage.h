@@ -11,12 +11,12 @@ namespace halfshade {
 /// An edge of the scene and how its faces lie, those in one plane that cancel left out.
 struct StageEdge {
   struct Face {
-    Vec3 normal;     ///< unit length
-    int direction;   ///< ±1 as the face runs along the edge
+    Vec3 normal;    ///< unit length
+    int direction;  ///< ±1 as the face runs along the edge
   };
-  int id = 0;        ///< of the opaque scene
-  Span3 whole;       ///< all of it
-  Span3 front;       ///< the part in front of the emitter's plane
+  int id = 0;   ///< of the opaque scene
+  Span3 whole;  ///< all of it
+  Span3 front;  ///< the part in front of the emitter's plane
   int first_face = 0, face_count = 0;
 };
 

@@ -40,8 +40,8 @@ class Side {
     return marked;
   }
 
-  /// Triples that the chains of marked corners are made of: a chain a, b1, b2, …, c differs from the
-  /// corner a, c by the triangles a b1 b2, a b2 b3, ….
+  /// Triples that the chains of marked corners are made of: a chain a, b1, b2, …, c differs from
+  /// the corner a, c by the triangles a b1 b2, a b2 b3, ….
   void add_triples(const std::vector<bool>& marked, int sign, std::vector<EdgeTriple>& out) const {
     std::vector<bool> done(marked.size(), false);
     const auto run_from = [&](int start) {

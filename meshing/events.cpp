@@ -79,9 +79,12 @@ bool meets_hull(const EmitterStage& stage, const std::array<Vec2, 2>& segment) {
     // inside: cross(side, p − a) ≥ 0
     const double from = cross_2d(side, segment[0] - a) + stage.slack * side.norm();
     const double slope = cross_2d(side, along);
-    if (slope > 0) t0 = std::max(t0, -from / slope);
-    else if (slope < 0) t1 = std::min(t1, -from / slope);
-    else if (from < 0) return false;
+    if (slope > 0)
+      t0 = std::max(t0, -from / slope);
+    else if (slope < 0)
+      t1 = std::min(t1, -from / slope);
+    else if (from < 0)
+      return false;
   }
   return t0 <= t1;
 }

@@ -11,8 +11,8 @@ namespace halfshade {
 /// Takes one swath after the other.
 using SwathSink = std::function<void(const Swath&)>;
 
-/// Swaths through an edge of the stage and a point: a corner of the emitter (emitter EV), or another
-/// vertex of the scene (non-emitter EV) if a line through both can come from the emitter.
+/// Swaths through an edge of the stage and a point: a corner of the emitter (emitter EV), or
+/// another vertex of the scene (non-emitter EV) if a line through both can come from the emitter.
 void edge_swaths(const EmitterStage& stage, int edge, const SwathSink& sink);
 
 /// Swaths through a vertex of the stage and the emitter's edges (VE).

@@ -13,8 +13,6 @@ constexpr double edge_margin = 1e-10;
 // Lines flatter to the emitter than this do not come from it.
 constexpr double flattest = 1e-12;
 
-double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Normal of the plane through a point and an edge.
 Vec3 plane_through(const Vec3& point, const Span3& edge) {
   return (edge.from - point).cross(edge.direction());

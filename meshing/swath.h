@@ -24,15 +24,15 @@ struct Swath {
   CurveSource source;
   std::vector<int> group;  ///< edges whose images change their order here, sorted; as
                            ///< BoundaryPiece::edge
-  /// Edges of the stage that must be silhouettes for every line, −1: none; and a vertex of the stage
-  /// with at least two edges that are, or −1.
+  /// Edges of the stage that must be silhouettes for every line, −1: none; and a vertex of the
+  /// stage with at least two edges that are, or −1.
   std::array<int, 3> silhouettes = {-1, -1, -1};
   int corner = -1;
-  bool ends_on_outline = false;  ///< its lines start on the emitter's border, not inside
+  bool ends_on_outline = false;     ///< its lines start on the emitter's border, not inside
   bool may_be_first_order = false;  ///< two or more edges of the group lie in its plane
   bool is_planar = true;
   Vec3 apex = Vec3::Zero();
-  Span3 base;                   ///< of a planar swath
+  Span3 base;                    ///< of a planar swath
   std::array<Span3, 3> edges{};  ///< of the others
 };
 
@@ -69,8 +69,8 @@ struct SwathHull {
 };
 SwathHull hull_of(const Swath& swath, double t0, double t1);
 
-/// Where a line of the swath meets a plane, and the tangent of the curve that these points form (not
-/// of unit length; zero where it cannot be told).
+/// Where a line of the swath meets a plane, and the tangent of the curve that these points form
+/// (not of unit length; zero where it cannot be told).
 struct Trace {
   Vec3 point, tangent;
 };

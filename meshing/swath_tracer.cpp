@@ -16,6 +16,9 @@ constexpr double clearly_across = 1e-9;
 // Side steps, relative to the scene's size and to a rounding of the largest coordinate.
 constexpr double relative_step = 1e-9;
 constexpr double roundings_per_step = 1e4;
+// What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
+// only at some distance; what lies closer together is told apart by the narrow step.
+constexpr double wide_step = 300;
 // Pieces of swath shorter than this many side steps on the receiver cannot be decided.
 constexpr double least_steps = 4;
 // How often a conic may be halved before it is made of arcs that turn little.
@@ -93,9 +96,9 @@ bool is_inside(const Receiver& receiver, const Vec2& p) {
 }  // namespace
 
 double side_step(const SoundScene& scene, const OpaqueScene& opaque) {
-  return std::max(relative_step * scene.tolerance.scene_size,
-                  roundings_per_step * std::numeric_limits<double>::epsilon() *
-                      opaque.impl().magnitude);
+  return std::max(
+      relative_step * scene.tolerance.scene_size,
+      roundings_per_step * std::numeric_limits<double>::epsilon() * opaque.impl().magnitude);
 }
 
 /// A piece of curve on a receiver that may go on.
@@ -107,9 +110,16 @@ struct SwathTracer::Open {
 
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
                          const EmitterStage& stage)
-    : scene_(scene), opaque_(opaque.impl()), stage_(stage), finder_(opaque), step_(side_step(scene, opaque)) {
+    : scene_(scene),
+      opaque_(opaque.impl()),
+      stage_(stage),
+      finder_(opaque),
+      step_(side_step(scene, opaque)) {
   for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
     const Receiver& receiver = scene.receivers[r];
+    for (const Segment2& contact : receiver.contacts)
+      contacts_.push_back(
+          {receiver.frame.to_space(contact[0]), receiver.frame.to_space(contact[1])});
     if (!receiver.back) continue;
     if (at(receiver.plane) >= backs_.size()) backs_.resize(at(receiver.plane) + 1);
     backs_[at(receiver.plane)].push_back(static_cast<int>(r));
@@ -126,14 +136,18 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
            !hull.meets(box.low, box.high, slack);
   };
   std::vector<double> found;
+  const auto consider = [&](const Span3& span) {
+    if (hull.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
+      critical_parameters(swath, span, slack, found);
+  };
   const auto visit = [&](int e) {
     const auto& edge = opaque_.edges[at(e)];
-    const Span3 span = {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]};
-    if (!hull.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack)) return;
-    critical_parameters(swath, span, slack, found);
+    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
   };
   walk(opaque_.closed_edges, skip, visit);
   walk(opaque_.open_edges, skip, visit);
+  // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
+  for (const Span3& contact : contacts_) consider(contact);
   for (const double t : found)
     if (t > t0 && t < t1) parameters_.push_back(t);
 }
@@ -245,11 +259,15 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
   const Vec2 p = target.frame.to_plane(trace->point);
   if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
   const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
-  const Vec3 a = trace->point + step_ * left, b = trace->point - step_ * left;
-  finder_.find(a, target.frame.normal, stage_.emitter, left_);
-  finder_.find(b, target.frame.normal, stage_.emitter, right_);
-  if (left_.signature == right_.signature) return;
-  EventEvidence evidence = compare_sides({a, left_}, {b, right_}, swath.group);
+  EventEvidence evidence;
+  for (const double step : {wide_step * step_, step_}) {
+    const Vec3 a = trace->point + step * left, b = trace->point - step * left;
+    finder_.find(a, target.frame.normal, stage_.emitter, left_);
+    finder_.find(b, target.frame.normal, stage_.emitter, right_);
+    if (left_.signature == right_.signature) continue;
+    evidence = compare_sides({a, left_}, {b, right_}, swath.group);
+    if (evidence.differs) break;
+  }
   if (!evidence.differs) return;
   std::sort(evidence.triples.begin(), evidence.triples.end());
   if (!open.empty())

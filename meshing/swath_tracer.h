@@ -17,8 +17,8 @@ struct TraceCounts {
 /// Follows swaths of lines to the receivers they end on and finds the pieces of curve they make
 /// there. A swath is cut wherever its line meets an edge of the scene; between two such lines
 /// nothing changes, and one line decides: it must reach the emitter unblocked, and what is seen of
-/// the edges that make the swath must differ on the two sides of the curve. The latter is decided by
-/// VisiblePartFinder. One a thread.
+/// the edges that make the swath must differ on the two sides of the curve. The latter is decided
+/// by VisiblePartFinder. One a thread.
 class SwathTracer {
  public:
   /// All must outlive the tracer.
@@ -51,6 +51,7 @@ class SwathTracer {
   const OpaqueScene::Impl& opaque_;
   const EmitterStage& stage_;
   std::vector<std::vector<int>> backs_;  ///< plane → receivers that are backs
+  std::vector<Span3> contacts_;          ///< of all receivers
   VisiblePartFinder finder_;
   VisiblePart left_, right_;
   double step_;  ///< see side_step

@@ -226,7 +226,7 @@ inline SceneMaker table_and_chairs_maker() {
   maker.box({-0.6, -0.4, 0.7}, {0.6, 0.4, 0.75});
   add_legs(maker, {-0.55, -0.35}, {0.55, 0.35}, 0.7);
   add_chair(maker, {-0.7, 0.05}, 0);
-  add_chair(maker, {0.85, -0.3}, 2.7);
+  add_chair(maker, {0.85, -0.3}, std::atan2(0.6, -0.8));
   return maker.up({-2.0371, -1.7371}, {1.9613, 1.8613}, 0);
 }
 

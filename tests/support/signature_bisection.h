@@ -23,17 +23,6 @@ struct SignatureChange {
   double miss = 0;  ///< distance from the nearest curve, border or contact line
 };
 
-/// Whether a change may be without a curve: if it is due to the horizon and two other edges. Along
-/// the horizon the kernel vanishes with the cosine, and for points of one plane the horizon cuts
-/// the emitter always along the same line, so that what changes there is a triangle whose side the
-/// kernel vanishes on: third order.
-inline bool is_at_horizon(const SignatureChange& change) {
-  std::set<int> edges;
-  for (const Signature* list : {&change.lost, &change.gained})
-    for (const Junction& j : *list) edges.insert({j.from, j.to});
-  return edges.contains(horizon_edge) && edges.size() <= 3;
-}
-
 inline bool is_inside(const std::vector<Ring>& rings, const Vec2& p) {
   bool inside = false;
   for (const Ring& ring : rings)
@@ -157,6 +146,25 @@ class SegmentAuditor {
   struct Pair {
     int receiver, emitter;
   };
+
+  /// Whether a change may be without a curve: if it is due to the horizon and two other edges that
+  /// cross on it. Along the horizon the kernel vanishes with the cosine, and for points of one
+  /// plane the horizon cuts the emitter always along the same line, so that what comes and goes
+  /// there is a triangle along one side of which the kernel vanishes: third order. Edges that
+  /// coincide are another matter.
+  bool is_at_horizon(const SignatureChange& change) const {
+    std::set<int> edges;
+    for (const Signature* list : {&change.lost, &change.gained})
+      for (const Junction& j : *list) edges.insert({j.from, j.to});
+    if (edges.erase(horizon_edge) == 0 || edges.size() > 2) return false;
+    if (edges.size() < 2) return true;
+    const Vec3 at = scene_.receivers[static_cast<std::size_t>(change.receiver)].frame.to_space(
+        0.5 * (change.before + change.after));
+    const Vec3 a = signer_.plane_through(*edges.begin(), change.emitter, at);
+    const Vec3 b = signer_.plane_through(*edges.rbegin(), change.emitter, at);
+    constexpr double coincident = 1e-6;  // sine of the angle between them as seen from the point
+    return a.cross(b).norm() > coincident;
+  }
 
   static double box_distance(const ConicArc& arc, const Vec2& p) {
     const Vec2 low = arc.from.cwiseMin(arc.to).cwiseMin(arc.is_straight ? arc.to : arc.control);

@@ -58,6 +58,23 @@ class Signer {
     return signature;
   }
 
+  /// Unit normal of the plane through a point and a line.
+  Vec3 plane_through(int line, int emitter, const Vec3& point) const {
+    if (line >= first_plane()) {  // where a receiver's plane cuts the emitter's
+      for (const Receiver& r : scene_.receivers)
+        if (r.plane == line - first_plane()) {
+          const PlaneFrame& light = scene_.receivers[static_cast<std::size_t>(emitter)].frame;
+          const Vec3 along = r.frame.normal.cross(light.normal);
+          const Vec3 inwards = light.normal.cross(along);
+          const Vec3 on =
+              light.origin - r.frame.height(light.origin) / r.frame.normal.dot(inwards) * inwards;
+          return (on - point).cross(along).normalized();
+        }
+    }
+    const auto ends = ends_of(line, emitter);
+    return (ends[0] - point).cross(ends[1] - ends[0]).normalized();
+  }
+
   /// Name and ends, for messages.
   std::string describe(int line, int emitter) const {
     if (line == horizon_edge) return "horizon";

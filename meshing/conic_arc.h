@@ -34,6 +34,8 @@ ConicArc part(const ConicArc& arc, double s0, double s1);
 double length(const ConicArc& arc);
 /// Distance of a point from the arc, correct to about 1e-12 of the arc's size.
 double distance(const ConicArc& arc, const Vec2& p);
+/// Parameter of a point of the arc that is nearest to p.
+double nearest_parameter(const ConicArc& arc, const Vec2& p);
 
 /// Parameters 0 = s_0 < … < s_n = 1 such that the chords between them stay within `deviation`
 /// (a length, > 0) of the arc; as few as halving allows, n = 1 for straight arcs.

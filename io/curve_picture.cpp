@@ -1,8 +1,7 @@
 #include "io/curve_picture.h"
 
-#include "io/tone_map.h"
+#include "io/detail/line_canvas.h"
 #include "meshing/core/error.h"
-#include "meshing/core/parallel.h"
 #include "solver/direct_light.h"
 #include "solver/surface_grid.h"
 
@@ -11,8 +10,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -81,80 +78,9 @@ Map make_map(const SoundScene& scene, std::span<const int> receivers,
   return map;
 }
 
-/// Draws into linear light, so that blending looks even.
-class Canvas {
- public:
-  Canvas(const Map& map)
-      : map_(map),
-        colours_(at(map.width) * at(map.height), linear(page)),
-        covered_(colours_.size(), 0) {}
-
-  static Rgb linear(const Bytes& bytes) {
-    Rgb result;
-    for (int c = 0; c < 3; ++c) {
-      const double v = bytes[at(c)] / 255.;
-      result[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-    }
-    return result;
-  }
-
-  void set(std::size_t pixel, const Rgb& colour) { colours_[pixel] = colour; }
-
-  /// A line along points of the picture, blended once however often it meets a pixel.
-  void line(const std::vector<Vec2>& points, double width, const Rgb& colour) {
-    for (std::size_t k = 0; k + 1 < points.size(); ++k) cover(points[k], points[k + 1], width);
-    for (const std::size_t pixel : touched_) {
-      colours_[pixel] += covered_[pixel] * (colour - colours_[pixel]);
-      covered_[pixel] = 0;
-    }
-    touched_.clear();
-  }
-
-  std::vector<std::uint8_t> bytes() const {
-    std::vector<std::uint8_t> result;
-    result.reserve(3 * colours_.size());
-    for (const Rgb& colour : colours_) {
-      const Bytes encoded = encode_srgb(colour);
-      result.insert(result.end(), encoded.begin(), encoded.end());
-    }
-    return result;
-  }
-
- private:
-  /// The share of a pixel within half a width of the segment, by the distance of its centre.
-  void cover(const Vec2& a, const Vec2& b, double width) {
-    const double reach = width / 2 + 0.5;
-    const auto row = [&](double y) {
-      return static_cast<int>(std::clamp(std::floor(y), 0., map_.height - 1.));
-    };
-    const auto column = [&](double x) {
-      return static_cast<int>(std::clamp(std::floor(x), 0., map_.width - 1.));
-    };
-    const Vec2 along = b - a;
-    const double squared = along.squaredNorm();
-    const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);
-    for (int y = row(low.y() - reach); y <= row(high.y() + reach); ++y)
-      for (int x = column(low.x() - reach); x <= column(high.x() + reach); ++x) {
-        const Vec2 p(x + 0.5, y + 0.5);
-        const double s = squared > 0 ? std::clamp(along.dot(p - a) / squared, 0., 1.) : 0.;
-        const double share =
-            std::clamp(reach - (p - a - s * along).norm(), 0., std::min(1., width));
-        const std::size_t pixel = at(y) * at(map_.width) + at(x);
-        if (!(share > covered_[pixel])) continue;
-        if (covered_[pixel] == 0) touched_.push_back(pixel);
-        covered_[pixel] = share;
-      }
-  }
-
-  const Map& map_;
-  std::vector<Rgb> colours_;
-  std::vector<double> covered_;
-  std::vector<std::size_t> touched_;
-};
-
 /// Paints the exact direct light at pixel centres; returns the exposure.
 double paint_light(const SoundScene& scene, std::span<const int> receivers, const Map& map,
-                   const Progress& progress, Canvas& canvas) {
+                   const Progress& progress, detail::LineCanvas& canvas) {
   std::vector<std::size_t> pixels;
   std::vector<SurfacePoint> points;
   for (int y = 0; y < map.height; ++y)
@@ -182,20 +108,20 @@ double paint_light(const SoundScene& scene, std::span<const int> receivers, cons
     const double shade = std::sqrt(std::min(1., exposure * values[k]));
     const auto grey =
         static_cast<std::uint8_t>(std::lround(darkest + (brightest - darkest) * shade));
-    canvas.set(pixels[k], Canvas::linear({grey, grey, grey}));
+    canvas.set(pixels[k], detail::decode_srgb({grey, grey, grey}));
   }
   return exposure;
 }
 
 void draw_outlines(const SoundScene& scene, std::span<const int> receivers, const Map& map,
-                   Canvas& canvas) {
+                   detail::LineCanvas& canvas) {
   for (const int r : receivers)
     for (const Ring& ring : scene.receivers[at(r)].rings) {
       std::vector<Vec2> points;
       for (std::size_t k = 0; k <= ring.size(); ++k)
         points.push_back(
             map.to_picture(scene.receivers[at(r)].frame.to_space(ring[k % ring.size()])));
-      canvas.line(points, 1, Canvas::linear(outline));
+      canvas.line(points, 1, detail::decode_srgb(outline));
     }
 }
 
@@ -292,7 +218,7 @@ Picture draw_curves(const SoundScene& scene, const Discontinuities& found,
                     const Progress& progress) {
   check(scene, receivers, options);
   const Map map = make_map(scene, receivers, options);
-  Canvas canvas(map);
+  detail::LineCanvas canvas(map.width, map.height, detail::decode_srgb(page));
   Picture picture;
   picture.width = map.width;
   picture.height = map.height;
@@ -312,7 +238,8 @@ Picture draw_curves(const SoundScene& scene, const Discontinuities& found,
     std::vector<Vec2> points;
     for (const double s : flatten(curve->arc, smoothness * pixel))
       points.push_back(map.to_picture(receiver.frame.to_space(point_at(curve->arc, s))));
-    canvas.line(points, options.line_width, Canvas::linear(curve_colour(*curve, options.colour)));
+    canvas.line(points, options.line_width,
+                detail::decode_srgb(curve_colour(*curve, options.colour)));
   }
   picture.pixels = canvas.bytes();
   return picture;

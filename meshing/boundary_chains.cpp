@@ -11,19 +11,41 @@ namespace {
 // Parts thinner than this many of the view's slacks, eight roundings of a length, are no parts:
 // where occluders abut or touch the outline, rounding decides whether there is a gap.
 constexpr double thinnest = 0.25;
+// An occluder's edge may leave the outline it runs along by so many of those.
+constexpr double widest_overlap = 16;
 // Ends of pieces that rounding kept from meeting lie within this many roundings.
 constexpr double widest_gap = 1e5;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+double rounding_width(const PointView& view) {
+  // Two scattered edges part by up to 2 √3 times as much as their corners move along an axis.
+  return thinnest * view.slack() + 4 * view.jitter();
+}
+
+/// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
+bool runs_along(const PointView& view, const ArrangedPiece& piece, const OutlineEdge& edge) {
+  const Vec3 from = view.corners[at(edge.from)].true_position - view.point();
+  const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
+  const Vec3 normal = from.cross(to).normalized();
+  const double width = widest_overlap * rounding_width(view);
+  const auto lies_on = [&](const Vec3& end) {
+    const Vec3 p = end - view.point();
+    // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
+    // by so much.
+    return std::abs(normal.dot(p)) <= width && from.cross(p).dot(normal) >= -width * from.norm() &&
+           p.cross(to).dot(normal) >= -width * to.norm();
+  };
+  return lies_on(piece.from) && lies_on(piece.to);
+}
 
 /// Adds a straight piece of boundary to an extent.
 void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to) {
   const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
   const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
   if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
-  // Two scattered edges part by up to 2 √3 times as much as their corners move along an axis.
-  const double width = thinnest * view.slack() + 4 * view.jitter();
-  extent.rounding += angle * width / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
+  extent.rounding +=
+      angle * rounding_width(view) / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
 }
 
 }  // namespace
@@ -122,7 +144,13 @@ bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) 
   for (const OutlineEdge& edge : outline.edges)
     add(whole, view, view.corners[at(edge.from)].true_position,
         view.corners[at(edge.to)].true_position);
-  return (whole.flux - total_.flux).norm() <= whole.rounding + total_.rounding;
+  if ((whole.flux - total_.flux).norm() > whole.rounding + total_.rounding) return false;
+  // The difference of sums cannot tell a small corner that is cut off from nothing.
+  return std::all_of(pieces.begin(), pieces.end(), [&](const ArrangedPiece& piece) {
+    return piece.edge < 0 ||
+           std::any_of(outline.edges.begin(), outline.edges.end(),
+                       [&](const OutlineEdge& edge) { return runs_along(view, piece, edge); });
+  });
 }
 
 void BoundaryChains::copy(VisiblePart& part) const {

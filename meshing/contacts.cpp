@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement.h"
 #include "meshing/box_tree.h"
+#include "meshing/intersections.h"
 
 #include <algorithm>
 #include <cmath>
@@ -173,9 +174,11 @@ void find_contacts(std::vector<ReceiverDraft>& drafts, std::vector<Vec3>& points
     boxes.back().extend(points[at(b)]);
   }
   const BoxTree tree(std::move(boxes));
-  for (ReceiverDraft& draft : drafts) {
-    const std::vector<Link> edges = edges_in_plane(draft, links, tree, points, tolerance);
-    if (!edges.empty()) ContactFinder(draft, points, tolerance).run(edges);
+  const auto cuts = find_intersections(drafts, points, tolerance);
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    std::vector<Link> edges = edges_in_plane(drafts[i], links, tree, points, tolerance);
+    edges.insert(edges.end(), cuts[i].begin(), cuts[i].end());
+    if (!edges.empty()) ContactFinder(drafts[i], points, tolerance).run(edges);
   }
 }
 

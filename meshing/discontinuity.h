@@ -42,6 +42,7 @@ struct Feature {
 struct EdgeTriple {
   std::array<int, 3> edges{};  ///< as BoundaryPiece::edge
   int sign = 0;                ///< of the jump of the second derivative from right to left
+  auto operator<=>(const EdgeTriple&) const = default;
 };
 
 /// One reason for a curve.
@@ -49,6 +50,7 @@ struct CurveSource {
   CurveKind kind = CurveKind::ev;
   std::array<Feature, 3> features{};
   int feature_count = 0;
+  auto operator<=>(const CurveSource&) const = default;
 };
 
 /// Where the irradiance that one emitter gives a receiver is not smooth.
@@ -58,6 +60,8 @@ struct DiscontinuityCurve {
   CurveKind kind = CurveKind::ev;  ///< of the source with the lowest order
   int order = 2;  ///< k: the k-th derivative across the curve is the first that jumps
   ConicArc arc;   ///< in the coordinates of the receiver's frame
+  /// Unit normal of the plane that all lines of sight lie in; zero where there is none.
+  Vec3 sight_plane = Vec3::Zero();
   /// Jump of the k-th derivative along the unit normal, from the right of the arc to its left, at
   /// s = 1/6, 1/2 and 5/6; W/m² per length^k, of the emitter's strongest channel.
   std::array<double, 3> jump{};

@@ -26,6 +26,7 @@ struct ReceivingPoint {
 /// cosθ cosθ'/(π r²), and the triangle between the lines, seen on the emitter, has the area
 /// C v² t²/2 at distance t from the event. Any of the lines may be an edge of the emitter. Infinite
 /// if two of the lines coincide as seen from the point and the third does not; 0 if all three do.
+/// 0, too, if the lines meet below the horizon or the emitter faces away.
 double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
                      const std::array<Line3, 3>& lines);
 
@@ -33,8 +34,8 @@ double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
 /// factor by moving: ∫ K v dl, where v is how fast the piece's image on the emitter moves to the
 /// right of the piece, for a point that moves along `across` at unit speed. `from` and `to` are
 /// points on the edge that makes it, in the direction of the boundary (visible part on the left
-/// seen from the point). 0 for an edge in the emitter's plane. By Gauss–Legendre quadrature,
-/// relative error below 1e-9 unless the point is nearer to the emitter than a tenth of the piece.
+/// seen from the point). 0 for an edge in the emitter's plane. In closed form, correct to rounding;
+/// the whole piece must be above the horizon and in front of the emitter.
 double boundary_motion(const ReceivingPoint& at, const PlaneFrame& emitter, const Vec3& from,
                        const Vec3& to);
 

@@ -18,8 +18,8 @@ using Segment2 = std::array<Vec2, 2>;
 struct Receiver {
   PlaneFrame frame;         ///< all 2-D coordinates below are in it
   std::vector<Ring> rings;  ///< the outer boundary (counter-clockwise), then the holes (clockwise)
-  std::vector<Segment2>
-      contacts;  ///< inner D0 lines: where edges of other receivers lie in the polygon
+  std::vector<Segment2> contacts;  ///< inner D0 lines: where edges of other receivers lie in the
+                                   ///< polygon or others cut through it
   int material = 0;
   int group = 0;
   int plane = 0;           ///< receivers in one plane, facing either way, share this id
@@ -61,7 +61,8 @@ struct SoundScene {
 /// with
 ///   holes; where coplanar faces of different materials that look the same way cover each other, an
 ///   emitter keeps the common part, else the smaller face does (a lamp set flush over a ceiling);
-/// * edges of other receivers that lie inside a receiver become its contact lines;
+/// * edges of other receivers that lie inside a receiver become its contact lines, and so do the
+/// lines along which others cut through it;
 /// * two-sided faces become two receivers.
 /// Throws Error(invalid_input) if nothing with an area is left, or if a polygon crosses itself so
 /// that it has no sound interior. Deterministic.

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "meshing/emitter_stage.h"
+#include "meshing/visible_part.h"
+
+namespace halfshade {
+
+/// Predicts the jumps of finished curves. One a thread.
+class JumpPredictor {
+ public:
+  /// All must outlive the predictor.
+  JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage);
+
+  /// Fills order and jump, for a source of unit exitance. The order may turn out to be higher than
+  /// that given: where edges that line up do not move past each other in sight, nothing jumps.
+  void predict(DiscontinuityCurve& curve);
+
+ private:
+  double jump_at(const DiscontinuityCurve& curve, double s);
+  double value_jump(const Vec3& point, const Vec3& left, const Vec3& normal);
+  double slope_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
+                    const Vec3& normal);
+  double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
+                        const Vec3& normal) const;
+  Line3 line_of(int edge) const;
+
+  const SoundScene& scene_;
+  const OpaqueScene& opaque_;
+  const EmitterStage& stage_;
+  double step_;  ///< see side_step
+  VisiblePartFinder finder_;
+  VisiblePart left_, right_;
+};
+
+}  // namespace halfshade

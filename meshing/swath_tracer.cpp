@@ -1,0 +1,324 @@
+#include "meshing/swath_tracer.h"
+
+#include "meshing/event_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+// A line passes a triangle clearly if it stays this share of the triangle away from its border and
+// this sine away from its plane.
+constexpr double clearly_inside = 1e-7;
+constexpr double clearly_across = 1e-9;
+// Side steps, relative to the scene's size and to a rounding of the largest coordinate.
+constexpr double relative_step = 1e-9;
+constexpr double roundings_per_step = 1e4;
+// What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
+// only at some distance; what lies closer together is told apart by the narrow step.
+constexpr double wide_step = 300;
+// Pieces of swath shorter than this many side steps on the receiver cannot be decided.
+constexpr double least_steps = 4;
+// How often a conic may be halved before it is made of arcs that turn little.
+constexpr int most_halvings = 12;
+// Lines whose hulls are searched for edges at once.
+constexpr int hulls_per_swath = 4;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+template <class Skip, class Visit>
+void walk(const FlatTree& tree, Skip&& skip, Visit&& visit) {
+  if (tree.nodes.empty()) return;
+  int stack[FlatTree::max_stack], depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const int index = stack[--depth];
+    const FlatTree::Node& node = tree.nodes[at(index)];
+    if (skip(node.box)) continue;
+    if (node.right >= 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+    } else {
+      for (int i = node.first; i < node.first + node.count; ++i) visit(tree.items[at(i)]);
+    }
+  }
+}
+
+/// Whether a ray misses a box that is enlarged by `slack`.
+class RayBoxTest {
+ public:
+  RayBoxTest(const SightLine& line, double slack)
+      : origin_(line.start), inverse_(line.direction.cwiseInverse()), slack_(slack) {}
+
+  bool misses(const Bounds& box) const {
+    double near = -slack_, far = HUGE_VAL;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      double a = (box.low[k] - slack_ - origin_[k]) * inverse_[k];
+      double b = (box.high[k] + slack_ - origin_[k]) * inverse_[k];
+      if (std::isnan(a) || std::isnan(b)) continue;  // along a face of the box
+      if (a > b) std::swap(a, b);
+      near = std::max(near, a);
+      far = std::min(far, b);
+    }
+    return near > far;
+  }
+
+ private:
+  Vec3 origin_, inverse_;
+  double slack_;
+};
+
+double distance_to_border(const Receiver& receiver, const Vec2& p) {
+  double least = HUGE_VAL;
+  for (const Ring& ring : receiver.rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      const Vec2 along = b - a;
+      const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0., 1.);
+      least = std::min(least, (a + t * along - p).norm());
+    }
+  return least;
+}
+
+bool is_inside(const Receiver& receiver, const Vec2& p) {
+  bool odd = false;
+  for (const Ring& ring : receiver.rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
+    }
+  return odd;
+}
+
+}  // namespace
+
+double side_step(const SoundScene& scene, const OpaqueScene& opaque) {
+  return std::max(
+      relative_step * scene.tolerance.scene_size,
+      roundings_per_step * std::numeric_limits<double>::epsilon() * opaque.impl().magnitude);
+}
+
+/// A piece of curve on a receiver that may go on.
+struct SwathTracer::Open {
+  int receiver;
+  double t0, t1;
+  std::vector<EdgeTriple> triples;
+};
+
+SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
+                         const EmitterStage& stage)
+    : scene_(scene),
+      opaque_(opaque.impl()),
+      stage_(stage),
+      finder_(opaque),
+      step_(side_step(scene, opaque)) {
+  for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
+    const Receiver& receiver = scene.receivers[r];
+    for (const Segment2& contact : receiver.contacts)
+      contacts_.push_back(
+          {receiver.frame.to_space(contact[0]), receiver.frame.to_space(contact[1])});
+    if (!receiver.back) continue;
+    if (at(receiver.plane) >= backs_.size()) backs_.resize(at(receiver.plane) + 1);
+    backs_[at(receiver.plane)].push_back(static_cast<int>(r));
+  }
+}
+
+/// Parameters between which nothing changes along the swath's lines, in order.
+void SwathTracer::cut(const Swath& swath, double t0, double t1) {
+  const double slack = scene_.tolerance.length;
+  const SwathHull hull = hull_of(swath, t0, t1);
+  const auto skip = [&](const Bounds& box) {
+    return stage_.frame.normal.dot(0.5 * (box.low + box.high) - stage_.frame.origin) <
+               -stage_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
+           !hull.meets(box.low, box.high, slack);
+  };
+  std::vector<double> found;
+  const auto consider = [&](const Span3& span) {
+    if (hull.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
+      critical_parameters(swath, span, slack, found);
+  };
+  const auto visit = [&](int e) {
+    const auto& edge = opaque_.edges[at(e)];
+    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
+  };
+  walk(opaque_.closed_edges, skip, visit);
+  walk(opaque_.open_edges, skip, visit);
+  // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
+  for (const Span3& contact : contacts_) consider(contact);
+  for (const double t : found)
+    if (t > t0 && t < t1) parameters_.push_back(t);
+}
+
+void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
+  ++counts_.swaths;
+  std::vector<double> coarse = {0, 1};
+  if (!swath.is_planar) own_limits(swath, coarse);
+  for (const OutlinePiece& piece : stage_.outline)
+    critical_parameters(swath, piece.span, scene_.tolerance.length, coarse);
+  for (int k = 1; k < hulls_per_swath; ++k) coarse.push_back(1.0 * k / hulls_per_swath);
+  std::sort(coarse.begin(), coarse.end());
+  std::vector<Open> open;
+  for (std::size_t i = 1; i < coarse.size(); ++i) {
+    const double t0 = coarse[i - 1], t1 = coarse[i];
+    if (!(t1 > t0)) continue;
+    const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
+    if (!line || !(swath.ends_on_outline || stage_.contains(line->start))) continue;
+    parameters_.assign({t0, t1});
+    cut(swath, t0, t1);
+    std::sort(parameters_.begin(), parameters_.end());
+    for (std::size_t k = 1; k < parameters_.size(); ++k)
+      if (parameters_[k] > parameters_[k - 1])
+        trace_piece(swath, parameters_[k - 1], parameters_[k], open);
+  }
+  for (const Open& piece : open) finish(swath, piece, curves);
+}
+
+void SwathTracer::trace_piece(const Swath& swath, double t0, double t1, std::vector<Open>& open) {
+  const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
+  if (!line || !may_be_event(swath, *line)) return;
+  ++counts_.pieces;
+  find_crossings(*line);
+  collect_receivers(*line);
+  for (const int receiver : reached_) try_receiver(swath, receiver, t0, t1, open);
+}
+
+bool SwathTracer::may_be_event(const Swath& swath, const SightLine& line) const {
+  const auto may_be = [&](int e) {
+    return stage_.may_be_silhouette(stage_.edges[at(e)], line.direction);
+  };
+  for (const int e : swath.silhouettes)
+    if (e >= 0 && !may_be(e)) return false;
+  if (swath.corner < 0) return true;
+  const std::vector<int>& edges = stage_.vertices[at(swath.corner)].edges;
+  return std::count_if(edges.begin(), edges.end(), may_be) >= 2;
+}
+
+void SwathTracer::find_crossings(const SightLine& line) {
+  crossings_.clear();
+  const double slack = scene_.tolerance.length;
+  const RayBoxTest ray(line, slack);
+  walk(
+      opaque_.faces, [&](const Bounds& box) { return ray.misses(box); },
+      [&](int t) {
+        const auto& corner = opaque_.triangles[at(t)].corner;
+        const Vec3 a = opaque_.vertices[at(corner[0])] - line.start;
+        const Vec3 b = opaque_.vertices[at(corner[1])] - line.start;
+        const Vec3 c = opaque_.vertices[at(corner[2])] - line.start;
+        const Vec3 normal = (b - a).cross(c - a);
+        const double across = normal.dot(line.direction), size = normal.norm();
+        if (!(std::abs(across) > clearly_across * size)) return;
+        const double u = b.cross(c).dot(line.direction) / across;
+        const double v = c.cross(a).dot(line.direction) / across;
+        const double least = std::min({u, v, 1 - u - v});
+        if (least < -clearly_inside) return;
+        crossings_.push_back({normal.dot(a) / across, t, least > clearly_inside});
+      });
+  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+}
+
+/// The receivers that the line may end on, if nothing clearly blocks it before.
+void SwathTracer::collect_receivers(const SightLine& line) {
+  reached_.clear();
+  const double slack = scene_.tolerance.length;
+  const double last = line.direction.dot(line.last - line.start);
+  for (const Crossing& crossing : crossings_) {
+    if (crossing.distance < slack) continue;
+    const bool is_before = crossing.distance < last - slack;
+    if (is_before && crossing.is_clear) return;
+    if (crossing.distance <= last + slack) continue;
+    const int r = opaque_.triangles[at(crossing.triangle)].receiver;
+    const Receiver& receiver = scene_.receivers[at(r)];
+    const auto add = [&](int id) {
+      if (std::find(reached_.begin(), reached_.end(), id) == reached_.end()) reached_.push_back(id);
+    };
+    if (receiver.frame.normal.dot(line.direction) < 0) {
+      add(r);
+    } else if (at(receiver.plane) < backs_.size()) {
+      for (const int back : backs_[at(receiver.plane)])
+        if (scene_.receivers[at(back)].frame.normal.dot(line.direction) < 0) add(back);
+    }
+    if (crossing.is_clear) return;
+  }
+}
+
+void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, double t1,
+                               std::vector<Open>& open) {
+  const Receiver& target = scene_.receivers[at(receiver)];
+  const double tm = 0.5 * (t0 + t1);
+  const auto trace = trace_at(swath, target.frame, tm);
+  const auto before = trace_at(swath, target.frame, t0), after = trace_at(swath, target.frame, t1);
+  if (!trace || !before || !after || !(trace->tangent.norm() > 0)) return;
+  const double least = least_steps * step_;
+  if ((trace->point - before->point).norm() < least || (trace->point - after->point).norm() < least)
+    return;
+  const Vec2 p = target.frame.to_plane(trace->point);
+  if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
+  const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
+  EventEvidence evidence;
+  for (const double step : {wide_step * step_, step_}) {
+    const Vec3 a = trace->point + step * left, b = trace->point - step * left;
+    finder_.find(a, target.frame.normal, stage_.emitter, left_);
+    finder_.find(b, target.frame.normal, stage_.emitter, right_);
+    if (left_.signature == right_.signature) continue;
+    evidence = compare_sides({a, left_}, {b, right_}, swath.group);
+    if (evidence.differs) break;
+  }
+  if (!evidence.differs) return;
+  std::sort(evidence.triples.begin(), evidence.triples.end());
+  if (!open.empty())
+    for (auto last = open.rbegin(); last != open.rend() && last->t1 >= t0; ++last)
+      if (last->t1 == t0 && last->receiver == receiver && last->triples == evidence.triples) {
+        last->t1 = t1;
+        return;
+      }
+  open.push_back({receiver, t0, t1, std::move(evidence.triples)});
+}
+
+/// Turns a piece of swath into arcs.
+void SwathTracer::finish(const Swath& swath, const Open& piece,
+                         std::vector<DiscontinuityCurve>& curves) const {
+  const PlaneFrame& plane = scene_.receivers[at(piece.receiver)].frame;
+  DiscontinuityCurve curve;
+  curve.receiver = piece.receiver;
+  curve.emitter = stage_.emitter;
+  curve.kind = swath.source.kind;
+  curve.order = swath.may_be_first_order ? 1 : 2;
+  curve.triples = piece.triples;
+  curve.sources = {swath.source};
+  if (swath.is_planar) {
+    curve.sight_plane = hull_of(swath, 0, 1).normal;
+    curve.arc = straight_arc(plane.to_plane(trace_at(swath, plane, piece.t0)->point),
+                             plane.to_plane(trace_at(swath, plane, piece.t1)->point));
+    curves.push_back(std::move(curve));
+    return;
+  }
+  const auto direction = [&](const Trace& trace) -> Vec2 {
+    return {plane.e1.dot(trace.tangent), plane.e2.dot(trace.tangent)};
+  };
+  const auto add = [&](const auto& self, double t0, double t1, int halvings) -> void {
+    const double tm = 0.5 * (t0 + t1);
+    const auto a = trace_at(swath, plane, t0), b = trace_at(swath, plane, tm),
+               c = trace_at(swath, plane, t1);
+    if (!a || !b || !c) return;
+    const Vec2 from = plane.to_plane(a->point), to = plane.to_plane(c->point);
+    if (const auto arc = conic_arc(from, direction(*a), plane.to_plane(b->point), to, direction(*c),
+                                   1e-3 * step_)) {
+      curve.arc = *arc;
+      curves.push_back(curve);
+    } else if (halvings < most_halvings) {
+      self(self, t0, tm, halvings + 1);
+      self(self, tm, t1, halvings + 1);
+    } else {
+      curve.arc = straight_arc(from, to);
+      curves.push_back(curve);
+    }
+  };
+  add(add, piece.t0, piece.t1, 0);
+}
+
+}  // namespace halfshade

@@ -43,6 +43,8 @@ double clearance(const SoundScene& scene, const Discontinuities& found, std::siz
   for (const Ring& ring : receiver.rings)
     for (std::size_t k = 0; k < ring.size(); ++k)
       best = std::min(best, test::distance_to({ring[k], ring[(k + 1) % ring.size()]}, p));
+  for (const Segment2& contact : receiver.contacts)
+    best = std::min(best, test::distance_to(contact, p));
   for (std::size_t c = 0; c < found.curves.size(); ++c) {
     const DiscontinuityCurve& other = found.curves[c];
     if (c == curve || other.receiver != own.receiver || other.emitter != own.emitter) continue;

@@ -1,8 +1,10 @@
 #pragma once
 
+#include "io/curve_picture.h"
 #include "io/picture.h"
 #include "io/write_result.h"
 #include "meshing/core/progress.h"
+#include "solver/mesh_scene.h"
 #include "solver/solve.h"
 
 #include <filesystem>
@@ -46,6 +48,18 @@ struct SolveCommand {
   SolveOptions options;
 };
 
+struct MeshCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  /// Of the mesh; if this and the next two are empty: the scene's name with .vtu.
+  std::vector<std::filesystem::path> outputs;
+  std::filesystem::path curves;
+  std::filesystem::path picture;
+  std::string picture_of;  ///< group or number of a receiver; empty: the plane with most curves
+  CurvePictureOptions picture_options;
+  MeshOptions options;
+};
+
 struct RenderCommand {
   std::filesystem::path input;
   std::filesystem::path materials;
@@ -69,6 +83,7 @@ struct ProbeCommand {
 
 /// Each does its job and returns an exit code; errors are thrown as Error.
 int run(const SolveCommand& command, const Context& context);
+int run(const MeshCommand& command, const Context& context);
 int run(const RenderCommand& command, const Context& context);
 int run(const ProbeCommand& command, const Context& context);
 

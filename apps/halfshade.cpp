@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <array>
 #include <iterator>
 #include <map>
@@ -41,6 +42,26 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(1, 4096));
   app.add_option("--json", common.json, "Write a machine-readable report to FILE")
       ->type_name("FILE");
+}
+
+/// Which discontinuities to look for.
+void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary) {
+  app.add_option_function<std::vector<std::string>>(
+         "--events",
+         [&events](const std::vector<std::string>& names) {
+           const auto asked = [&](const char* name) {
+             return std::find(names.begin(), names.end(), name) != names.end();
+           };
+           events = {asked("contact"), asked("face"), asked("ev"), asked("eee")};
+         },
+         "Only lines of these kinds, separated by commas: contact, face, ev, eee (default: all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"contact", "face", "ev", "eee"}))
+      ->type_name("KIND,…");
+  app.add_option("--secondary", secondary,
+                 "Also look for the lines of the N brightest reflecting surfaces")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000000));
 }
 
 void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) {
@@ -89,12 +110,78 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
                   "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'")
       ->transform(CLI::CheckedTransformer(direct_lights, CLI::ignore_case))
       ->default_str("auto");
+  app->add_flag_callback(
+      "--no-discontinuity", [&options] { options.discontinuities = false; },
+      "Do not mesh along the lines where the light breaks");
+  app->add_option("--tolerance", options.tolerance,
+                  "Leave out lines that change the irradiance by less than this share of its mean")
+      ->capture_default_str()
+      ->check(CLI::Range(0., 1e6));
+  add_events(*app, options.events, options.secondary);
   add_common(*app, common);
   app->footer(
       "Examples:\n"
       "  halfshade solve data/cornell_box.obj -o cornell.vtu -o cornell.ply -o cornell.png\n"
       "  halfshade solve data/l_room.obj --elements 3000 --bounces 1 -o l_room.vtu\n"
+      "  halfshade solve data/s1.obj --elements 500 --tolerance 0.05 --events face,ev -o s1.vtu\n"
       "  halfshade solve data/furnace_cube.obj --elements 600 --json report.json -q\n\n" +
+      std::string(exit_code_help));
+}
+
+void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
+  CLI::App* app = program.add_subcommand(
+      "mesh", "Find the lines where the light breaks and mesh a scene along them, without solving");
+  app->add_option("scene", command.scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, …")
+      ->required()
+      ->type_name("SCENE");
+  app->add_option("-o,--output", command.outputs,
+                  "Mesh: .vtu, .vtp or .ply; may repeat (default: SCENE.vtu in this folder, unless "
+                  "--curves or --picture is given)")
+      ->type_name("FILE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app->add_option("--curves", command.curves, "The lines with kind, order, jump and origin: .vtp")
+      ->type_name("FILE");
+  app->add_option("--materials", command.materials, "Materials file, as for solve")
+      ->type_name("FILE");
+  auto& options = command.options;
+  app->add_option(
+         "--tolerance", options.tolerance,
+         "Leave out lines that change the irradiance by less than this share of its mean,\n"
+         "and draw conics accordingly (default: 0, the mesh is complete)")
+      ->check(CLI::Range(0., 1e6));
+  app->add_option("--max-length", options.max_length,
+                  "Longest element edge in scene units (default: no limit)")
+      ->check(CLI::PositiveNumber);
+  add_events(*app, options.events, options.secondary);
+  CLI::Option* picture =
+      app->add_option("--picture", command.picture,
+                      "Map of the lines over the exact direct light of one surface: .png")
+          ->type_name("FILE");
+  app->add_option("--of", command.picture_of,
+                  "Group or number of the receiver to draw (default: where most lines are)")
+      ->needs(picture)
+      ->type_name("NAME");
+  const std::map<std::string, CurveColour> colours = {{"order", CurveColour::order},
+                                                      {"kind", CurveColour::kind}};
+  app->add_option("--colour", command.picture_options.colour,
+                  "By 'order' (D0 red, D1 blue, D2 pink, D2 of three edges yellow) or by 'kind'\n"
+                  "(contact red, face green, ev pink, eee yellow)")
+      ->needs(picture)
+      ->transform(CLI::CheckedTransformer(colours, CLI::ignore_case))
+      ->default_str("order");
+  app->add_option("--pixels", command.picture_options.pixels, "Longer side of the picture")
+      ->needs(picture)
+      ->capture_default_str()
+      ->check(CLI::Range(16, 16384));
+  add_common(*app, common);
+  app->footer(
+      "Examples:\n"
+      "  halfshade mesh data/s1.obj -o s1_mesh.vtu --curves s1_curves.vtp --json s1_mesh.json\n"
+      "  halfshade mesh data/skew_bars.obj --picture skew_bars.png --of floor --colour kind\n"
+      "  halfshade mesh data/cornell_box.obj --tolerance 0.01 --max-length 100 -o "
+      "cornell_mesh.vtu\n"
+      "  halfshade mesh data/bars.obj --events contact,face,ev --curves bars.vtp\n\n" +
       std::string(exit_code_help));
 }
 
@@ -206,9 +293,11 @@ int run_program(int argc, char** argv) {
   program.footer("Each command has --help with examples.\n" + std::string(exit_code_help));
   Context context;
   SolveCommand solve_command;
+  MeshCommand mesh_command;
   RenderCommand render_command;
   ProbeCommand probe_command;
   add_solve(program, solve_command, context.common);
+  add_mesh(program, mesh_command, context.common);
   add_render(program, render_command, context.common);
   add_probe(program, probe_command, context.common);
   try {
@@ -228,6 +317,7 @@ int run_program(int argc, char** argv) {
                       }};
   context.progress_ends = [&bar] { bar.clear(); };
   if (program.got_subcommand("solve")) return run(solve_command, context);
+  if (program.got_subcommand("mesh")) return run(mesh_command, context);
   if (program.got_subcommand("probe")) return run(probe_command, context);
   return run(render_command, context);
 }

@@ -1,3 +1,4 @@
+#include "apps/check_outputs.h"
 #include "apps/commands.h"
 #include "io/atomic_file.h"
 #include "io/read_points.h"
@@ -25,10 +26,7 @@ void check_output(const std::filesystem::path& path) {
     throw Error(
         ErrorCode::usage, path.string(),
         fmt::format("the extension '{}' is none of .csv and .vtp", path.extension().string()));
-  const auto folder = path.parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
-    throw Error(ErrorCode::unwritable, path.string(),
-                fmt::format("the folder '{}' does not exist", folder.string()));
+  require_folder(path);
 }
 
 /// The same progress as a part of a larger whole that begins at `done` and takes `share` of it.

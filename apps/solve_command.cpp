@@ -1,3 +1,4 @@
+#include "apps/check_outputs.h"
 #include "apps/commands.h"
 #include "io/read_scene.h"
 #include "io/write_report.h"
@@ -15,19 +16,13 @@ bool is_picture(const std::filesystem::path& path) { return path.extension() == 
 /// Wrong names are worth telling before an hour of computing.
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
                    const std::filesystem::path& json) {
-  const auto check_folder = [](const std::filesystem::path& path) {
-    const auto folder = path.parent_path();
-    if (!folder.empty() && !std::filesystem::is_directory(folder))
-      throw Error(ErrorCode::unwritable, path.string(),
-                  fmt::format("the folder '{}' does not exist", folder.string()));
-  };
-  check_folder(json);
+  require_folder(json);
   for (const auto& path : outputs) {
     if (!is_picture(path) && !is_result_path(path))
       throw Error(ErrorCode::usage, path.string(),
                   fmt::format("the extension '{}' is none of .vtu, .vtp, .ply and .png",
                               path.extension().string()));
-    check_folder(path);
+    require_folder(path);
   }
 }
 
@@ -52,6 +47,9 @@ void print_summary(const SolveResult& result, bool verbose) {
       fmt::print("repair       {}\n", repair.sentence);
   fmt::print("receivers    {}\n", result.scene.receivers.size());
   fmt::print("elements     {}\n", result.elements.count());
+  if (result.curves > 0)
+    fmt::print("lines        {} of {} discontinuities, effect above {:.2g} of the mean light\n",
+               result.mesh.kept, result.curves, result.discontinuity_tolerance);
   fmt::print("factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
              closure_line(result.exchange));
   const ChannelReport& channel = result.radiosity.channel[0];

@@ -1,3 +1,4 @@
+#include "io/detail/little_endian.h"
 #include "io/detail/result_formats.h"
 #include "io/tone_map.h"
 #include "meshing/core/error.h"
@@ -6,33 +7,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 namespace halfshade::detail {
 namespace {
 
-template <class T>
-void put(std::string& bytes, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof(T));
-  bytes.append(raw, sizeof(T));
-}
-
 /// The nearest float; beyond the range of floats, its end.
 float to_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
-}
-
-/// A comment ends with its line.
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
 }
 
 double exposure_for(const SolveResult& result) {

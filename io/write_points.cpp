@@ -1,21 +1,15 @@
 #include "io/write_points.h"
 
 #include "io/atomic_file.h"
-#include "io/detail/vtk_messages.h"
+#include "io/detail/vtk_file.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
-#include <vtkCommand.h>
-#include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
-#include <vtkXMLPolyDataWriter.h>
 
 #include <iterator>
 
@@ -36,65 +30,33 @@ std::string csv_bytes(const PointTable& table, std::span<const DirectLight> ligh
   return bytes;
 }
 
-void add_string(vtkFieldData* data, const char* name, const std::string& value) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  array->InsertNextValue(value);
-  data->AddArray(array);
-}
-
-template <class Array, class Value>
-void add_array(vtkFieldData* data, const char* name, int components, std::size_t count,
-               Value value) {
-  vtkNew<Array> array;
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(count));
-  for (std::size_t k = 0; k < count; ++k)
-    for (int c = 0; c < components; ++c)
-      array->SetTypedComponent(static_cast<vtkIdType>(k), c, value(k, c));
-  data->AddArray(array);
-}
-
 std::string vtp_bytes(const PointTable& table, std::span<const DirectLight> light,
                       const Provenance& provenance) {
-  vtkNew<vtkPolyData> grid;
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
+  std::vector<Vec3> points;
+  std::vector<double> irradiance, visible, normal;
+  std::vector<int> region;
   vtkNew<vtkCellArray> vertices;
   for (std::size_t k = 0; k < light.size(); ++k) {
-    const vtkIdType id = points->InsertNextPoint(table.points[k].position.data());
+    points.push_back(table.points[k].position);
+    const auto id = static_cast<vtkIdType>(k);
     vertices->InsertNextCell(1, &id);
+    const Vec3& n = table.points[k].normal;
+    normal.insert(normal.end(), n.begin(), n.end());
+    const Rgb& h = light[k].irradiance;
+    irradiance.insert(irradiance.end(), h.begin(), h.end());
+    visible.push_back(light[k].visible);
+    region.push_back(static_cast<int>(light[k].region));
   }
-  grid->SetPoints(points);
+  vtkNew<vtkPolyData> grid;
+  detail::set_points(grid, points);
   grid->SetVerts(vertices);
   vtkFieldData* data = grid->GetPointData();
-  const std::size_t count = light.size();
-  add_array<vtkDoubleArray>(data, "irradiance", 3, count,
-                            [&](std::size_t k, int c) { return light[k].irradiance[c]; });
-  add_array<vtkDoubleArray>(data, "visible", 1, count,
-                            [&](std::size_t k, int) { return light[k].visible; });
-  add_array<vtkIntArray>(data, "region", 1, count,
-                         [&](std::size_t k, int) { return static_cast<int>(light[k].region); });
-  add_array<vtkDoubleArray>(data, "normal", 3, count,
-                            [&](std::size_t k, int c) { return table.points[k].normal[c]; });
-  add_string(grid->GetFieldData(), "version", provenance.version);
-  add_string(grid->GetFieldData(), "command_line", provenance.command_line);
-
-  detail::VtkMessages messages;
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, &messages, &detail::VtkMessages::record);
-  writer->AddObserver(vtkCommand::WarningEvent, &messages, &detail::VtkMessages::record);
-  // Appended data, the default, comes out empty in ParaView builds with expat 2.5 and later.
-  writer->SetDataModeToBinary();
-  writer->SetCompressorTypeToZLib();
-  writer->SetIdTypeToInt32();
-  writer->WriteToOutputStringOn();
-  writer->SetInputData(grid);
-  if (writer->Write() == 0 || !messages.first.empty())
-    throw Error(ErrorCode::unwritable, "write_points",
-                fmt::format("the points could not be encoded for VTK ({})", messages.first));
-  return writer->GetOutputString();
+  detail::add_numbers(data, "irradiance", irradiance, 3);
+  detail::add_numbers(data, "visible", visible);
+  detail::add_integers(data, "region", region);
+  detail::add_numbers(data, "normal", normal, 3);
+  detail::add_provenance(grid->GetFieldData(), provenance);
+  return detail::vtk_bytes(grid, "write_points");
 }
 
 }  // namespace

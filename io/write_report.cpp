@@ -2,10 +2,14 @@
 
 #include "io/atomic_file.h"
 #include "io/detail/result_formats.h"
+#include "io/write_curves.h"
+#include "io/write_mesh.h"
 #include "meshing/quality.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 
 namespace halfshade {
@@ -31,21 +35,21 @@ const char* name_of(Repair::Kind kind) {
   return "other";
 }
 
-Json scene_json(const SolveResult& result) {
+Json scene_json(const SoundScene& scene, std::size_t cameras) {
   std::set<int> faces;
-  for (const Receiver& receiver : result.scene.receivers)
+  for (const Receiver& receiver : scene.receivers)
     faces.insert(receiver.faces.begin(), receiver.faces.end());
   return {{"faces", faces.size()},
-          {"receivers", result.scene.receivers.size()},
-          {"materials", result.scene.materials.size()},
-          {"groups", result.scene.groups.size()},
-          {"cameras", result.cameras.size()},
-          {"diagonal", result.scene.tolerance.scene_size}};
+          {"receivers", scene.receivers.size()},
+          {"materials", scene.materials.size()},
+          {"groups", scene.groups.size()},
+          {"cameras", cameras},
+          {"diagonal", scene.tolerance.scene_size}};
 }
 
-Json repairs_json(const SolveResult& result) {
+Json repairs_json(const SoundScene& scene) {
   Json json = Json::array();
-  for (const Repair& repair : result.scene.repairs)
+  for (const Repair& repair : scene.repairs)
     json.push_back(
         {{"kind", name_of(repair.kind)}, {"faces", repair.faces}, {"sentence", repair.sentence}});
   return json;
@@ -62,9 +66,9 @@ Json mesh_json(const ElementTable& elements) {
           {"min_angle_histogram", {{"bin_width", 5}, {"counts", quality.histogram}}}};
 }
 
-Json stages_json(const SolveResult& result) {
+Json stages_json(const std::vector<StageReport>& stages) {
   Json json = Json::array();
-  for (const StageReport& stage : result.stages)
+  for (const StageReport& stage : stages)
     json.push_back({{"name", stage.name},
                     {"seconds", stage.seconds},
                     {"count", stage.count},
@@ -132,29 +136,120 @@ Json groups_json(const SolveResult& result) {
   return json;
 }
 
+Json search_json(const DiscontinuityReport& report) {
+  Json found;
+  for (std::size_t k = 0; k < report.found.size(); ++k)
+    found[name_of(static_cast<CurveKind>(k))] = report.found[k];
+  return {{"silhouette_edges", report.silhouette_edges},
+          {"swaths", report.swaths},
+          {"pieces", report.pieces},
+          {"found", found},
+          {"merged", report.merged},
+          {"complete", !report.interrupted}};
+}
+
+Json along_curves_json(const DiscontinuityMeshReport& report) {
+  return {{"kept", report.kept},
+          {"culled", report.culled},
+          {"deviation", report.deviation},
+          {"boundary_rounds", report.boundary_rounds},
+          {"unfinished_receivers", report.unfinished_receivers}};
+}
+
+/// How many there are of each kind and order, and how long they are together.
+Json curves_json(const std::vector<DiscontinuityCurve>& curves) {
+  struct Sums {
+    std::size_t count = 0;
+    double length = 0;
+  };
+  std::map<std::string, Sums> by_kind, by_order;
+  for (const DiscontinuityCurve& curve : curves) {
+    const double along = length(curve.arc);
+    for (Sums* sums : {&by_kind[name_of(curve.kind)], &by_order[fmt::format("D{}", curve.order)]}) {
+      ++sums->count;
+      sums->length += along;
+    }
+  }
+  const auto to_object = [](const std::map<std::string, Sums>& all) {
+    Json json = Json::object();
+    for (const auto& [name, sums] : all)
+      json[name] = {{"count", sums.count}, {"length", sums.length}};
+    return json;
+  };
+  return {
+      {"total", curves.size()}, {"by_kind", to_object(by_kind)}, {"by_order", to_object(by_order)}};
+}
+
+Json sources_json(const MeshResult& result) {
+  Json json = Json::array();
+  for (const LightSource& source : result.found.sources) {
+    const Receiver& receiver = result.scene.receivers.at(static_cast<std::size_t>(source.receiver));
+    json.push_back({{"receiver", source.receiver},
+                    {"group", result.scene.groups.at(static_cast<std::size_t>(receiver.group))},
+                    {"exitance", source.exitance},
+                    {"area", area(receiver)}});
+  }
+  return json;
+}
+
+Json to_json(const std::vector<std::filesystem::path>& paths) {
+  Json json = Json::array();
+  for (const auto& path : paths) json.push_back(path.string());
+  return json;
+}
+
+void write(const Json& json, const std::filesystem::path& path) {
+  // Names from files may be in any encoding.
+  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
 }  // namespace
 
 void write_report(const SolveResult& result, const Provenance& provenance,
                   const std::vector<std::filesystem::path>& outputs,
                   const std::filesystem::path& path) {
   detail::require_consistent(result, "write_report");
-  Json paths = Json::array();
-  for (const auto& output : outputs) paths.push_back(output.string());
-  const Json json = {{"version", provenance.version},
-                     {"command_line", provenance.command_line},
-                     {"unit", result.unit},
-                     {"interrupted", result.interrupted},
-                     {"estimated_relative_error", result.relative_error},
-                     {"scene", scene_json(result)},
-                     {"repairs", repairs_json(result)},
-                     {"mesh", mesh_json(result.elements)},
-                     {"stages", stages_json(result)},
-                     {"exchange", exchange_json(result.exchange)},
-                     {"radiosity", radiosity_json(result.radiosity)},
-                     {"groups", groups_json(result)},
-                     {"outputs", paths}};
-  // Names from files may be in any encoding.
-  write_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  Json discontinuities = search_json(result.discontinuities);
+  discontinuities["curves"] = result.curves;
+  discontinuities["tolerance"] = result.discontinuity_tolerance;
+  discontinuities.update(along_curves_json(result.mesh));
+  write({{"version", provenance.version},
+         {"command_line", provenance.command_line},
+         {"unit", result.unit},
+         {"interrupted", result.interrupted},
+         {"estimated_relative_error", result.relative_error},
+         {"scene", scene_json(result.scene, result.cameras.size())},
+         {"repairs", repairs_json(result.scene)},
+         {"discontinuities", discontinuities},
+         {"mesh", mesh_json(result.elements)},
+         {"stages", stages_json(result.stages)},
+         {"exchange", exchange_json(result.exchange)},
+         {"radiosity", radiosity_json(result.radiosity)},
+         {"groups", groups_json(result)},
+         {"outputs", to_json(outputs)}},
+        path);
+}
+
+void write_report(const MeshResult& result, const Provenance& provenance,
+                  const std::vector<std::filesystem::path>& outputs,
+                  const std::filesystem::path& path) {
+  detail::require_consistent(result.elements, "write_report");
+  Json mesh = mesh_json(result.elements);
+  mesh.update(along_curves_json(result.mesh));
+  mesh["irradiance_tolerance"] = result.irradiance_tolerance;
+  write({{"version", provenance.version},
+         {"command_line", provenance.command_line},
+         {"unit", result.unit},
+         {"interrupted", result.interrupted},
+         {"scene", scene_json(result.scene, result.cameras.size())},
+         {"repairs", repairs_json(result.scene)},
+         {"sources", sources_json(result)},
+         {"curves", curves_json(result.found.curves)},
+         {"search", search_json(result.found.report)},
+         {"mesh", mesh},
+         {"stages", stages_json(result.stages)},
+         {"outputs", to_json(outputs)}},
+        path);
 }
 
 }  // namespace halfshade

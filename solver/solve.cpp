@@ -1,41 +1,19 @@
 #include "solver/solve.h"
 
 #include "meshing/core/error.h"
-#include "meshing/patch_mesh.h"
 #include "meshing/visibility.h"
 #include "solver/direct_light.h"
+#include "solver/mesh_scene.h"
 #include "solver/recovery_estimate.h"
+#include "solver/solve_mesh.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace halfshade {
 namespace {
-
-/// Times the stages of a pipeline.
-class Stages {
- public:
-  explicit Stages(std::vector<StageReport>& reports) : reports_(reports) {}
-
-  /// Runs `stage`, which returns how many things it made.
-  template <class Stage>
-  void run(const char* name, Stage stage) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::size_t count = stage();
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    reports_.push_back({name, elapsed.count(), count, {}});
-  }
-
-  void leave_out_if(bool needless, const char* name, const std::string& because) {
-    if (needless) reports_.push_back({name, 0, 0, because});
-  }
-
- private:
-  std::vector<StageReport>& reports_;
-};
 
 void material_arrays(const SoundScene& scene, const ElementTable& elements, ChannelArray& rho,
                      ChannelArray& exitance) {
@@ -49,32 +27,9 @@ void material_arrays(const SoundScene& scene, const ElementTable& elements, Chan
   }
 }
 
-/// Meshes with the length asked for, or with the one that comes nearest to the number of elements
-/// asked for: narrow receivers need more than their area suggests.
-ElementTable make_mesh(const SoundScene& scene, const SolveOptions& options,
-                       const Progress& progress) {
-  constexpr int attempts = 5;
-  constexpr double near_enough = 0.1;
-  PlanarMeshOptions mesh_options;
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
-  mesh_options.max_length =
-      options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
-  ElementTable elements = PatchMesh(scene, mesh_options, progress).elements();
-  if (options.max_length > 0 || progress.stopped()) return elements;
-  for (int k = 1; k < attempts; ++k) {
-    const double excess = elements.count() / static_cast<double>(options.elements);
-    if (std::abs(excess - 1) <= near_enough) break;
-    mesh_options.max_length *= std::sqrt(excess);
-    elements = PatchMesh(scene, mesh_options, progress).elements();
-  }
-  return elements;
-}
-
-/// Why direct light needs no stage of its own; empty if it does.
-std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice) {
+/// Why direct light, and the lines where it breaks, deserve no effort; empty if they do.
+std::string most_surfaces_emit(const SoundScene& scene) {
   constexpr double most = 0.5;
-  if (choice == DirectLightBy::exact) return {};
-  if (choice == DirectLightBy::matrix) return "the matrix was asked for";
   double all = 0, emitting = 0;
   for (const Receiver& receiver : scene.receivers) {
     const Material& material = scene.materials[static_cast<std::size_t>(receiver.material)];
@@ -84,6 +39,50 @@ std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice)
   return emitting > most * all
              ? "most surfaces emit, so that direct light is no sharper than reflected"
              : "";
+}
+
+/// Why direct light needs no stage of its own; empty if it does.
+std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice) {
+  if (choice == DirectLightBy::exact) return {};
+  if (choice == DirectLightBy::matrix) return "the matrix was asked for";
+  return most_surfaces_emit(scene);
+}
+
+/// Why no discontinuities need be looked for; empty if they do.
+std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options) {
+  const DiscontinuityOptions& events = options.events;
+  if (!options.discontinuities || !(events.contact || events.face || events.ev || events.eee))
+    return "it was asked to";
+  if (is_convex(scene)) return "no surface can come between two others";
+  return most_surfaces_emit(scene);
+}
+
+/// Meshes the scene, along its discontinuities if it has any.
+void make_elements(const Scene& scene, const SolveOptions& options, const Progress& progress,
+                   Stages& stages, SolveResult& result) {
+  Discontinuities found;
+  double mean_irradiance = 0;
+  const std::string needless = discontinuities_needless(result.scene, options);
+  stages.leave_out_if(!needless.empty(), "discontinuities", needless);
+  if (needless.empty())
+    stages.run("discontinuities", [&] {
+      const auto sources = all_sources(scene, result.scene, options.secondary, progress);
+      found = find_discontinuities(result.scene, OpaqueScene(result.scene), sources, options.events,
+                                   progress);
+      mean_irradiance = mean_direct_irradiance(result.scene, progress);
+      return found.curves.size();
+    });
+  result.discontinuities = found.report;
+  result.curves = found.curves.size();
+  stages.run("mesh", [&] {
+    SolveMesh mesh = found.curves.empty()
+                         ? make_solve_mesh(result.scene, options, progress)
+                         : make_solve_mesh(result.scene, found, options, mean_irradiance, progress);
+    result.mesh = mesh.report;
+    result.discontinuity_tolerance = mesh.tolerance;
+    result.elements = std::move(mesh.elements);
+    return result.elements.corners.size();
+  });
 }
 
 /// In a closed enclosure everything an emitter sends arrives somewhere. Averaging over elements
@@ -111,6 +110,10 @@ void check(const SolveOptions& options) {
         fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
                     "not negative",
                     options.elements, options.max_elements, options.max_length));
+  if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)
+    throw Error(ErrorCode::contract, "solve",
+                fmt::format("tolerance ({}) and secondary ({}) must be finite and not negative",
+                            options.tolerance, options.secondary));
 }
 
 }  // namespace
@@ -128,10 +131,7 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
     result.scene = make_sound(scene);
     return result.scene.receivers.size();
   });
-  stages.run("mesh", [&] {
-    result.elements = make_mesh(result.scene, options, progress);
-    return result.elements.corners.size();
-  });
+  make_elements(scene, options, progress, stages, result);
   ElementDirectLight light;
   const std::string needless = direct_light_needless(result.scene, options.direct_light);
   stages.leave_out_if(!needless.empty(), "exact direct light", needless);

@@ -12,19 +12,6 @@ namespace {
 
 constexpr double max_points = 1e8;
 
-/// By the crossings of a ray along +x (even–odd); on the border either answer may come out.
-bool contains(const Receiver& receiver, const Vec2& p) {
-  bool inside = false;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (p.x() < x) inside = !inside;
-    }
-  return inside;
-}
-
 void add_grid(const Receiver& receiver, double spacing, std::vector<SurfacePoint>& points) {
   Eigen::AlignedBox2d box;
   for (const Vec2& p : receiver.rings.front()) box.extend(p);
@@ -40,6 +27,18 @@ void add_grid(const Receiver& receiver, double spacing, std::vector<SurfacePoint
 }
 
 }  // namespace
+
+bool contains(const Receiver& receiver, const Vec2& p) {
+  bool inside = false;
+  for (const Ring& ring : receiver.rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (p.x() < x) inside = !inside;
+    }
+  return inside;
+}
 
 std::vector<SurfacePoint> surface_grid(const SoundScene& scene, std::string_view name,
                                        double spacing) {

@@ -25,5 +25,9 @@ std::vector<Camera> cameras_from_json(const std::string& text);
 /// Throws Error(contract) unless every array of the result has as many entries as there are
 /// elements and every corner is a point.
 void require_consistent(const SolveResult& result, const char* caller);
+void require_consistent(const ElementTable& elements, const char* caller);
+
+/// The extension in small letters.
+std::string lower_extension(const std::filesystem::path& path);
 
 }  // namespace halfshade::detail

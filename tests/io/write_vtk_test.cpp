@@ -1,5 +1,6 @@
 #include "io/write_result.h"
 #include "tests/io/sample_result.h"
+#include "tests/io/vtk_reading.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/process.h"
 #include "tests/support/temp_dir.h"
@@ -7,35 +8,18 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
-#include <vtkUnstructuredGrid.h>
-#include <vtkXMLPolyDataReader.h>
-#include <vtkXMLUnstructuredGridReader.h>
 
 namespace halfshade {
 namespace {
 
 namespace fs = std::filesystem;
 
-template <class Reader>
-vtkSmartPointer<vtkPointSet> read(const fs::path& path) {
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
+using test::strings;
 
-vtkSmartPointer<vtkPointSet> read(const fs::path& path) {
-  return path.extension() == ".vtu" ? read<vtkXMLUnstructuredGridReader>(path)
-                                    : read<vtkXMLPolyDataReader>(path);
-}
+vtkSmartPointer<vtkPointSet> read(const fs::path& path) { return test::read_vtk(path); }
 
 void expect_channels(vtkFieldData* data, const char* name, const ChannelArray& values) {
   vtkDataArray* array = data->GetArray(name);
@@ -54,14 +38,6 @@ void expect_integers(vtkFieldData* data, const char* name, const std::vector<int
   ASSERT_EQ(array->GetNumberOfTuples(), static_cast<vtkIdType>(values.size())) << name;
   for (std::size_t i = 0; i < values.size(); ++i)
     ASSERT_EQ(array->GetComponent(static_cast<vtkIdType>(i), 0), values[i]) << name;
-}
-
-std::vector<std::string> strings(vtkFieldData* data, const char* name) {
-  auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
-  if (array == nullptr) return {"(no such array)"};
-  std::vector<std::string> values;
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i) values.push_back(array->GetValue(i));
-  return values;
 }
 
 void expect_numbers(vtkFieldData* data, const char* name, const std::vector<double>& expected) {

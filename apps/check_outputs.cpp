@@ -1,0 +1,16 @@
+#include "apps/check_outputs.h"
+
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+namespace halfshade {
+
+void require_folder(const std::filesystem::path& file) {
+  const auto folder = file.parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    throw Error(ErrorCode::unwritable, file.string(),
+                fmt::format("the folder '{}' does not exist", folder.string()));
+}
+
+}  // namespace halfshade

@@ -1,0 +1,125 @@
+#include "apps/check_outputs.h"
+#include "apps/commands.h"
+#include "io/read_scene.h"
+#include "io/write_curves.h"
+#include "io/write_mesh.h"
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace halfshade {
+namespace {
+
+void check(const MeshCommand& command, const std::filesystem::path& json) {
+  require_folder(json);
+  for (const auto& path : command.outputs) {
+    if (!is_result_path(path))
+      throw Error(ErrorCode::usage, path.string(),
+                  fmt::format("the extension '{}' is none of .vtu, .vtp and .ply",
+                              path.extension().string()));
+    require_folder(path);
+  }
+  if (!command.curves.empty() && !is_curves_path(command.curves))
+    throw Error(ErrorCode::usage, command.curves.string(),
+                fmt::format("curves are written as .vtp, not as '{}'",
+                            command.curves.extension().string()));
+  if (!command.picture.empty() && command.picture.extension() != ".png")
+    throw Error(
+        ErrorCode::usage, command.picture.string(),
+        fmt::format("the extension '{}' is not .png", command.picture.extension().string()));
+  require_folder(command.curves);
+  require_folder(command.picture);
+}
+
+/// Draws the part of the scene asked for; up as in the scene's first camera.
+void draw(const MeshCommand& command, const MeshResult& result, const Context& context) {
+  CurvePictureOptions options = command.picture_options;
+  const std::vector<int> receivers =
+      picture_receivers(result.scene, result.found, command.picture_of);
+  if (!result.cameras.empty()) {
+    // Of a camera that looks along the normal, the picture's up; of others, where it looks to.
+    const Camera& camera = result.cameras.front();
+    const Vec3& normal =
+        result.scene.receivers[static_cast<std::size_t>(receivers.front())].frame.normal;
+    const Vec3 up = camera.up.stableNormalized(), ahead = camera.direction.stableNormalized();
+    options.up = std::abs(up.dot(normal)) < std::abs(ahead.dot(normal)) ? up : ahead;
+    if (std::abs(up.dot(normal)) < 0.7) options.up = up;
+  }
+  write_png(draw_curves(result.scene, result.found, receivers, options, context.progress),
+            command.picture);
+}
+
+void print_curves(const Discontinuities& found) {
+  std::array<std::size_t, 4> kinds{};
+  std::array<std::size_t, 3> orders{};
+  for (const DiscontinuityCurve& curve : found.curves) {
+    ++kinds.at(static_cast<std::size_t>(curve.kind));
+    ++orders.at(static_cast<std::size_t>(std::clamp(curve.order, 0, 2)));
+  }
+  fmt::print("curves       {} of {} source{}\n", found.curves.size(), found.sources.size(),
+             found.sources.size() == 1 ? "" : "s");
+  fmt::print("kinds        {} contact, {} face, {} ev, {} eee\n", kinds[0], kinds[1], kinds[2],
+             kinds[3]);
+  fmt::print("orders       {} D0, {} D1, {} D2\n", orders[0], orders[1], orders[2]);
+}
+
+void print_summary(const MeshResult& result, bool with_elements, bool verbose) {
+  if (verbose)
+    for (const Repair& repair : result.scene.repairs)
+      fmt::print("repair       {}\n", repair.sentence);
+  fmt::print("receivers    {}\n", result.scene.receivers.size());
+  print_curves(result.found);
+  if (with_elements) {
+    fmt::print("elements     {}\n", result.elements.count());
+    fmt::print("left out     {} curves below {:.3g} W/m²\n", result.mesh.culled,
+               result.irradiance_tolerance);
+  }
+  if (verbose)
+    for (const StageReport& stage : result.stages)
+      if (stage.left_out_because.empty())
+        fmt::print("{:<12} {:.2f} s\n", stage.name, stage.seconds);
+}
+
+}  // namespace
+
+int run(const MeshCommand& given, const Context& context) {
+  MeshCommand command = given;
+  if (command.outputs.empty() && command.curves.empty() && command.picture.empty())
+    command.outputs.push_back(command.scene.stem().replace_extension(".vtu"));
+  check(command, context.common.json);
+  command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
+  const SceneFile file = read_scene(command.scene, command.materials);
+  // Before the work: a name that does not exist is worth telling at once.
+  if (!command.picture.empty() && !command.picture_of.empty())
+    picture_receivers(make_sound(file.scene), {}, command.picture_of);
+  const MeshResult result = mesh_scene(file.scene, command.options, context.progress);
+  context.progress_ends();
+  if (!context.common.quiet)
+    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  std::vector<std::filesystem::path> written = command.outputs;
+  for (const auto& path : command.outputs) write_mesh(result, context.provenance, path);
+  if (!command.curves.empty()) {
+    write_curves(result.scene, result.found, result.unit, context.provenance, command.curves);
+    written.push_back(command.curves);
+  }
+  if (!command.picture.empty()) {
+    draw(command, result, context);
+    context.progress_ends();
+    written.push_back(command.picture);
+  }
+  if (!context.common.json.empty())
+    write_report(result, context.provenance, written, context.common.json);
+  if (!context.common.quiet) {
+    print_summary(result, command.options.with_elements, context.common.verbose);
+    for (const auto& path : written) fmt::print("wrote        {}\n", path.string());
+  }
+  if (!context.progress.stopped()) return exit_done;
+  fmt::print(stderr, "interrupted: what was written is incomplete and marked so\n");
+  return exit_interrupted;
+}
+
+}  // namespace halfshade

@@ -7,9 +7,10 @@
 #endif
 
 #include "meshing/core/error.h"
-#include "meshing/core/parallel.h"
 #include "meshing/corner_fans.h"
 #include "meshing/face_lookup.h"
+#include "meshing/receiver_meshes.h"
+#include "meshing/shared_places.h"
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <fmt/format.h>
@@ -27,9 +28,11 @@ struct Traits : OpenMesh::DefaultTraits {
   HalfedgeAttributes(OpenMesh::Attributes::PrevHalfedge);
   EdgeAttributes(OpenMesh::Attributes::None);
   FaceAttributes(OpenMesh::Attributes::None);
+  VertexTraits { int place = -1; };  // the same for vertices of receivers that share an edge
   EdgeTraits {
-    bool contact = false;  // lies on a contact line
-    bool marked = false;   // to be split
+    int order = -1;       // of the discontinuity along it; −1: none
+    bool marked = false;  // to be split
+    int twin = -1;        // the next edge in the ring of those of other receivers that lie on it
   };
   FaceTraits { int node = -1; };  // of the hierarchy
 };
@@ -54,10 +57,19 @@ struct ReceiverInfo {
 struct PatchMesh::Impl {
   Mesh mesh;
   std::vector<ReceiverInfo> receivers;
+  int places = 0;  // how many there are
   // The hierarchy, one entry a node; leaves have a face of the mesh.
   std::vector<int> parent, level, receiver;
 
-  void add(const Receiver& receiver, const PlanarMesh& planar);
+  void add(const SoundScene& scene, const SharedEdges& shared, std::span<const WalledMesh> meshes,
+           std::span<const std::vector<int>> orders);
+  void add(const Receiver& receiver, const PlanarMesh& planar, std::span<const int> orders,
+           const SharedPlaces& shared);
+  int add_root(int receiver);
+  void fill_gaps(const std::vector<Mesh::VertexHandle>& vertex, const std::vector<int>& point,
+                 const SharedPlaces& shared);
+  void link_twins(const std::vector<Mesh::EdgeHandle>& edges);
+  Link place_ends(Mesh::EdgeHandle edge) const;
   std::vector<Mesh::FaceHandle> ordered_faces() const;
   std::vector<Mesh::FaceHandle> named_faces(std::span<const int> elements) const;
   Mesh::HalfedgeHandle first_halfedge(Mesh::FaceHandle face) const;
@@ -70,14 +82,36 @@ struct PatchMesh::Impl {
   void mark(Mesh::EdgeHandle edge, std::vector<Mesh::EdgeHandle>& marked);
   std::vector<Mesh::EdgeHandle> close_marks(std::vector<Mesh::EdgeHandle> marked);
   std::map<int, bool> marked_triangles(const std::vector<Mesh::EdgeHandle>& marked) const;
-  void split_edge(Mesh::EdgeHandle edge);
+  Mesh::VertexHandle split_edge(Mesh::EdgeHandle edge, const OpenMesh::Vec3d& position);
   void split_marked(std::vector<Mesh::EdgeHandle> marked);
   void name_children(const std::vector<Mesh::FaceHandle>& faces);
 };
 
-// Puts the mesh of one receiver in. Where its triangles touch in a point without sharing an edge,
-// the point becomes several vertices, for OpenMesh takes manifold meshes only.
-void PatchMesh::Impl::add(const Receiver& source, const PlanarMesh& planar) {
+// Puts the meshes of all receivers in, with the orders of their constrained edges.
+void PatchMesh::Impl::add(const SoundScene& scene, const SharedEdges& shared,
+                          std::span<const WalledMesh> meshes,
+                          std::span<const std::vector<int>> orders) {
+  const SharedPlaces common = shared_places(scene, shared, meshes);
+  places = static_cast<int>(common.position.size());
+  for (std::size_t r = 0; r < meshes.size(); ++r)
+    add(scene.receivers[r], *meshes[r].mesh, orders[r], common);
+  std::vector<Mesh::EdgeHandle> walls;
+  for (const auto edge : mesh.edges())
+    if (mesh.data(edge).order == 0) walls.push_back(edge);
+  link_twins(walls);
+}
+
+int PatchMesh::Impl::add_root(int id) {
+  parent.push_back(-1);
+  level.push_back(0);
+  receiver.push_back(id);
+  return static_cast<int>(parent.size()) - 1;
+}
+
+// Where triangles touch in a point without sharing an edge, the point becomes several vertices,
+// for OpenMesh takes manifold meshes only.
+void PatchMesh::Impl::add(const Receiver& source, const PlanarMesh& planar,
+                          std::span<const int> orders, const SharedPlaces& shared) {
   const int id = static_cast<int>(receivers.size());
   receivers.push_back({source.frame, source.group, source.material, FaceLookup(source)});
   const CornerFans fans = corner_fans(planar.triangles, edge_neighbours(planar.triangles));
@@ -86,25 +120,78 @@ void PatchMesh::Impl::add(const Receiver& source, const PlanarMesh& planar) {
   for (std::size_t t = 0; t < planar.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) point[at(fans.of_corner[t][k])] = planar.triangles[t][k];
   for (std::size_t v = 0; v < vertex.size(); ++v) {
-    const Vec3 p = source.frame.to_space(planar.points[at(point[v])]);
+    const int place = shared.place[at(id)][at(point[v])];
+    const Vec3 p =
+        place < 0 ? source.frame.to_space(planar.points[at(point[v])]) : shared.position[at(place)];
     vertex[v] = mesh.add_vertex({p.x(), p.y(), p.z()});
+    mesh.data(vertex[v]).place = place;
   }
+  const auto point_of = [&](Mesh::VertexHandle v) { return point[at(v.idx() - vertex[0].idx())]; };
+  const auto& constrained = planar.constrained_edges;
   for (const auto& corners : fans.of_corner) {
     const auto face =
         mesh.add_face(vertex[at(corners[0])], vertex[at(corners[1])], vertex[at(corners[2])]);
     if (!face.is_valid())
       throw Error(ErrorCode::contract, "PatchMesh",
                   fmt::format("the triangulation of receiver {} is not a surface", id));
-    mesh.data(face).node = static_cast<int>(parent.size());
-    parent.push_back(-1);
-    level.push_back(0);
-    receiver.push_back(id);
-    for (const auto half : mesh.fh_range(face)) {
-      const int a = point[at(mesh.from_vertex_handle(half).idx() - vertex[0].idx())];
-      const int b = point[at(mesh.to_vertex_handle(half).idx() - vertex[0].idx())];
-      mesh.data(mesh.edge_handle(half)).contact = std::binary_search(
-          planar.constrained_edges.begin(), planar.constrained_edges.end(), sorted(a, b));
+    mesh.data(face).node = add_root(id);
+    for (const auto edge : mesh.fe_range(face)) {
+      const Link link = ends(edge);
+      const Link key =
+          sorted(point_of(Mesh::VertexHandle(link[0])), point_of(Mesh::VertexHandle(link[1])));
+      const auto found = std::lower_bound(constrained.begin(), constrained.end(), key);
+      if (found != constrained.end() && *found == key)
+        mesh.data(edge).order = orders[static_cast<std::size_t>(found - constrained.begin())];
     }
+  }
+  fill_gaps(vertex, point, shared);
+}
+
+// Splits edges where only neighbours have points. The parts are elements of their own.
+void PatchMesh::Impl::fill_gaps(const std::vector<Mesh::VertexHandle>& vertex,
+                                const std::vector<int>& point, const SharedPlaces& shared) {
+  const auto& gaps = shared.gaps[receivers.size() - 1];
+  if (gaps.empty()) return;
+  std::map<Link, Mesh::EdgeHandle> edges;
+  for (std::size_t v = 0; v < vertex.size(); ++v)
+    for (const auto half : mesh.voh_range(vertex[v])) {
+      const int other = point[at(mesh.to_vertex_handle(half).idx() - vertex[0].idx())];
+      edges.emplace(Link{point[v], other}, mesh.edge_handle(half));
+    }
+  for (const auto& gap : gaps) {
+    auto edge = edges.at(gap.edge);
+    Link link = ends(edge);
+    if (point[at(link[1] - vertex[0].idx())] != gap.edge[1]) std::swap(link[0], link[1]);
+    const Mesh::VertexHandle last(link[1]);
+    for (const int place : gap.places) {
+      const Vec3& p = shared.position[at(place)];
+      const auto middle = split_edge(edge, {p.x(), p.y(), p.z()});
+      mesh.data(middle).place = place;
+      std::map<int, Mesh::FaceHandle> halves;  // of one triangle, by its node
+      for (const auto face : mesh.vf_range(middle))
+        if (!halves.emplace(mesh.data(face).node, face).second)
+          mesh.data(face).node = add_root(static_cast<int>(receivers.size()) - 1);
+      edge = mesh.edge_handle(mesh.find_halfedge(middle, last));
+    }
+  }
+}
+
+Link PatchMesh::Impl::place_ends(Mesh::EdgeHandle edge) const {
+  const Link link = ends(edge);
+  return sorted(mesh.data(Mesh::VertexHandle(link[0])).place,
+                mesh.data(Mesh::VertexHandle(link[1])).place);
+}
+
+// Makes rings of those edges that run between the same places.
+void PatchMesh::Impl::link_twins(const std::vector<Mesh::EdgeHandle>& edges) {
+  std::vector<std::pair<Link, int>> keys;
+  for (const auto edge : edges)
+    if (const Link key = place_ends(edge); key[0] >= 0) keys.emplace_back(key, edge.idx());
+  std::sort(keys.begin(), keys.end());
+  for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
+    while (last < keys.size() && keys[last].first == keys[first].first) ++last;
+    for (std::size_t i = first; i < last && last - first > 1; ++i)
+      mesh.data(Mesh::EdgeHandle(keys[i].second)).twin = keys[i + 1 < last ? i + 1 : first].second;
   }
 }
 
@@ -152,7 +239,8 @@ std::vector<Mesh::EdgeHandle> PatchMesh::Impl::close_marks(std::vector<Mesh::Edg
 }
 
 // Bisects the triangles at an edge. New faces inherit the node of the one they are a part of.
-void PatchMesh::Impl::split_edge(Mesh::EdgeHandle edge) {
+Mesh::VertexHandle PatchMesh::Impl::split_edge(Mesh::EdgeHandle edge,
+                                               const OpenMesh::Vec3d& position) {
   struct Side {
     Mesh::VertexHandle apex;
     int node;
@@ -165,15 +253,15 @@ void PatchMesh::Impl::split_edge(Mesh::EdgeHandle edge) {
           {mesh.to_vertex_handle(mesh.next_halfedge_handle(half)), mesh.data(face).node});
   }
   const Link old_ends = ends(edge);
-  const bool contact = mesh.data(edge).contact;
-  const auto middle = mesh.add_vertex(0.5 * (mesh.point(Mesh::VertexHandle(old_ends[0])) +
-                                             mesh.point(Mesh::VertexHandle(old_ends[1]))));
+  const int order = mesh.data(edge).order;
+  const auto middle = mesh.add_vertex(position);
   mesh.split(edge, middle);
   for (const auto half : mesh.voh_range(middle)) {
     const int other = mesh.to_vertex_handle(half).idx();
     auto& data = mesh.data(mesh.edge_handle(half));
     data.marked = false;
-    data.contact = contact && (other == old_ends[0] || other == old_ends[1]);
+    data.twin = -1;
+    data.order = other == old_ends[0] || other == old_ends[1] ? order : -1;
     for (const Side& side : sides) {
       if (side.apex.idx() != other) continue;
       const auto left = mesh.face_handle(half);
@@ -182,6 +270,7 @@ void PatchMesh::Impl::split_edge(Mesh::EdgeHandle edge) {
       mesh.data(right).node = side.node;
     }
   }
+  return middle;
 }
 
 // For every triangle with marked edges (by node) whether all three are.
@@ -206,7 +295,9 @@ void PatchMesh::Impl::split_marked(std::vector<Mesh::EdgeHandle> marked) {
   marked = close_marks(std::move(marked));
   const std::map<int, bool> touched = marked_triangles(marked);
   std::sort(marked.begin(), marked.end(), [&](auto a, auto b) { return longer(a, b); });
-  std::map<int, Link> inner;  // red node → middle of its longest edge, opposite corner
+  std::map<int, Link> inner;             // red node → middle of its longest edge, opposite corner
+  std::map<Link, int> middles;           // ends of twins → place of their middle
+  std::vector<Mesh::EdgeHandle> halves;  // of twins
   for (const auto edge : marked) {
     for (unsigned side = 0; side < 2; ++side) {
       const auto half = mesh.halfedge_handle(edge, side);
@@ -216,8 +307,18 @@ void PatchMesh::Impl::split_marked(std::vector<Mesh::EdgeHandle> marked) {
       const int middle = static_cast<int>(mesh.n_vertices());
       inner.emplace(mesh.data(face).node, Link{middle, apex});  // the first is the longest
     }
-    split_edge(edge);
+    const bool is_twin = mesh.data(edge).twin >= 0;
+    const Link link = ends(edge), key = place_ends(edge);
+    const auto middle = split_edge(edge, 0.5 * (mesh.point(Mesh::VertexHandle(link[0])) +
+                                                mesh.point(Mesh::VertexHandle(link[1]))));
+    if (!is_twin) continue;
+    const auto [place, is_new] = middles.emplace(key, places);
+    if (is_new) ++places;
+    mesh.data(middle).place = place->second;
+    for (const int end : link)
+      halves.push_back(mesh.edge_handle(mesh.find_halfedge(middle, Mesh::VertexHandle(end))));
   }
+  link_twins(halves);
   for (const auto& [node, link] : inner) {
     const auto half = mesh.find_halfedge(Mesh::VertexHandle(link[0]), Mesh::VertexHandle(link[1]));
     mesh.flip(mesh.edge_handle(half));
@@ -276,54 +377,43 @@ std::vector<Mesh::FaceHandle> PatchMesh::Impl::named_faces(std::span<const int> 
   return named;
 }
 
+// With all its twins.
 void PatchMesh::Impl::mark(Mesh::EdgeHandle edge, std::vector<Mesh::EdgeHandle>& marked) {
-  if (mesh.data(edge).marked) return;
-  mesh.data(edge).marked = true;
-  marked.push_back(edge);
+  while (!mesh.data(edge).marked) {
+    mesh.data(edge).marked = true;
+    marked.push_back(edge);
+    if (mesh.data(edge).twin >= 0) edge = Mesh::EdgeHandle(mesh.data(edge).twin);
+  }
 }
-
-namespace {
-
-// Fails before the work where areas alone tell that it is too much: no triangle with edges up to h
-// is larger than the equilateral one.
-void check_size(const SoundScene& scene, const PlanarMeshOptions& options) {
-  double least = 0;
-  if (options.max_length > 0)
-    for (const Receiver& receiver : scene.receivers)
-      least += area(receiver) / options.max_length / options.max_length / (std::sqrt(3.0) / 4);
-  if (least > static_cast<double>(options.max_triangles))
-    throw Error(ErrorCode::too_large, "PatchMesh",
-                fmt::format("edges of at most {} need at least {:.0f} elements; {} are allowed",
-                            options.max_length, least, options.max_triangles));
-}
-
-}  // namespace
 
 PatchMesh::PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
                      const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
-  check_size(scene, options);
-  std::vector<PlanarMesh> meshes(scene.receivers.size());
-  parallel_for(
-      meshes.size(),
-      [&](std::size_t r) {
-        const Receiver& receiver = scene.receivers[r];
-        meshes[r] = refine_triangulation(receiver.rings, receiver.contacts, options);
-      },
-      progress, "mesh");
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < meshes.size(); ++r) {
-    const Receiver& receiver = scene.receivers[r];
-    if (meshes[r].triangles.empty()) meshes[r] = triangulate(receiver.rings, receiver.contacts);
-    count += meshes[r].triangles.size();
-    if (count > options.max_triangles)
-      throw Error(ErrorCode::too_large, "PatchMesh",
-                  fmt::format("more than {} elements are needed; receiver {} of {} takes the count "
-                              "to {}",
-                              options.max_triangles, r + 1, meshes.size(), count));
-    impl_->add(receiver, meshes[r]);
-    meshes[r] = {};
+  SharedEdges shared(scene);
+  const std::vector<PlanarMesh> meshes = mesh_receivers(scene, options, shared, progress);
+  std::vector<WalledMesh> walled;
+  std::vector<std::vector<int>> orders;
+  for (const PlanarMesh& mesh : meshes) {
+    walled.push_back({&mesh, wall_edges(mesh)});
+    orders.emplace_back(mesh.constrained_edges.size(), 0);
   }
+  impl_->add(scene, shared, walled, orders);
+}
+
+PatchMesh::PatchMesh(const SoundScene& scene, std::span<const CurveMesh> meshes,
+                     std::span<const int> curve_order)
+    : impl_(std::make_unique<Impl>()) {
+  if (meshes.size() != scene.receivers.size())
+    throw Error(
+        ErrorCode::contract, "PatchMesh",
+        fmt::format("{} meshes are given for {} receivers", meshes.size(), scene.receivers.size()));
+  std::vector<WalledMesh> walled;
+  std::vector<std::vector<int>> orders;
+  for (const CurveMesh& mesh : meshes) {
+    walled.push_back({&mesh.mesh, wall_edges(mesh)});
+    orders.push_back(edge_orders(mesh, curve_order));
+  }
+  impl_->add(scene, SharedEdges(scene), walled, orders);
 }
 
 PatchMesh::~PatchMesh() = default;
@@ -340,16 +430,17 @@ ElementTable PatchMesh::elements() const {
   ElementTable table;
   std::vector<std::array<int, 3>> vertices;
   for (const auto face : faces) {
-    std::array<int, 3> corners{}, across{};
+    std::array<int, 3> corners{}, across{}, order{};
     auto half = impl_->first_halfedge(face);
     for (std::size_t k = 0; k < 3; ++k, half = mesh.next_halfedge_handle(half)) {
       corners[k] = mesh.from_vertex_handle(half).idx();
       const auto other = mesh.face_handle(mesh.opposite_halfedge_handle(half));
-      const bool shared = other.is_valid() && !mesh.data(mesh.edge_handle(half)).contact;
-      across[k] = shared ? element[at(other.idx())] : -1;
+      order[k] = mesh.data(mesh.edge_handle(half)).order;
+      across[k] = other.is_valid() && order[k] != 0 ? element[at(other.idx())] : -1;
     }
     vertices.push_back(corners);
     table.neighbours.push_back(across);
+    table.edge_order.push_back(order);
     impl_->describe(mesh.data(face).node, corners, table);
   }
   const CornerFans fans = corner_fans(vertices, table.neighbours);

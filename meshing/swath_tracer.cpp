@@ -115,6 +115,12 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
       stage_(stage),
       finder_(opaque),
       step_(side_step(scene, opaque)) {
+  for (const auto& edge : opaque_.edges) {
+    const auto receiver_of = [&](int i) {
+      return opaque_.triangles[at(opaque_.incidences[at(edge.first + i)].triangle)].receiver;
+    };
+    is_inner_.push_back(edge.count == 2 && receiver_of(0) == receiver_of(1));
+  }
   for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
     const Receiver& receiver = scene.receivers[r];
     for (const Segment2& contact : receiver.contacts)
@@ -141,6 +147,7 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
       critical_parameters(swath, span, slack, found);
   };
   const auto visit = [&](int e) {
+    if (is_inner_[at(e)]) return;
     const auto& edge = opaque_.edges[at(e)];
     consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
   };

@@ -51,7 +51,8 @@ class SwathTracer {
   const OpaqueScene::Impl& opaque_;
   const EmitterStage& stage_;
   std::vector<std::vector<int>> backs_;  ///< plane → receivers that are backs
-  std::vector<Span3> contacts_;          ///< of all receivers
+  std::vector<Span3> contacts_;  ///< of all receivers
+  std::vector<bool> is_inner_;   ///< edges between two triangles of one receiver
   VisiblePartFinder finder_;
   VisiblePart left_, right_;
   double step_;  ///< see side_step

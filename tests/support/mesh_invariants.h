@@ -155,4 +155,45 @@ inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
   }
 }
 
+/// Where edges on rings and contact lines of different receivers lie on each other, they are the
+/// same, bit for bit. Returns how many pairs of such edges there are.
+inline int expect_alike_across_receivers(const ElementTable& table, const SoundScene& scene) {
+  struct Wall {
+    int receiver;
+    Vec3 low, high, a, b;
+  };
+  const double near = 1e-8 * scene.tolerance.scene_size;
+  std::vector<Wall> walls;
+  for (int e = 0; e < table.count(); ++e)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto i = static_cast<std::size_t>(e);
+      if (table.neighbours[i][k] >= 0) continue;
+      const auto t = table.triangle(e);
+      Vec3 a = t[k], b = t[(k + 1) % 3];
+      if (std::lexicographical_compare(b.data(), b.data() + 3, a.data(), a.data() + 3))
+        std::swap(a, b);
+      walls.push_back({table.receiver[i], a.cwiseMin(b), a.cwiseMax(b), a, b});
+    }
+  std::sort(walls.begin(), walls.end(),
+            [](const Wall& v, const Wall& w) { return v.low.x() < w.low.x(); });
+  int pairs = 0, differing = 0;
+  for (std::size_t i = 0; i < walls.size(); ++i)
+    for (std::size_t j = i + 1; j < walls.size(); ++j) {
+      const Wall &v = walls[i], &w = walls[j];
+      if (w.low.x() > v.high.x() + near) break;
+      if (v.receiver == w.receiver) continue;
+      if ((w.low.array() > v.high.array() + near || v.low.array() > w.high.array() + near).any())
+        continue;
+      const double length = (v.b - v.a).norm();
+      const Vec3 along = (v.b - v.a) / length;
+      const double s = along.dot(w.a - v.a), t = along.dot(w.b - v.a);
+      if (std::min(std::max(s, t), length) - std::max(std::min(s, t), 0.0) <= near) continue;
+      if ((w.a - v.a - s * along).norm() > near || (w.b - v.a - t * along).norm() > near) continue;
+      ++pairs;
+      if (v.a != w.a || v.b != w.b) ++differing;
+    }
+  EXPECT_EQ(differing, 0) << "of " << pairs << " pairs of edges that lie on each other";
+  return pairs;
+}
+
 }  // namespace halfshade::test

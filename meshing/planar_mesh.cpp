@@ -3,6 +3,7 @@
 #include "meshing/arrangement.h"
 #include "meshing/core/error.h"
 #include "meshing/delaunay_refinement.h"
+#include "meshing/hull_inside.h"
 #include "meshing/length_bisection.h"
 
 #include <fmt/format.h>
@@ -19,10 +20,6 @@ constexpr double relative_snap = 1e-13;
 // Rounding of a midpoint and of the way back to space must not push an edge over the limit.
 constexpr double length_margin = 1e-12;
 
-using Link = std::array<int, 2>;
-
-Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
-
 double extent(std::span<const Ring> rings) {
   Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
   for (const Ring& ring : rings)
@@ -36,7 +33,7 @@ double extent(std::span<const Ring> rings) {
 struct Outline {
   std::vector<Vec2> points;
   std::vector<Link> links;   // sorted
-  std::vector<bool> border;  // links that the inside ends at
+  std::vector<Link> border;  // those that the inside ends at; sorted
 };
 
 Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts) {
@@ -59,7 +56,7 @@ Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts)
   for (std::size_t s = 0; s < segments.size(); ++s) {
     const auto& chain = arrangement.chains[s];
     for (std::size_t k = 1; k < chain.size(); ++k) {
-      bool& flag = odd[sorted(chain[k - 1], chain[k])];
+      bool& flag = odd[sorted_link(chain[k - 1], chain[k])];
       flag = flag != (s < ring_segments);
     }
   }
@@ -67,38 +64,9 @@ Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts)
   result.points = arrangement.points;
   for (const auto& [link, is_border] : odd) {
     result.links.push_back(link);
-    result.border.push_back(is_border);
+    if (is_border) result.border.push_back(link);
   }
   return result;
-}
-
-// Marks the triangles inside: reached from outside the hull over an odd number of border links.
-std::vector<bool> inside(const HullTriangulation& hull, const Outline& outline) {
-  const auto is_border = [&](int a, int b) {
-    const auto found = std::lower_bound(outline.links.begin(), outline.links.end(), sorted(a, b));
-    return found != outline.links.end() && *found == sorted(a, b) &&
-           outline.border[static_cast<std::size_t>(found - outline.links.begin())];
-  };
-  std::vector<int> mark(hull.triangles.size(), -1);
-  std::vector<int> open;
-  for (std::size_t t = 0; t < hull.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (hull.neighbours[t][k] < 0 && mark[t] < 0) {
-        mark[t] = is_border(hull.triangles[t][k], hull.triangles[t][(k + 1) % 3]) ? 1 : 0;
-        open.push_back(static_cast<int>(t));
-      }
-  while (!open.empty()) {
-    const auto t = static_cast<std::size_t>(open.back());
-    open.pop_back();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int next = hull.neighbours[t][k];
-      if (next < 0 || mark[static_cast<std::size_t>(next)] >= 0) continue;
-      const bool crosses = is_border(hull.triangles[t][k], hull.triangles[t][(k + 1) % 3]);
-      mark[static_cast<std::size_t>(next)] = crosses ? 1 - mark[t] : mark[t];
-      open.push_back(next);
-    }
-  }
-  return {mark.begin(), mark.end()};
 }
 
 // Leaves out points that no triangle uses, and links that lie outside.
@@ -119,12 +87,12 @@ PlanarMesh compact(const PlanarMesh& mesh) {
                                   renamed[static_cast<std::size_t>(b)],
                                   renamed[static_cast<std::size_t>(c)]};
     result.triangles.push_back(t);
-    for (std::size_t k = 0; k < 3; ++k) edges.push_back(sorted(t[k], t[(k + 1) % 3]));
+    for (std::size_t k = 0; k < 3; ++k) edges.push_back(sorted_link(t[k], t[(k + 1) % 3]));
   }
   std::sort(edges.begin(), edges.end());
   for (const auto& [a, b] : mesh.constrained_edges) {
     const Link link =
-        sorted(renamed[static_cast<std::size_t>(a)], renamed[static_cast<std::size_t>(b)]);
+        sorted_link(renamed[static_cast<std::size_t>(a)], renamed[static_cast<std::size_t>(b)]);
     if (link[0] >= 0 && std::binary_search(edges.begin(), edges.end(), link))
       result.constrained_edges.push_back(link);
   }
@@ -134,7 +102,7 @@ PlanarMesh compact(const PlanarMesh& mesh) {
 
 PlanarMesh triangulate(const Outline& outline) {
   const HullTriangulation hull = constrained_delaunay(outline.points, outline.links);
-  const std::vector<bool> keep = inside(hull, outline);
+  const std::vector<bool> keep = inside(hull, outline.border);
   PlanarMesh mesh;
   mesh.points = outline.points;
   mesh.constrained_edges = outline.links;

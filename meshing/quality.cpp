@@ -1,5 +1,7 @@
 #include "meshing/quality.h"
 
+#include "meshing/corner_fans.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -7,6 +9,30 @@
 #include <numbers>
 
 namespace halfshade {
+namespace {
+
+// Angles that Delaunay refinement can reach, with or without a floor under its edges.
+constexpr double good_angle = 20.7;
+constexpr double tolerable_angle = 1;
+// Between edges that meet at less, refinement cannot keep its promise. Less what rounding takes
+// from an equilateral triangle.
+constexpr double narrow_angle = 60 - 1e-9;
+
+constexpr double bin_width = 5;
+constexpr double degrees = 180 / std::numbers::pi;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::size_t bin_of(double angle, std::size_t bins) {
+  return std::min(static_cast<std::size_t>(angle / bin_width), bins - 1);
+}
+
+double corner_angle(const std::array<Vec3, 3>& triangle, std::size_t k) {
+  const Vec3 u = triangle[(k + 1) % 3] - triangle[k], v = triangle[(k + 2) % 3] - triangle[k];
+  return std::atan2(u.cross(v).norm(), u.dot(v)) * degrees;
+}
+
+}  // namespace
 
 double min_angle_degrees(const std::array<Vec3, 3>& triangle) {
   double least = 60;
@@ -16,7 +42,7 @@ double min_angle_degrees(const std::array<Vec3, 3>& triangle) {
     const double scale = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
     if (!(scale > 0)) return 0;
     const Vec3 p = u / scale, q = v / scale;
-    least = std::min(least, std::atan2(p.cross(q).norm(), p.dot(q)) * 180 / std::numbers::pi);
+    least = std::min(least, std::atan2(p.cross(q).norm(), p.dot(q)) * degrees);
   }
   return least;
 }
@@ -39,12 +65,66 @@ QualitySummary summarize_quality(const ElementTable& elements) {
   for (int e = 0; e < elements.count(); ++e) {
     const double angle = angles[static_cast<std::size_t>(e)];
     summary.mean_angle += angle / static_cast<double>(angles.size());
-    const auto bin = static_cast<std::size_t>(angle / 5);
-    ++summary.histogram[std::min(bin, summary.histogram.size() - 1)];
+    ++summary.histogram[bin_of(angle, summary.histogram.size())];
     const auto triangle = elements.triangle(e);
     for (std::size_t k = 0; k < 3; ++k)
       summary.longest_edge =
           std::max(summary.longest_edge, (triangle[(k + 1) % 3] - triangle[k]).norm());
+  }
+  return summary;
+}
+
+// Corners that follow each other around a point without a constrained edge between them make up a
+// sector.
+std::vector<bool> at_input_angles(const ElementTable& elements) {
+  std::vector<std::array<int, 3>> joined = elements.neighbours;
+  for (std::size_t e = 0; e < joined.size(); ++e)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (elements.edge_order[e][k] >= 0) joined[e][k] = -1;
+  const CornerFans sectors = corner_fans(elements.corners, joined);
+  std::vector<double> angle(at(sectors.count), 0);
+  std::vector<bool> bounded(at(sectors.count), false);
+  for (int e = 0; e < elements.count(); ++e)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto sector = at(sectors.of_corner[at(e)][k]);
+      angle[sector] += corner_angle(elements.triangle(e), k);
+      if (joined[at(e)][k] < 0) bounded[sector] = true;
+    }
+  std::vector<bool> narrow(elements.points.size(), false);
+  for (std::size_t e = 0; e < joined.size(); ++e)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto sector = at(sectors.of_corner[e][k]);
+      if (bounded[sector] && angle[sector] < narrow_angle)
+        narrow[at(elements.corners[e][k])] = true;
+    }
+  std::vector<bool> result;
+  for (const auto& corners : elements.corners)
+    result.push_back(
+        std::any_of(corners.begin(), corners.end(), [&](int p) { return narrow[at(p)]; }));
+  return result;
+}
+
+AreaQuality summarize_area_quality(const ElementTable& elements) {
+  AreaQuality summary;
+  const std::vector<double> angles = min_angles(elements);
+  const std::vector<bool> exempt = at_input_angles(elements);
+  double total = 0, rest = 0, good = 0, tolerable = 0;
+  for (const double area : elements.area) total += area;
+  for (std::size_t e = 0; e < angles.size(); ++e) {
+    const double area = elements.area[e];
+    summary.histogram[bin_of(angles[e], summary.histogram.size())] += area / total;
+    if (exempt[e]) {
+      summary.near_input_angles += area / total;
+      continue;
+    }
+    rest += area;
+    if (angles[e] >= good_angle) good += area;
+    if (angles[e] >= tolerable_angle) tolerable += area;
+    summary.min_angle = std::min(summary.min_angle, angles[e]);
+  }
+  if (rest > 0) {
+    summary.good = good / rest;
+    summary.tolerable = tolerable / rest;
   }
   return summary;
 }

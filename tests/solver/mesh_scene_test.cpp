@@ -42,8 +42,12 @@ TEST(MeshScene, LabelsEveryElementForEverySource) {
   EXPECT_EQ(result.region, result.regions) << "one source is the strongest";
   double umbra = 0;
   for (std::size_t e = 0; e < n; ++e) {
-    if (result.elements.receiver[e] == 1) EXPECT_EQ(result.region[e], Region::away);
-    if (result.elements.receiver[e] == 2) EXPECT_EQ(result.region[e], Region::lit);
+    if (result.elements.receiver[e] == 1) {
+      EXPECT_EQ(result.region[e], Region::away);
+    }
+    if (result.elements.receiver[e] == 2) {
+      EXPECT_EQ(result.region[e], Region::lit);
+    }
     if (result.region[e] == Region::umbra) umbra += result.elements.area[e];
   }
   EXPECT_EQ(umbra, 0) << "the table is half as large as the light, half way: the umbra is a point";

@@ -143,12 +143,8 @@ std::optional<Drawing> draw(const Input& input, double snap) {
 std::optional<ConstrainedMesh> triangulate(const Drawing& drawing) {
   const auto& edges = drawing.graph.edges();
   std::vector<Link> links, border;
-  std::map<Link, int> line;
-  for (std::size_t e = 0; e < edges.size(); ++e)
-    if (edges[e].part_count == 0) {
-      links.push_back({edges[e].a, edges[e].b});
-      line[links.back()] = static_cast<int>(e);
-    }
+  for (const auto& edge : edges)
+    if (edge.part_count == 0) links.push_back({edge.a, edge.b});
   for (const auto& [edge, is_border] : drawing.ring_edges)
     if (is_border)
       drawing.graph.for_each_part(edge, [&](int part) {
@@ -181,8 +177,7 @@ std::optional<ConstrainedMesh> triangulate(const Drawing& drawing) {
       triangle.corner[k] = point[at(p)];
       const int next = hull.neighbours[t][k];
       triangle.neighbour[k] = next < 0 ? -1 : renamed[at(next)];
-      const auto found = line.find(sorted_link(p, hull.triangles[t][(k + 1) % 3]));
-      triangle.line[k] = found == line.end() ? -1 : found->second;
+      triangle.line[k] = drawing.graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
     }
   }
   return mesh;
@@ -195,16 +190,13 @@ double distance(const Vec2& p, const Segment2& s) {
   return (s[0] + t * d - p).norm();
 }
 
-// The ids of the curves along each edge of the graph.
-std::vector<std::vector<int>> curves_along(const Drawing& drawing) {
-  std::vector<std::vector<int>> result(drawing.graph.edges().size());
+// Edges of the graph and the ids of the curves along them, sorted.
+std::vector<std::pair<int, int>> curves_along(const Drawing& drawing) {
+  std::vector<std::pair<int, int>> result;
   for (const Piece& piece : drawing.pieces)
-    drawing.graph.for_each_part(piece.edge,
-                                [&](int part) { result[at(part)].push_back(piece.id); });
-  for (auto& ids : result) {
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  }
+    drawing.graph.for_each_part(piece.edge, [&](int part) { result.emplace_back(part, piece.id); });
+  std::sort(result.begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
@@ -225,22 +217,26 @@ double deviation(const Drawing& drawing, const std::vector<bool>& is_used) {
 CurveMesh assemble(const Drawing& drawing, const ConstrainedMesh& mesh) {
   CurveMesh result;
   result.mesh.points = mesh.points;
-  std::map<Link, int> constrained;
+  std::vector<std::pair<Link, int>> constrained;
   std::vector<bool> is_used(drawing.graph.edges().size(), false);
   for (const auto& t : mesh.triangles) {
     result.mesh.triangles.push_back(t.corner);
     for (std::size_t k = 0; k < 3; ++k)
       if (t.line[k] >= 0) {
-        constrained[sorted_link(t.corner[k], t.corner[(k + 1) % 3])] = t.line[k];
+        constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.line[k]);
         is_used[at(t.line[k])] = true;
       }
   }
+  std::sort(constrained.begin(), constrained.end());
+  constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   const auto along = curves_along(drawing);
   result.curve_begin.push_back(0);
   for (const auto& [link, line] : constrained) {
     result.mesh.constrained_edges.push_back(link);
     result.is_d0.push_back(drawing.graph.edges()[at(line)].is_fixed);
-    result.curves.insert(result.curves.end(), along[at(line)].begin(), along[at(line)].end());
+    for (auto i = std::lower_bound(along.begin(), along.end(), std::pair(line, 0));
+         i != along.end() && i->first == line; ++i)
+      result.curves.push_back(i->second);
     result.curve_begin.push_back(static_cast<int>(result.curves.size()));
   }
   result.deviation = deviation(drawing, is_used);

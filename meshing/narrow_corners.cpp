@@ -37,6 +37,7 @@ double angle(const Vec2& apex, const Vec2& a, const Vec2& b) {
 NarrowCorners::NarrowCorners(const ConstrainedMesh& mesh) {
   unite_straight_lines(mesh);
   find_corners(mesh);
+  std::sort(narrow_.begin(), narrow_.end());
 }
 
 void NarrowCorners::unite_straight_lines(const ConstrainedMesh& mesh) {
@@ -113,14 +114,15 @@ void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
                                      corner.begin());
       }
       if (end < 0 || sum >= narrow) continue;
-      narrow_[key(start, apex)] = narrow_[key(end, apex)] = true;
+      narrow_.push_back(key(start, apex));
+      narrow_.push_back(key(end, apex));
       corner_.try_emplace(key(chain_[at(start)], chain_[at(end)]), apex);
       corner_.try_emplace(key(chain_[at(end)], chain_[at(start)]), apex);
     }
 }
 
 bool NarrowCorners::is_narrow_at(int line, int point) const {
-  return narrow_.contains(key(line, point));
+  return std::binary_search(narrow_.begin(), narrow_.end(), key(line, point));
 }
 
 void NarrowCorners::lines_at(int point, int line, std::vector<int>& lines) const {

@@ -27,10 +27,10 @@ class NarrowCorners {
   void find_corners(const ConstrainedMesh& mesh);
   void lines_at(int point, int line, std::vector<int>& lines) const;
 
-  std::vector<int> chain_;                          // [line] the chain it is part of
-  std::vector<int> first_, lines_;                  // [point] its lines
-  std::unordered_map<std::uint64_t, int> corner_;   // by two chains: a point
-  std::unordered_map<std::uint64_t, bool> narrow_;  // by line and point
+  std::vector<int> chain_;                         // [line] the chain it is part of
+  std::vector<int> first_, lines_;                 // [point] its lines
+  std::unordered_map<std::uint64_t, int> corner_;  // by two chains: a point
+  std::vector<std::uint64_t> narrow_;              // by line and point; sorted
 };
 
 }  // namespace halfshade

@@ -117,6 +117,11 @@ int SnapGraph::add_edge(int a, int b, bool is_fixed) {
   return entry->second;
 }
 
+int SnapGraph::edge_between(int a, int b) const {
+  const auto found = edge_of_.find(pair_key(std::min(a, b), std::max(a, b)));
+  return found != edge_of_.end() && edge(found->second).part_count == 0 ? found->second : -1;
+}
+
 int SnapGraph::add_fixed_edge(int a, int b) {
   fixed_tree_.reset();
   return add_edge(a, b, true);

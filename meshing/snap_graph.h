@@ -49,6 +49,9 @@ class SnapGraph {
   const std::vector<Vec2>& points() const { return points_; }
   const std::vector<Edge>& edges() const { return edges_; }
 
+  /// The present edge between two points, or −1.
+  int edge_between(int a, int b) const;
+
   /// Calls visit(edge) for the present edges that an edge has become.
   template <class Visit>
   void for_each_part(int edge, const Visit& visit) const {

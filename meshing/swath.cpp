@@ -152,6 +152,16 @@ void own_limits(const Swath& swath, std::vector<double>& parameters) {
   }
 }
 
+void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters) {
+  add_roots_of(
+      [&](double t) {
+        if (swath.is_planar) return normal.dot(swath.base.at(t) - swath.apex);
+        const Vec3 x = swath.edges[0].at(t);
+        return normal.dot(plane_through(x, swath.edges[1]).cross(plane_through(x, swath.edges[2])));
+      },
+      parameters);
+}
+
 SwathHull hull_of(const Swath& swath, double t0, double t1) {
   SwathHull hull;
   if (swath.is_planar) {

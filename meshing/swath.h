@@ -57,6 +57,9 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
 /// of one of them.
 void own_limits(const Swath& swath, std::vector<double>& parameters);
 
+/// Parameters in (0,1) at which the line runs along a plane with a normal.
+void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters);
+
 /// Boxes that contain the lines with parameters in a range where they leave two of the features:
 /// every line runs through both.
 struct SwathHull {

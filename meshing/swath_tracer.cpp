@@ -159,12 +159,26 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
     if (t > t0 && t < t1) parameters_.push_back(t);
 }
 
+/// Where the faces at the edges that make the swath turn from one side to the other.
+void SwathTracer::add_silhouette_limits(const Swath& swath, std::vector<double>& parameters) const {
+  const auto add = [&](int e) {
+    const StageEdge& edge = stage_.edges[at(e)];
+    for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f)
+      grazing_parameters(swath, stage_.faces[at(f)].normal, parameters);
+  };
+  for (const int e : swath.silhouettes)
+    if (e >= 0) add(e);
+  if (swath.corner >= 0)
+    for (const int e : stage_.vertices[at(swath.corner)].edges) add(e);
+}
+
 void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
   ++counts_.swaths;
   std::vector<double> coarse = {0, 1};
   if (!swath.is_planar) own_limits(swath, coarse);
   for (const OutlinePiece& piece : stage_.outline)
     critical_parameters(swath, piece.span, scene_.tolerance.length, coarse);
+  add_silhouette_limits(swath, coarse);
   for (int k = 1; k < hulls_per_swath; ++k) coarse.push_back(1.0 * k / hulls_per_swath);
   std::sort(coarse.begin(), coarse.end());
   std::vector<Open> open;

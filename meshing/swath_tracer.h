@@ -38,6 +38,7 @@ class SwathTracer {
   };
   struct Open;
 
+  void add_silhouette_limits(const Swath& swath, std::vector<double>& parameters) const;
   void cut(const Swath& swath, double t0, double t1);
   void trace_piece(const Swath& swath, double t0, double t1, std::vector<Open>& open);
   void find_crossings(const SightLine& line);

@@ -82,7 +82,9 @@ bool agrees(const DiscontinuityCurve& curve, double predicted, const MeasuredJum
             double exitance, Tally& tally) {
   const auto k = static_cast<std::size_t>(curve.order);
   for (std::size_t below = 0; below < k; ++below)
-    if (std::abs(measured.jump[below]) > smooth * measured.scale[below] + 1e-13) return false;
+    if (std::abs(measured.jump[below]) >
+        smooth * std::max(measured.scale[below], measured.scale[k]) + 1e-13)
+      return false;
   const double error = std::abs(exitance * measured.jump[k] - predicted);
   const double allowed = relative * std::abs(predicted) + absolute * exitance * measured.scale[k];
   if (error > allowed) return false;

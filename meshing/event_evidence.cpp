@@ -9,97 +9,100 @@ namespace {
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// A place where one edge of the group follows another.
-using Corner2 = std::array<int, 2>;
-
-/// The pieces of one side with their followers.
-class Side {
- public:
-  Side(const SideView& view, std::span<const int> group) : view_(view) {
-    const auto& pieces = view.part.pieces;
-    next_.resize(pieces.size());
-    int first = 0;
-    for (const int end : view.part.chain_ends) {
-      for (int i = first; i < end; ++i) next_[at(i)] = i + 1 < end ? i + 1 : first;
-      first = end;
-    }
-    for (int i = 0; i < static_cast<int>(pieces.size()); ++i) {
-      const Corner2 corner = {pieces[at(i)].edge, pieces[at(next_[at(i)])].edge};
-      if (corner[0] != corner[1] && contains(group, corner[0]) && contains(group, corner[1]))
-        corners_[corner].push_back(i);
-    }
-  }
-
-  /// Marks the corners that the other side has fewer of.
-  std::vector<bool> surplus(const Side& other) const {
-    std::vector<bool> marked(next_.size(), false);
-    for (const auto& [corner, places] : corners_) {
-      const auto same = other.corners_.find(corner);
-      const std::size_t there = same == other.corners_.end() ? 0 : same->second.size();
-      for (std::size_t k = there; k < places.size(); ++k) marked[at(places[k])] = true;
-    }
-    return marked;
-  }
-
-  /// Triples that the chains of marked corners are made of: a chain a, b1, b2, …, c differs from
-  /// the corner a, c by the triangles a b1 b2, a b2 b3, ….
-  void add_triples(const std::vector<bool>& marked, int sign, std::vector<EdgeTriple>& out) const {
-    std::vector<bool> done(marked.size(), false);
-    const auto run_from = [&](int start) {
-      std::vector<int> run = {start};
-      for (int i = start; marked[at(i)] && !done[at(i)]; i = next_[at(i)]) {
-        done[at(i)] = true;
-        run.push_back(next_[at(i)]);
-      }
-      if (run.size() > 1 && run.back() == start) run.pop_back();
-      for (std::size_t k = 2; k < run.size(); ++k) {
-        const int turn = turns_left(run[0], run[k]) ? -1 : 1;
-        out.push_back({{edge(run[0]), edge(run[k - 1]), edge(run[k])}, sign * turn});
-      }
-    };
-    std::vector<bool> follows(marked.size(), false);
-    for (std::size_t i = 0; i < marked.size(); ++i)
-      if (marked[i]) follows[at(next_[i])] = true;
-    for (std::size_t i = 0; i < marked.size(); ++i)
-      if (marked[i] && !follows[i]) run_from(static_cast<int>(i));
-    for (std::size_t i = 0; i < marked.size(); ++i)  // closed chains
-      if (marked[i] && !done[i]) run_from(static_cast<int>(i));
-  }
-
- private:
-  static bool contains(std::span<const int> group, int edge) {
-    return std::binary_search(group.begin(), group.end(), edge);
-  }
-  int edge(int piece) const { return view_.part.pieces[at(piece)].edge; }
-
-  /// Whether the boundary would turn left where it went from piece a straight on to piece b.
-  bool turns_left(int a, int b) const {
-    const auto& pieces = view_.part.pieces;
-    const auto plane = [&](const BoundaryPiece& piece) -> Vec3 {
-      return (piece.from - view_.point).cross(piece.to - view_.point);
-    };
-    const Vec3 towards = pieces[at(a)].to - view_.point;
-    return plane(pieces[at(a)]).cross(plane(pieces[at(b)])).dot(towards) < 0;
-  }
-
-  const SideView& view_;
-  std::vector<int> next_;
-  std::map<Corner2, std::vector<int>> corners_;
+struct Joint {
+  int from, to;      ///< edges
+  Vec3 plane, onto;  ///< normals of the planes of the point and the pieces that meet
+  Vec3 towards;      ///< direction from the point
+  auto key() const { return std::array{from, to}; }
 };
+
+std::vector<Joint> joints_of(const SideView& view, std::span<const int> group) {
+  std::vector<Joint> joints;
+  const auto& pieces = view.part.pieces;
+  const auto is_in_group = [&](int edge) {
+    return std::binary_search(group.begin(), group.end(), edge);
+  };
+  const auto plane = [&](const BoundaryPiece& piece) -> Vec3 {
+    return (piece.from - view.point).cross(piece.to - view.point);
+  };
+  int first = 0;
+  for (const int end : view.part.chain_ends) {
+    for (int i = first; i < end; ++i) {
+      const BoundaryPiece &here = pieces[at(i)], &next = pieces[at(i + 1 < end ? i + 1 : first)];
+      if (here.edge != next.edge && is_in_group(here.edge) && is_in_group(next.edge))
+        joints.push_back({here.edge, next.edge, plane(here), plane(next), here.to - view.point});
+    }
+    first = end;
+  }
+  std::stable_sort(joints.begin(), joints.end(),
+                   [](const Joint& a, const Joint& b) { return a.key() < b.key(); });
+  return joints;
+}
+
+/// What a list has more of than another; both sorted.
+std::vector<Joint> surplus(const std::vector<Joint>& list, const std::vector<Joint>& other) {
+  std::vector<Joint> result;
+  std::set_difference(list.begin(), list.end(), other.begin(), other.end(),
+                      std::back_inserter(result),
+                      [](const Joint& a, const Joint& b) { return a.key() < b.key(); });
+  return result;
+}
+
+/// The edge that most joints have a part in.
+int busiest_edge(const std::vector<Joint>& left, const std::vector<Joint>& right) {
+  std::map<int, int> uses;
+  for (const auto* joints : {&left, &right})
+    for (const Joint& joint : *joints) {
+      ++uses[joint.from];
+      ++uses[joint.to];
+    }
+  return std::max_element(uses.begin(), uses.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
+}
+
+/// A plane of the point and the edge `edge`, from whichever joint has it.
+Vec3 plane_of(int edge, const std::vector<Joint>& left, const std::vector<Joint>& right) {
+  for (const auto* joints : {&left, &right})
+    for (const Joint& joint : *joints) {
+      if (joint.from == edge) return joint.plane;
+      if (joint.to == edge) return joint.onto;
+    }
+  return Vec3::Zero();
+}
+
+/// +1 if directions on the emitter, given by the planes they span with the point, turn left.
+int turn(const Vec3& a, const Vec3& b, const Vec3& towards) {
+  return a.cross(b).dot(towards) < 0 ? 1 : -1;
+}
 
 }  // namespace
 
+// The area of the visible part is a sum over its joints of terms [a,b] that depend smoothly on the
+// point, with [a,b] + [b,a] = 0, and [a,r] + [r,b] − [a,b] = ± the triangle between a, r and b; the
+// sign is −(turn a to r)(turn r to b)(turn a to b). With one edge r for all, the difference between
+// the sides, in which every edge is left as often as it is entered, is a sum of such triangles.
 EventEvidence compare_sides(const SideView& left, const SideView& right,
                             std::span<const int> group) {
-  const Side a(left, group), b(right, group);
-  const std::vector<bool> only_left = a.surplus(b), only_right = b.surplus(a);
+  const std::vector<Joint> all_left = joints_of(left, group), all_right = joints_of(right, group);
+  const std::vector<Joint> only_left = surplus(all_left, all_right);
+  const std::vector<Joint> only_right = surplus(all_right, all_left);
   EventEvidence evidence;
-  const auto any = [](const std::vector<bool>& marks) {
-    return std::find(marks.begin(), marks.end(), true) != marks.end();
-  };
-  evidence.differs = any(only_left) || any(only_right);
+  evidence.differs = !only_left.empty() || !only_right.empty();
   if (!evidence.differs) return evidence;
-  a.add_triples(only_left, 1, evidence.triples);
-  b.add_triples(only_right, -1, evidence.triples);
+  const int middle = busiest_edge(only_left, only_right);
+  const Vec3 plane = plane_of(middle, only_left, only_right);
+  const auto add = [&](const Joint& joint, int sign) {
+    if (joint.from == middle || joint.to == middle) return;
+    EdgeTriple triple{{joint.from, middle, joint.to},
+                      sign * turn(joint.plane, plane, joint.towards) *
+                          turn(plane, joint.onto, joint.towards) *
+                          turn(joint.plane, joint.onto, joint.towards)};
+    std::sort(triple.edges.begin(), triple.edges.end());
+    evidence.triples.push_back(triple);
+  };
+  for (const Joint& joint : only_left) add(joint, 1);
+  for (const Joint& joint : only_right) add(joint, -1);
   return evidence;
 }
 

@@ -18,39 +18,54 @@ constexpr double slack = 3;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Whether p is in the triangle an arc lies in, or within a length of the lines through its sides.
-bool is_near_triangle(const ConicArc& arc, const Vec2& p, double length) {
-  const std::array<Vec2, 3> corners = {arc.from, arc.control, arc.to};
-  const double side = cross(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2 d = corners[(i + 1) % 3] - corners[i];
-    if (side * cross(d, p - corners[i]) < -length * d.norm()) return false;
+/// The triangle an arc lies in and what is within some length of it.
+class Hull {
+ public:
+  Hull(const ConicArc& arc, double length)
+      : corners_{arc.from, arc.control, arc.to},
+        side_(cross(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1),
+        length_(length) {
+    for (const Vec2& p : corners_) box_.extend(Vec3(p.x(), p.y(), 0));
+    box_.min() -= Vec3(length, length, 0);
+    box_.max() += Vec3(length, length, 0);
   }
-  return true;
-}
+
+  /// False only if the hull and a box do not meet.
+  bool meets(const Box& box) const {
+    if (!box.intersects(box_)) return false;
+    const Vec2 centre = box.center().head<2>(), half = 0.5 * box.sizes().head<2>();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 d = corners_[(i + 1) % 3] - corners_[i];
+      const double reach =
+          length_ * d.norm() + std::abs(d.y()) * half.x() + std::abs(d.x()) * half.y();
+      if (side_ * cross(d, centre - corners_[i]) < -reach) return false;
+    }
+    return true;
+  }
+
+ private:
+  std::array<Vec2, 3> corners_;
+  double side_, length_;
+  Box box_;
+};
 
 /// Cuts the arcs of one receiver and emitter at each other's ends where they run together.
 class ArcCutter {
  public:
   ArcCutter(std::span<const DiscontinuityCurve> curves, std::span<const int> which,
             double tolerance)
-      : curves_(curves), which_(which), tolerance_(tolerance), tree_(boxes()) {}
+      : curves_(curves), which_(which), tolerance_(tolerance), ends_(end_points()) {}
 
   /// For each arc the parameters between its pieces, with 0 and 1.
   std::vector<std::vector<double>> cuts() const {
     std::vector<std::vector<double>> all(which_.size(), {0, 1});
-    for (std::size_t i = 0; i < which_.size(); ++i)
-      for (const double end : {0.0, 1.0}) {
-        const Vec2 p = end == 0 ? arc(i).from : arc(i).to;
-        const Vec3 reach = Vec3(tolerance_, tolerance_, 1);
-        tree_.query_box(Box(lifted(p) - reach, lifted(p) + reach), [&](int other) {
-          const std::size_t j = static_cast<std::size_t>(other);
-          if (i == j || !is_near_triangle(arc(j), p, tolerance_)) return;
-          const std::optional<double> s = parameter_of(j, p);
-          if (s && run_together_from(i, end, j)) all[j].push_back(*s);
-        });
-      }
-    for (std::size_t i = 0; i < all.size(); ++i) clean(arc(i), all[i]);
+    for (std::size_t i = 0; i < which_.size(); ++i) {
+      visit_ends_near(i, [&](std::size_t j, double end) {
+        const std::optional<double> s = parameter_of(i, point_at(arc(j), end));
+        if (i != j && s && run_together_from(j, end, i)) all[i].push_back(*s);
+      });
+      clean(arc(i), all[i]);
+    }
     return all;
   }
 
@@ -58,15 +73,26 @@ class ArcCutter {
   const ConicArc& arc(std::size_t i) const {
     return curves_[static_cast<std::size_t>(which_[i])].arc;
   }
-  static Vec3 lifted(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
-  std::vector<Box> boxes() const {
+  /// Of arc k: numbers 2 k and 2 k + 1.
+  std::vector<Box> end_points() const {
     std::vector<Box> boxes;
-    for (std::size_t i = 0; i < which_.size(); ++i) {
-      Box& box = boxes.emplace_back();
-      for (const Vec2& p : {arc(i).from, arc(i).control, arc(i).to}) box.extend(lifted(p));
-    }
+    for (std::size_t i = 0; i < which_.size(); ++i)
+      for (const Vec2& p : {arc(i).from, arc(i).to}) boxes.emplace_back(Vec3(p.x(), p.y(), 0));
     return boxes;
+  }
+
+  /// Calls visit(j, 0 or 1) for ends of arcs near arc i, for some twice.
+  template <class Visit>
+  void visit_ends_near(std::size_t i, const Visit& visit) const {
+    constexpr double thin = 1e-3;  // some ten pieces, whose triangles have next to no area
+    const double size = (arc(i).control - arc(i).from).norm() + (arc(i).to - arc(i).control).norm();
+    const std::vector<double> pieces = flatten(arc(i), std::max(thin * size, tolerance_));
+    for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
+      const Hull hull(part(arc(i), pieces[k], pieces[k + 1]), tolerance_);
+      ends_.query([&](const Box& box) { return hull.meets(box); },
+                  [&](int end) { visit(static_cast<std::size_t>(end / 2), end % 2); });
+    }
   }
 
   /// Of a point on an arc.
@@ -112,7 +138,7 @@ class ArcCutter {
   std::span<const DiscontinuityCurve> curves_;
   std::span<const int> which_;
   double tolerance_;
-  BoxTree tree_;
+  BoxTree ends_;
 };
 
 /// A piece of an arc between two cuts.

@@ -42,28 +42,34 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
   const Vec3 point = plane.to_space(point_at(curve.arc, s));
   const Vec3 left = -tangent.y() * plane.e1 + tangent.x() * plane.e2;
   if (curve.order == 2) return curvature_jump(curve, point, left, plane.normal);
-  finder_.find(point + step_ * left, plane.normal, stage_.emitter, left_);
-  finder_.find(point - step_ * left, plane.normal, stage_.emitter, right_);
-  return curve.order == 0 ? value_jump(point, left, plane.normal)
-                          : slope_jump(curve, point, left, plane.normal);
+  const auto at_step = [&](double step) {
+    finder_.find(point + step * left, plane.normal, stage_.emitter, left_);
+    finder_.find(point - step * left, plane.normal, stage_.emitter, right_);
+    return curve.order == 0 ? value_jump(point, step * left, plane.normal)
+                            : slope_jump(curve, point, step * left, plane.normal);
+  };
+  const double near = at_step(step_);
+  if (near == 0) return 0;
+  // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
+  // the whole jump is due to the step.
+  const double limit = 2 * near - at_step(2 * step_);
+  return std::abs(limit) > 0.5 * std::abs(near) ? limit : 0;
 }
 
-double JumpPredictor::value_jump(const Vec3& point, const Vec3& left, const Vec3& normal) {
-  return seen_factor(left_, point + step_ * left, normal) -
-         seen_factor(right_, point - step_ * left, normal);
+double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const {
+  return seen_factor(left_, point + step, normal) - seen_factor(right_, point - step, normal);
 }
 
 double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& point,
-                                 const Vec3& left, const Vec3& normal) {
+                                 const Vec3& step, const Vec3& normal) const {
   if (std::abs(stage_.frame.height(point)) <= step_)  // the emitter is seen edge-on
-    return value_jump(point, left, normal) / step_;
-  const ReceivingPoint receiving = {point, normal, left};
+    return (seen_factor(left_, point + step, normal) + seen_factor(right_, point - step, normal)) /
+           step.norm();
+  const ReceivingPoint receiving = {point, normal, step.normalized()};
   double jump = 0, whole = 0;
   const auto add = [&](const VisiblePart& part, double sign) {
     for (const BoundaryPiece& piece : part.pieces) {
-      const double off = std::max(std::abs(curve.sight_plane.dot(piece.from - point)),
-                                  std::abs(curve.sight_plane.dot(piece.to - point)));
-      if (piece.edge == horizon_edge || off > scene_.tolerance.length) continue;
+      if (piece.edge == horizon_edge || !lies_in_sight_plane(curve, point, piece.edge)) continue;
       const double motion = boundary_motion(receiving, stage_.frame, piece.from, piece.to);
       jump += sign * motion;
       whole += std::abs(motion);
@@ -72,6 +78,14 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
   add(left_, 1);
   add(right_, -1);
   return std::abs(jump) > least_share * whole ? jump : 0;
+}
+
+bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
+                                        int edge) const {
+  const Line3 line = line_of(edge);
+  const double slack = scene_.tolerance.length;
+  return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
+         std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }
 
 double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3& point,

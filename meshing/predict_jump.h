@@ -17,11 +17,13 @@ class JumpPredictor {
 
  private:
   double jump_at(const DiscontinuityCurve& curve, double s);
-  double value_jump(const Vec3& point, const Vec3& left, const Vec3& normal);
-  double slope_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
-                    const Vec3& normal);
+  /// From what is seen at point ± step, which was found last.
+  double value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const;
+  double slope_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& step,
+                    const Vec3& normal) const;
   double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
                         const Vec3& normal) const;
+  bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, int edge) const;
   Line3 line_of(int edge) const;
 
   const SoundScene& scene_;

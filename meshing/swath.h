@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/discontinuity.h"
-#include "meshing/event_jump.h"
+#include "meshing/quadric_events.h"
 
 #include <array>
 #include <optional>
@@ -34,6 +34,7 @@ struct Swath {
   Vec3 apex = Vec3::Zero();
   Span3 base;                    ///< of a planar swath
   std::array<Span3, 3> edges{};  ///< of the others
+  LineFamily family;             ///< the lines that meet them
 };
 
 /// One line of a swath, directed away from the emitter.
@@ -57,6 +58,9 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
 /// of one of them.
 void own_limits(const Swath& swath, std::vector<double>& parameters);
 
+/// Parameters in (0,1) at which the line runs along a plane with a normal.
+void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters);
+
 /// Boxes that contain the lines with parameters in a range where they leave two of the features:
 /// every line runs through both.
 struct SwathHull {
@@ -68,6 +72,9 @@ struct SwathHull {
   bool meets(const Vec3& low, const Vec3& high, double slack) const;
 };
 SwathHull hull_of(const Swath& swath, double t0, double t1);
+
+/// A swath through three edges, no two of which lie in a plane.
+void set_edges(Swath& swath, const std::array<Span3, 3>& edges);
 
 /// Where a line of the swath meets a plane, and the tangent of the curve that these points form
 /// (not of unit length; zero where it cannot be told).

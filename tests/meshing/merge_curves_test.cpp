@@ -236,13 +236,13 @@ TEST(MergeCurves, RandomOverlapsInAnyDirectionAreThoseOfBruteForce) {
     for (int line = 0; line < 12; ++line) {
       // Some through one point, some of them almost axis-aligned, or on the diagonal.
       const double angle = line < 4   ? random(0, 3.2)
-                           : line < 8 ? line * std::numbers::pi / 4 + random(-1, 1) * 1e-10
+                           : line < 8 ? line * std::numbers::pi / 4 + random(-1, 1) * 1e-12
                                       : line * std::numbers::pi / 4;
       const Vec2 along(std::cos(angle), std::sin(angle));
       const Vec2 origin = line % 2 ? Vec2(1, 2) : Vec2(random(0, 3), random(0, 3));
       for (int k = 0; k < 8; ++k) {
         const auto noise = [&]() -> Vec2 {
-          return Vec2(random(-1, 1), random(-1, 1)) * 0.1 * tolerance;
+          return Vec2(random(-1, 1), random(-1, 1)) * 1e-3 * tolerance;
         };
         const double a = random(-5, 5), b = a + random(-2, 2);
         curves.push_back(segment(3 * static_cast<int>(curves.size()), origin + a * along + noise(),

@@ -174,8 +174,7 @@ void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& s
       crossing_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
     }
   if (splits) return;
-  swath.is_planar = false;
-  swath.edges = spans;
+  set_edges(swath, spans);
   sink(swath);
 }
 

@@ -18,42 +18,12 @@ Vec3 plane_through(const Vec3& point, const Span3& edge) {
   return (edge.from - point).cross(edge.direction());
 }
 
-double determinant(const Vec3& a, const Vec3& b, const Vec3& c) { return a.cross(b).dot(c); }
-
-/// Real roots of c0 + c1 t + c2 t² in (0,1).
-void add_roots(double c0, double c1, double c2, std::vector<double>& roots) {
-  const auto add = [&](double t) {
-    if (t > 0 && t < 1) roots.push_back(t);
-  };
-  const double scale = std::max({std::abs(c0), std::abs(c1), std::abs(c2)});
-  if (scale == 0) return;
-  const double discriminant = c1 * c1 - 4 * c0 * c2;
-  // A double root must not be lost to rounding: the line touches there.
-  if (discriminant < -1e-14 * scale * scale) return;
-  const double q = -0.5 * (c1 + std::copysign(std::sqrt(std::max(0., discriminant)), c1));
-  if (q != 0) add(c0 / q);
-  if (c2 != 0) add(q / c2);
-}
-
-/// Roots of a function that is a polynomial of degree 2 at most.
-template <class Function>
-void add_roots_of(Function&& f, std::vector<double>& roots) {
-  const double f0 = f(0.), fh = f(0.5), f1 = f(1.);
-  const double c2 = 2 * (f0 - 2 * fh + f1);
-  add_roots(f0, f1 - f0 - c2, c2, roots);
-}
-
-/// Where the line through x that meets edges 1 and 2 does so, as shares of these edges.
-struct Meeting {
-  Vec3 direction;
-  double on_second, on_third;
-};
-Meeting meet(const Swath& swath, const Vec3& x) {
-  const Vec3 second = plane_through(x, swath.edges[1]), third = plane_through(x, swath.edges[2]);
-  Meeting m{second.cross(third), 0, 0};
-  m.on_second = third.dot(x - swath.edges[1].from) / third.dot(swath.edges[1].direction());
-  m.on_third = second.dot(x - swath.edges[2].from) / second.dot(swath.edges[2].direction());
-  return m;
+/// Real roots in (0,1).
+void add_roots(const Quadratic& polynomial, std::vector<double>& parameters) {
+  const QuadraticRoots found = roots(polynomial);
+  for (int k = 0; k < found.count; ++k)
+    if (const double t = found.at[static_cast<std::size_t>(k)]; t > 0 && t < 1)
+      parameters.push_back(t);
 }
 
 bool lies_within(double s) { return s >= -edge_margin && s <= 1 + edge_margin; }
@@ -105,29 +75,31 @@ void add_direction(const Swath& swath, const Vec3& normal, const Vec3& y, double
 
 }  // namespace
 
+void set_edges(Swath& swath, const std::array<Span3, 3>& edges) {
+  swath.is_planar = false;
+  swath.edges = edges;
+  std::array<Line3, 3> lines;
+  for (std::size_t k = 0; k < 3; ++k) lines[k] = {edges[k].from, edges[k].direction()};
+  swath.family = line_family(lines);
+}
+
 std::optional<SightLine> line_at(const Swath& swath, const PlaneFrame& emitter, double t) {
   if (swath.is_planar) {
     const std::array<Vec3, 2> points = {swath.apex, swath.base.at(t)};
     return line_through(emitter, points.data(), 2, points[1] - points[0]);
   }
-  const Vec3 x = swath.edges[0].at(t);
-  const Meeting m = meet(swath, x);
-  if (!lies_within(m.on_second) || !lies_within(m.on_third)) return std::nullopt;
-  const std::array<Vec3, 3> points = {x, swath.edges[1].at(m.on_second),
-                                      swath.edges[2].at(m.on_third)};
-  return line_through(emitter, points.data(), 3, m.direction);
+  const double second = value(parameter_on(swath.family, 1), t);
+  const double third = value(parameter_on(swath.family, 2), t);
+  if (!lies_within(second) || !lies_within(third)) return std::nullopt;
+  const std::array<Vec3, 3> points = {swath.edges[0].at(t), swath.edges[1].at(second),
+                                      swath.edges[2].at(third)};
+  return line_through(emitter, points.data(), 3, direction(swath.family, t));
 }
 
 void critical_parameters(const Swath& swath, const Span3& edge, double slack,
                          std::vector<double>& parameters) {
   if (!swath.is_planar) {
-    add_roots_of(
-        [&](double t) {
-          const Vec3 x = swath.edges[0].at(t);
-          return determinant(plane_through(x, swath.edges[1]), plane_through(x, swath.edges[2]),
-                             plane_through(x, edge));
-        },
-        parameters);
+    add_roots(meeting(swath.family, {edge.from, edge.direction()}), parameters);
     return;
   }
   const Vec3 normal = plane_through(swath.apex, swath.base).normalized();
@@ -139,27 +111,19 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
 }
 
 void own_limits(const Swath& swath, std::vector<double>& parameters) {
-  for (const auto& [own, other] : {std::array{1, 2}, std::array{2, 1}}) {
-    const Span3& edge = swath.edges[static_cast<std::size_t>(own)];
-    const Span3& guide = swath.edges[static_cast<std::size_t>(other)];
-    for (const Vec3& end : {edge.from, edge.to})
-      add_roots_of(
-          [&](double t) {
-            const Vec3 x = swath.edges[0].at(t);
-            return plane_through(x, guide).dot(x - end);
-          },
-          parameters);
+  for (const int i : {1, 2}) {
+    const LinearRatio r = parameter_on(swath.family, i);
+    add_roots({r.a, r.b, 0}, parameters);              // at the start of the edge
+    add_roots({r.a - r.c, r.b - r.d, 0}, parameters);  // at its end
   }
 }
 
 void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters) {
-  add_roots_of(
-      [&](double t) {
-        if (swath.is_planar) return normal.dot(swath.base.at(t) - swath.apex);
-        const Vec3 x = swath.edges[0].at(t);
-        return normal.dot(plane_through(x, swath.edges[1]).cross(plane_through(x, swath.edges[2])));
-      },
-      parameters);
+  if (swath.is_planar)
+    add_roots({normal.dot(swath.base.from - swath.apex), normal.dot(swath.base.direction()), 0},
+              parameters);
+  else
+    add_roots(direction_along(swath.family, normal), parameters);
 }
 
 SwathHull hull_of(const Swath& swath, double t0, double t1) {
@@ -171,12 +135,14 @@ SwathHull hull_of(const Swath& swath, double t0, double t1) {
     hull.point = swath.apex;
     return hull;
   }
-  const Vec3 x0 = swath.edges[0].at(t0), x1 = swath.edges[0].at(t1);
-  const Meeting m0 = meet(swath, x0), m1 = meet(swath, x1);
-  hull.near = box_of(x0, x1);
-  const auto on = [](const Span3& edge, double s) { return edge.at(std::clamp(s, 0., 1.)); };
-  const auto second = box_of(on(swath.edges[1], m0.on_second), on(swath.edges[1], m1.on_second));
-  const auto third = box_of(on(swath.edges[2], m0.on_third), on(swath.edges[2], m1.on_third));
+  hull.near = box_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
+  const auto reach = [&](int i) {
+    const LinearRatio ratio = parameter_on(swath.family, i);
+    const Span3& edge = swath.edges[static_cast<std::size_t>(i)];
+    return box_of(edge.at(std::clamp(value(ratio, t0), 0., 1.)),
+                  edge.at(std::clamp(value(ratio, t1), 0., 1.)));
+  };
+  const Eigen::AlignedBox3d second = reach(1), third = reach(2);
   const Vec3 x = hull.near.center();
   hull.far = (second.center() - x).norm() > (third.center() - x).norm() ? second : third;
   return hull;
@@ -213,12 +179,12 @@ std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, doubl
     x_dot = Vec3::Zero();
     d_dot = swath.base.direction();
   } else {
-    const Span3 &second = swath.edges[1], &third = swath.edges[2];
+    const LineFamily& f = swath.family;
     x = swath.edges[0].at(t);
     x_dot = swath.edges[0].direction();
-    const Vec3 n = plane_through(x, second), m = plane_through(x, third);
-    d = n.cross(m);
-    d_dot = -x_dot.cross(second.direction()).cross(m) - n.cross(x_dot.cross(third.direction()));
+    d = direction(f, t);
+    d_dot = f.slope[0].cross(f.constant[1] + t * f.slope[1]) +
+            (f.constant[0] + t * f.slope[0]).cross(f.slope[1]);
   }
   const double speed = plane.normal.dot(d), height = plane.height(x);
   if (!(std::abs(speed) > flattest * d.norm())) return std::nullopt;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/discontinuity.h"
-#include "meshing/event_jump.h"
+#include "meshing/quadric_events.h"
 
 #include <array>
 #include <optional>
@@ -34,6 +34,7 @@ struct Swath {
   Vec3 apex = Vec3::Zero();
   Span3 base;                    ///< of a planar swath
   std::array<Span3, 3> edges{};  ///< of the others
+  LineFamily family;             ///< the lines that meet them
 };
 
 /// One line of a swath, directed away from the emitter.
@@ -71,6 +72,9 @@ struct SwathHull {
   bool meets(const Vec3& low, const Vec3& high, double slack) const;
 };
 SwathHull hull_of(const Swath& swath, double t0, double t1);
+
+/// A swath through three edges, no two of which lie in a plane.
+void set_edges(Swath& swath, const std::array<Span3, 3>& edges);
 
 /// Where a line of the swath meets a plane, and the tangent of the curve that these points form
 /// (not of unit length; zero where it cannot be told).

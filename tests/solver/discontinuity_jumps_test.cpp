@@ -4,6 +4,7 @@
 #include "tests/support/one_sided_derivatives.h"
 #include "tests/support/signature_bisection.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -68,10 +69,10 @@ std::string describe(const NamedScene& named, const DiscontinuityCurve& curve, d
                 exitance * measured.scale[2], measured.reach);
   std::string all = text;
   for (const CurveSource& source : curve.sources) {
-    all += "\n  kind " + std::to_string(static_cast<int>(source.kind));
+    all += fmt::format("\n  kind {}", static_cast<int>(source.kind));
     for (int i = 0; i < source.feature_count; ++i) {
       const Feature& f = source.features[static_cast<std::size_t>(i)];
-      all += " " + std::to_string(static_cast<int>(f.kind)) + ":" + std::to_string(f.id);
+      all += fmt::format(" {}:{}", static_cast<int>(f.kind), f.id);
     }
   }
   return all;
@@ -143,9 +144,8 @@ TEST(DiscontinuityJumps, AreAsPredicted) {
   Tally tally;
   for (const NamedScene& named : test::discontinuity_scenes())
     if (test::is_wanted(named.name)) measure_scene(named, 60 * test::effort(), tally);
-  for (std::size_t k = 0; k < 3; ++k)
-    RecordProperty("order_" + std::to_string(k), tally.by_order[k]);
-  for (std::size_t k = 0; k < 4; ++k) RecordProperty("kind_" + std::to_string(k), tally.by_kind[k]);
+  for (std::size_t k = 0; k < 3; ++k) RecordProperty(fmt::format("order_{}", k), tally.by_order[k]);
+  for (std::size_t k = 0; k < 4; ++k) RecordProperty(fmt::format("kind_{}", k), tally.by_kind[k]);
   RecordProperty("worst", std::to_string(tally.worst));
   if (std::getenv("HALFSHADE_SCENE")) return;
   EXPECT_GT(tally.measured, 1000);

@@ -1,25 +1,19 @@
 #include "meshing/curve_mesh.h"
 
 #include "meshing/core/error.h"
+#include "meshing/curve_drawing.h"
 #include "meshing/hull_inside.h"
 #include "meshing/lazy_refinement.h"
-#include "meshing/snap_graph.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
-#include <unordered_map>
 
 namespace halfshade {
 namespace {
 
-// Corners of rings closer than this are one; of their size, and of their largest coordinate.
-constexpr double weld_of_size = 1e-13, weld_of_coordinates = 32 * 0x1p-53;
-// Snap distances of at least this many roundings of the largest coordinate make safe decisions.
-constexpr double least_snap = 256 * 0x1p-53;
 // If lines do not settle they are snapped more coarsely, this often and by this factor.
 constexpr int most_attempts = 8;
 constexpr double coarser = 8;
@@ -30,117 +24,33 @@ constexpr double shortest_share = 0.25;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-struct Box2 {
-  Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
-};
-
-Box2 box_of(std::span<const Ring> rings) {
-  Box2 box;
-  for (const Ring& ring : rings)
-    for (const Vec2& p : ring) {
-      box.low = box.low.cwiseMin(p);
-      box.high = box.high.cwiseMax(p);
-    }
-  return box;
-}
-
-double largest_coordinate(const Box2& box) {
-  return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
-}
-
-// The part of a segment in a box (Liang and Barsky 1984); ends inside stay as they are.
-std::optional<Segment2> clip(const Segment2& segment, const Box2& box) {
-  const Vec2 d = segment[1] - segment[0];
-  double enter = 0, leave = 1;
-  for (int k = 0; k < 2; ++k) {
-    const double to_low = box.low[k] - segment[0][k], to_high = box.high[k] - segment[0][k];
-    if (d[k] == 0) {
-      if (to_low > 0 || to_high < 0) return {};
-      continue;
-    }
-    enter = std::max(enter, std::min(to_low / d[k], to_high / d[k]));
-    leave = std::min(leave, std::max(to_low / d[k], to_high / d[k]));
-  }
-  if (!(enter < leave)) return {};
-  return Segment2{enter > 0 ? Vec2(segment[0] + enter * d) : segment[0],
-                  leave < 1 ? Vec2(segment[0] + leave * d) : segment[1]};
-}
-
-// A piece of a line, as an edge of the graph.
-struct Piece {
-  Segment2 place;
-  int id;
-  int edge;
-};
-
-struct Drawing {
-  SnapGraph graph;
-  std::vector<std::pair<int, bool>> ring_edges;  // and whether the inside ends there
-  std::vector<Piece> pieces;
-};
-
-void add_rings(Drawing& drawing, std::span<const Ring> rings, double weld) {
-  std::vector<Vec2> points;
-  std::vector<Link> segments;
-  for (const Ring& ring : rings) {
-    const int first = static_cast<int>(points.size()), n = static_cast<int>(ring.size());
-    points.insert(points.end(), ring.begin(), ring.end());
-    for (int k = 0; k < n; ++k) segments.push_back({first + k, first + (k + 1) % n});
-  }
-  const Arrangement arrangement = arrange(std::move(points), segments, {weld, weld});
-  // A link that rings run along an even number of times has the same on both its sides.
-  std::map<Link, bool> odd;
-  for (const auto& chain : arrangement.chains)
-    for (std::size_t k = 1; k < chain.size(); ++k) {
-      bool& flag = odd[sorted_link(chain[k - 1], chain[k])];
-      flag = !flag;
-    }
-  std::unordered_map<int, int> number;
-  const auto fixed_point = [&](int p) {
-    const auto [entry, is_new] = number.try_emplace(p, 0);
-    if (is_new) entry->second = drawing.graph.add_fixed_point(arrangement.points[at(p)]);
-    return entry->second;
-  };
-  for (const auto& [link, is_border] : odd) {
-    const int a = fixed_point(link[0]), b = fixed_point(link[1]);
-    drawing.ring_edges.emplace_back(drawing.graph.add_fixed_edge(a, b), is_border);
-  }
-}
-
-struct Input {
-  std::span<const Ring> rings;
-  std::span<const Segment2> contacts;
-  std::span<const CurveLine> lines;
-};
-
-// Everything in one graph; nothing if it does not settle.
-std::optional<Drawing> draw(const Input& input, double snap) {
-  Box2 box = box_of(input.rings);
-  const double weld =
-      weld_of_size * (box.high - box.low).norm() + weld_of_coordinates * largest_coordinate(box);
-  Drawing drawing{SnapGraph(snap), {}, {}};
-  add_rings(drawing, input.rings, weld);
-  // Wide enough that ends made by clipping stay clear of the rings.
-  const double margin = 8 * snap + 1e-3 * (box.high - box.low).norm();
-  box.low.array() -= margin;
-  box.high.array() += margin;
-  for (const Segment2& contact : input.contacts)
-    if (const auto part = clip(contact, box))
-      drawing.graph.add_line((*part)[0], (*part)[1], std::min(weld, snap));
-  if (!drawing.graph.settle()) return {};
-  drawing.graph.freeze();
-  for (const CurveLine& line : input.lines)
-    for (std::size_t k = 1; k < line.points.size(); ++k)
-      if (const auto part = clip({line.points[k - 1], line.points[k]}, box)) {
-        const int edge = drawing.graph.add_line((*part)[0], (*part)[1]);
-        if (edge >= 0)
-          drawing.pieces.push_back({{line.points[k - 1], line.points[k]}, line.id, edge});
+// The triangles inside, numbered anew, with the points they use.
+ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& keep,
+                        const SnapGraph& graph) {
+  std::vector<int> renamed(hull.triangles.size(), -1), point(graph.points().size(), -1);
+  int count = 0;
+  for (std::size_t t = 0; t < keep.size(); ++t)
+    if (keep[t]) renamed[t] = count++;
+  ConstrainedMesh mesh;
+  for (std::size_t t = 0; t < keep.size(); ++t) {
+    if (!keep[t]) continue;
+    auto& triangle = mesh.triangles.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int p = hull.triangles[t][k], next = hull.neighbours[t][k];
+      if (point[at(p)] < 0) {
+        point[at(p)] = static_cast<int>(mesh.points.size());
+        mesh.points.push_back(graph.points()[at(p)]);
       }
-  if (!drawing.graph.settle()) return {};
-  return drawing;
+      triangle.corner[k] = point[at(p)];
+      triangle.neighbour[k] = next < 0 ? -1 : renamed[at(next)];
+      triangle.line[k] = graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
+    }
+  }
+  return mesh;
 }
 
-std::optional<ConstrainedMesh> triangulate(const Drawing& drawing) {
+// Nothing if edges cross after all.
+std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
   const auto& edges = drawing.graph.edges();
   std::vector<Link> links, border;
   for (const auto& edge : edges)
@@ -151,36 +61,12 @@ std::optional<ConstrainedMesh> triangulate(const Drawing& drawing) {
         border.push_back({edges[at(part)].a, edges[at(part)].b});
       });
   std::sort(border.begin(), border.end());
-  HullTriangulation hull;
   try {
-    hull = constrained_delaunay(drawing.graph.points(), links);
+    const HullTriangulation hull = constrained_delaunay(drawing.graph.points(), links);
+    return cut_out(hull, inside(hull, border), drawing.graph);
   } catch (const Error&) {
     return {};
   }
-  const std::vector<bool> keep = inside(hull, border);
-  std::vector<int> renamed(hull.triangles.size(), -1), point(drawing.graph.points().size(), -1);
-  ConstrainedMesh mesh;
-  for (std::size_t t = 0; t < keep.size(); ++t)
-    if (keep[t]) {
-      renamed[t] = static_cast<int>(mesh.triangles.size());
-      mesh.triangles.emplace_back();
-    }
-  for (std::size_t t = 0; t < keep.size(); ++t) {
-    if (!keep[t]) continue;
-    auto& triangle = mesh.triangles[at(renamed[t])];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int p = hull.triangles[t][k];
-      if (point[at(p)] < 0) {
-        point[at(p)] = static_cast<int>(mesh.points.size());
-        mesh.points.push_back(drawing.graph.points()[at(p)]);
-      }
-      triangle.corner[k] = point[at(p)];
-      const int next = hull.neighbours[t][k];
-      triangle.neighbour[k] = next < 0 ? -1 : renamed[at(next)];
-      triangle.line[k] = drawing.graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
-    }
-  }
-  return mesh;
 }
 
 double distance(const Vec2& p, const Segment2& s) {
@@ -191,9 +77,9 @@ double distance(const Vec2& p, const Segment2& s) {
 }
 
 // Edges of the graph and the ids of the curves along them, sorted.
-std::vector<std::pair<int, int>> curves_along(const Drawing& drawing) {
+std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {
   std::vector<std::pair<int, int>> result;
-  for (const Piece& piece : drawing.pieces)
+  for (const CurveDrawing::Piece& piece : drawing.pieces)
     drawing.graph.for_each_part(piece.edge, [&](int part) { result.emplace_back(part, piece.id); });
   std::sort(result.begin(), result.end());
   result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -201,10 +87,10 @@ std::vector<std::pair<int, int>> curves_along(const Drawing& drawing) {
 }
 
 // Edges are straight, so that their ends are farthest from the line. Those outside do not count.
-double deviation(const Drawing& drawing, const std::vector<bool>& is_used) {
+double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) {
   double largest = 0;
   const auto& graph = drawing.graph;
-  for (const Piece& piece : drawing.pieces)
+  for (const CurveDrawing::Piece& piece : drawing.pieces)
     graph.for_each_part(piece.edge, [&](int part) {
       if (!is_used[at(part)]) return;
       const auto& edge = graph.edges()[at(part)];
@@ -214,7 +100,7 @@ double deviation(const Drawing& drawing, const std::vector<bool>& is_used) {
   return largest;
 }
 
-CurveMesh assemble(const Drawing& drawing, const ConstrainedMesh& mesh) {
+CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   CurveMesh result;
   result.mesh.points = mesh.points;
   std::vector<std::pair<Link, int>> constrained;
@@ -243,10 +129,19 @@ CurveMesh assemble(const Drawing& drawing, const ConstrainedMesh& mesh) {
   return result;
 }
 
+[[noreturn]] void fail(const std::string& sentence) {
+  throw Error(ErrorCode::contract, "mesh_with_curves", sentence);
+}
+
+void check(std::span<const CurveLine> lines) {
+  for (const CurveLine& line : lines) {
+    if (line.id < 0) fail(fmt::format("a line has the id {}; ids must not be negative", line.id));
+    for (const Vec2& p : line.points)
+      if (!p.allFinite()) fail(fmt::format("a point of line {} is not finite", line.id));
+  }
+}
+
 void check(const CurveMeshOptions& options) {
-  const auto fail = [](const std::string& sentence) {
-    throw Error(ErrorCode::contract, "mesh_with_curves", sentence);
-  };
   const auto& [max_length, min_angle, max_triangles] = options.quality;
   if (!(max_length >= 0 && std::isfinite(max_length)))
     fail(fmt::format("max_length is {}; it must be finite and not negative", max_length));
@@ -275,11 +170,17 @@ RefinementLimits limits_of(const CurveMeshOptions& options) {
 CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2> contacts,
                            std::span<const CurveLine> lines, const CurveMeshOptions& options) {
   check(options);
-  double snap = std::max(options.snap, least_snap * largest_coordinate(box_of(rings)));
+  check(lines);
+  if (rings.empty()) {
+    CurveMesh nothing;
+    nothing.curve_begin = {0};
+    return nothing;
+  }
+  double snap = std::max(options.snap, least_safe_snap(rings));
   for (int attempt = 0; attempt < most_attempts; ++attempt, snap *= coarser) {
     // In the end without the curves, which is known to go well.
     const bool is_last = attempt + 1 == most_attempts;
-    const auto drawing = draw({rings, contacts, is_last ? lines.first(0) : lines}, snap);
+    const auto drawing = draw_curves({rings, contacts, is_last ? lines.first(0) : lines}, snap);
     if (!drawing) continue;
     auto mesh = triangulate(*drawing);
     if (!mesh) continue;

@@ -16,7 +16,9 @@ struct CurveLine {
 struct CurveMeshOptions {
   PlanarMeshOptions quality;  ///< max_triangles ends refinement early, `complete` tells
   double snap = 1e-7;         ///< points and edges closer than this become one, scene units, > 0
-  double shortest = 1e-3;     ///< refinement makes no edge shorter than this; scene units, > snap
+  /// Refinement makes no edge shorter than this, scene units, > snap. What is narrower stays as it
+  /// is. Of max_length at most a quarter counts.
+  double shortest = 1e-3;
 };
 
 /// A mesh with edges along curves.
@@ -34,7 +36,9 @@ struct CurveMesh {
 /// 2. ring vertices stay where they are, also those in the middle of a straight stretch, and points
 ///    on ring edges lie on them to rounding: the area is that of the polygon to 1e-12;
 /// 3. every curve inside the polygon is a chain of edges within `deviation`, which is a few `snap`
-///    (curves outside are left out, those that reach over the border are cut there);
+///    (curves outside are left out, those that reach over the border are cut there). If
+///    thousands of lines in one place do not settle, `snap` is enlarged, in the last resort they
+///    are all left out and `mesh.complete` is false;
 /// 4. points are at least about `snap` apart, except where ring vertices are closer; no curve
 ///    crosses another except at a vertex;
 /// 5. angles are at least `quality.min_angle`, save where curves meet at smaller ones or it would

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <tuple>
 
 namespace halfshade {
 namespace {
@@ -40,57 +39,55 @@ NarrowCorners::NarrowCorners(const ConstrainedMesh& mesh) {
   std::sort(narrow_.begin(), narrow_.end());
 }
 
-void NarrowCorners::unite_straight_lines(const ConstrainedMesh& mesh) {
-  struct End {
-    int point;
-    double direction;
-    int line;
-  };
+std::vector<NarrowCorners::End> NarrowCorners::list_ends(const ConstrainedMesh& mesh) {
   std::vector<End> ends;
-  int line_count = 0;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t.corner[k], b = t.corner[(k + 1) % 3];
       if (t.line[k] < 0 || (t.neighbour[k] >= 0 && a > b)) continue;
-      line_count = std::max(line_count, t.line[k] + 1);
       ends.push_back({a, direction(mesh.point(a), mesh.point(b)), t.line[k]});
       ends.push_back({b, direction(mesh.point(b), mesh.point(a)), t.line[k]});
     }
-  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
-    return std::tie(a.point, a.direction, a.line) < std::tie(b.point, b.direction, b.line);
-  });
+  std::sort(ends.begin(), ends.end());
   first_.assign(mesh.points.size() + 1, 0);
+  int line_count = 0;
   for (const End& end : ends) {
     ++first_[at(end.point) + 1];
     lines_.push_back(end.line);
+    line_count = std::max(line_count, end.line + 1);
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
   chain_.resize(at(line_count));
   std::iota(chain_.begin(), chain_.end(), 0);
+  return ends;
+}
+
+// The end at the same point that leaves most nearly the opposite way.
+std::size_t NarrowCorners::opposite(const std::vector<End>& ends, std::size_t i) const {
+  const auto begin = ends.begin() + first_[at(ends[i].point)];
+  const auto end = ends.begin() + first_[at(ends[i].point) + 1];
+  const double back = std::remainder(ends[i].direction + std::numbers::pi, 2 * std::numbers::pi);
+  auto next = std::lower_bound(begin, end, back,
+                               [](const End& e, double value) { return e.direction < value; });
+  if (next == end) next = begin;
+  const auto previous = next == begin ? end - 1 : next - 1;
+  const bool is_previous = turned(previous->direction, back) <= turned(next->direction, back);
+  return static_cast<std::size_t>((is_previous ? previous : next) - ends.begin());
+}
+
+void NarrowCorners::unite_straight_lines(const ConstrainedMesh& mesh) {
+  const std::vector<End> ends = list_ends(mesh);
   const auto root = [&](int line) {
     while (chain_[at(line)] != line) line = chain_[at(line)] = chain_[at(chain_[at(line)])];
     return line;
   };
-  // The end at the same point that leaves most nearly the opposite way.
-  const auto opposite = [&](std::size_t i) {
-    const auto begin = ends.begin() + first_[at(ends[i].point)];
-    const auto end = ends.begin() + first_[at(ends[i].point) + 1];
-    const double back = std::remainder(ends[i].direction + std::numbers::pi, 2 * std::numbers::pi);
-    auto next = std::lower_bound(begin, end, back,
-                                 [](const End& e, double value) { return e.direction < value; });
-    if (next == end) next = begin;
-    const auto previous = next == begin ? end - 1 : next - 1;
-    const auto best =
-        turned(previous->direction, back) <= turned(next->direction, back) ? previous : next;
-    return static_cast<std::size_t>(best - ends.begin());
-  };
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const std::size_t j = opposite(i);
-    if (i < j && opposite(j) == i &&
+    const std::size_t j = opposite(ends, i);
+    if (i < j && opposite(ends, j) == i &&
         turned(ends[i].direction + std::numbers::pi, ends[j].direction) < straight)
       chain_[at(root(ends[j].line))] = root(ends[i].line);
   }
-  for (int line = 0; line < line_count; ++line) chain_[at(line)] = root(line);
+  for (int& line : chain_) line = root(line);
 }
 
 void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {

@@ -2,6 +2,7 @@
 
 #include "meshing/constrained_mesh.h"
 
+#include <compare>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -23,6 +24,14 @@ class NarrowCorners {
   bool are_twins(const ConstrainedMesh& mesh, int a, int line_of_a, int b, int line_of_b) const;
 
  private:
+  struct End {  // of a constraint
+    int point;
+    double direction;
+    int line;
+    auto operator<=>(const End&) const = default;
+  };
+  std::vector<End> list_ends(const ConstrainedMesh& mesh);
+  std::size_t opposite(const std::vector<End>& ends, std::size_t i) const;
   void unite_straight_lines(const ConstrainedMesh& mesh);
   void find_corners(const ConstrainedMesh& mesh);
   void lines_at(int point, int line, std::vector<int>& lines) const;

@@ -43,10 +43,17 @@ std::vector<PlanarMesh> mesh_receivers(const SoundScene& scene, const PlanarMesh
                                        SharedEdges& shared, const Progress& progress) {
   check_size(scene, options);
   std::vector<PlanarMesh> meshes(scene.receivers.size());
+  std::vector<int> times(meshes.size(), 0);
   mesh_alike(
       shared, meshes.size(),
       [&](std::size_t r, const Outline& outline) {
-        meshes[r] = refine_triangulation(outline.rings, outline.contacts, options);
+        // Meshed anew once, which forgets points that neighbours have elsewhere; afterwards refined
+        // on, which changes least.
+        if (times[r]++ < 2)
+          meshes[r] = refine_triangulation(outline.rings, outline.contacts, options);
+        else
+          split_and_refine(meshes[r], shared.missing(static_cast<int>(r), wall_edges(meshes[r])),
+                           options);
       },
       [&](std::size_t r) { return wall_edges(meshes[r]); }, progress);
   std::size_t count = 0;

@@ -106,17 +106,35 @@ void SharedEdges::add(std::span<const End> ends) {
   }
 }
 
-// The points of its line inside a wall, from its first end to its second.
-std::vector<double> SharedEdges::inside(const Wall& wall) const {
-  if (wall.line < 0) return {};
-  const std::vector<double>& points = agreed_[at(wall.line)];
-  const double low = std::min(wall.begin, wall.end) + scene_.tolerance.length;
-  const double high = std::max(wall.begin, wall.end) - scene_.tolerance.length;
+// The points of a line inside a part of it, from its begin to its end, which may be the lower.
+std::vector<double> SharedEdges::inside(int line, double begin, double end) const {
+  if (line < 0) return {};
+  const std::vector<double>& points = agreed_[at(line)];
+  const double low = std::min(begin, end) + scene_.tolerance.length;
+  const double high = std::max(begin, end) - scene_.tolerance.length;
   std::vector<double> result;
   for (auto t = std::upper_bound(points.begin(), points.end(), low); t != points.end() && *t < high;
        ++t)
     result.push_back(*t);
-  if (wall.begin > wall.end) std::reverse(result.begin(), result.end());
+  if (begin > end) std::reverse(result.begin(), result.end());
+  return result;
+}
+
+std::vector<EdgePoints> SharedEdges::missing(int receiver, const WallEdges& walls) const {
+  std::vector<EdgePoints> result;
+  const PlaneFrame& frame = scene_.receivers[at(receiver)].frame;
+  for (const WallEdge& edge : walls) {
+    const int w = wall_of(receiver, edge.ends);
+    const int line = w < 0 ? -1 : lines_.walls[at(w)].line;
+    if (line < 0) continue;
+    const double begin = along(lines_.lines[at(line)], frame, edge.ends[0]);
+    const double end = along(lines_.lines[at(line)], frame, edge.ends[1]);
+    EdgePoints added{edge.points, {}};
+    for (const double t : inside(line, begin, end))
+      added.points.push_back(edge.ends[0] +
+                             (t - begin) / (end - begin) * (edge.ends[1] - edge.ends[0]));
+    if (!added.points.empty()) result.push_back(std::move(added));
+  }
   return result;
 }
 
@@ -125,7 +143,7 @@ Outline SharedEdges::outline(int receiver) const {
   int w = lines_.first_wall[at(receiver)];
   const auto points_from = [&](const Wall& wall) {
     std::vector<Vec2> points = {wall.ends[0]};
-    for (const double t : inside(wall))
+    for (const double t : inside(wall.line, wall.begin, wall.end))
       points.push_back(wall.ends[0] +
                        (t - wall.begin) / (wall.end - wall.begin) * (wall.ends[1] - wall.ends[0]));
     return points;

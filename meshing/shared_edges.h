@@ -3,6 +3,7 @@
 #include "meshing/box_tree.h"
 #include "meshing/core/progress.h"
 #include "meshing/shared_lines.h"
+#include "meshing/split_edges.h"
 
 #include <array>
 #include <functional>
@@ -49,6 +50,9 @@ class SharedEdges {
   /// What a receiver is to be meshed with.
   Outline outline(int receiver) const;
 
+  /// The points that a receiver is to have and its mesh has not.
+  std::vector<EdgePoints> missing(int receiver, const WallEdges& walls) const;
+
   /// Compares the meshes of all receivers. Between neighbouring points of a line, the finest
   /// subdivision becomes that of all. Returns the receivers that do not have it, sorted.
   std::vector<int> compare(std::span<const WallEdges> meshes);
@@ -61,7 +65,7 @@ class SharedEdges {
     auto operator<=>(const Vertex&) const = default;
   };
   void agree(std::size_t line, std::vector<Vertex> vertices, std::vector<bool>& differs);
-  std::vector<double> inside(const Wall& wall) const;
+  std::vector<double> inside(int line, double begin, double end) const;
 
   const SoundScene& scene_;
   SharedLines lines_;

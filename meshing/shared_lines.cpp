@@ -14,6 +14,8 @@ namespace {
 // Receivers that share an edge lie apart there by as much as their planes do, but never by this
 // share of an edge.
 constexpr double largest_gap = 0.01;
+// Planes at less than this angle (in its square) are parallel as far as their normals can tell.
+constexpr double least_squared_sine = 1e-12;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
@@ -50,53 +52,127 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
   out.first_wall.push_back(static_cast<int>(out.walls.size()));
 }
 
-bool lie_on_each_other(const Stretch& a, const Stretch& b, double least_length) {
-  if (a.length() < b.length()) return lie_on_each_other(b, a, least_length);
-  if (!(b.length() > 0)) return false;
-  const Vec3 direction = (a.to - a.from) / a.length();
-  double t0 = direction.dot(b.from - a.from), t1 = direction.dot(b.to - a.from);
-  Vec3 p0 = b.from, p1 = b.to;
-  if (t0 > t1) {
-    std::swap(t0, t1);
-    std::swap(p0, p1);
-  }
-  const double begin = std::max(t0, 0.0), end = std::min(t1, a.length());
-  if (!(end - begin > least_length)) return false;
-  const double reach = std::min(a.reach, b.reach);
-  const auto is_near = [&](double t) {
-    const Vec3 p = p0 + (t - t0) / (t1 - t0) * (p1 - p0);
-    return (p - (a.from + t * direction)).norm() <= reach;
-  };
-  return is_near(begin) && is_near(end);
+// Whether the planes of two receivers, each off its corners by at most `planarity`, explain that an
+// edge of both lies here in one and, moved by `offset` across it, in the other.
+bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal_b,
+                    const Tolerance& tolerance) {
+  if (offset.norm() <= tolerance.length) return true;
+  // The offset as a sum of parts along the normals.
+  const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
+  const double squared_sine = normal_a.cross(normal_b).squaredNorm();
+  if (squared_sine <= least_squared_sine) return (offset - a * normal_a).norm() <= tolerance.length;
+  return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
+         std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
 }
 
-int root(std::vector<int>& above, int i) {
-  while (above[at(i)] != i) i = above[at(i)] = above[at(above[at(i)])];
-  return i;
-}
+struct Overlap {
+  double gap;
+  int first, second;
+  auto operator<=>(const Overlap&) const = default;
+};
 
-// For every wall the first of those it is joined to.
-std::vector<int> join(const SharedLines& lines, const std::vector<Stretch>& stretches,
-                      double least_length) {
-  std::vector<Box> boxes;
-  for (const Stretch& s : stretches) {
-    boxes.emplace_back(s.from.cwiseMin(s.to), s.from.cwiseMax(s.to));
-    boxes.back().min().array() -= s.reach;
-    boxes.back().max().array() += s.reach;
+// Joins walls that lie on each other, the closest first.
+class WallJoiner {
+ public:
+  WallJoiner(const SoundScene& scene, const SharedLines& lines,
+             const std::vector<Stretch>& stretches)
+      : scene_(scene), lines_(lines), stretches_(stretches), group_(stretches.size()) {
+    std::iota(group_.begin(), group_.end(), 0);
+    for (int w = 0; w < static_cast<int>(stretches.size()); ++w) members_.push_back({w});
   }
-  const BoxTree tree(boxes);
-  std::vector<int> above(stretches.size());
-  std::iota(above.begin(), above.end(), 0);
-  for (int i = 0; i < static_cast<int>(stretches.size()); ++i)
-    tree.query_box(boxes[at(i)], [&](int j) {
-      if (j >= i || lines.walls[at(i)].receiver == lines.walls[at(j)].receiver) return;
-      const int a = root(above, i), b = root(above, j);
-      if (a == b || !lie_on_each_other(stretches[at(i)], stretches[at(j)], least_length)) return;
-      above[at(std::max(a, b))] = std::min(a, b);
-    });
-  for (int i = 0; i < static_cast<int>(above.size()); ++i) above[at(i)] = root(above, i);
-  return above;
-}
+
+  // The groups, each sorted; some are empty.
+  std::vector<std::vector<int>> run() {
+    std::vector<Overlap> overlaps = find_overlaps();
+    std::sort(overlaps.begin(), overlaps.end());
+    for (const auto& [gap, i, j] : overlaps) {
+      const auto a = at(std::min(group_[at(i)], group_[at(j)]));
+      const auto b = at(std::max(group_[at(i)], group_[at(j)]));
+      if (a == b || clash(members_[a], members_[b])) continue;
+      const auto middle = static_cast<std::ptrdiff_t>(members_[a].size());
+      members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+      std::inplace_merge(members_[a].begin(), members_[a].begin() + middle, members_[a].end());
+      for (const int w : members_[b]) group_[at(w)] = static_cast<int>(a);
+      members_[b].clear();
+    }
+    return std::move(members_);
+  }
+
+ private:
+  const Vec3& normal(int wall) const {
+    return scene_.receivers[at(lines_.walls[at(wall)].receiver)].frame.normal;
+  }
+
+  std::vector<Overlap> find_overlaps() const {
+    std::vector<Box> boxes;
+    for (const Stretch& s : stretches_) {
+      boxes.emplace_back(s.from.cwiseMin(s.to), s.from.cwiseMax(s.to));
+      boxes.back().min().array() -= s.reach;
+      boxes.back().max().array() += s.reach;
+    }
+    const BoxTree tree(boxes);
+    std::vector<Overlap> overlaps;
+    for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
+      tree.query_box(boxes[at(i)], [&](int j) {
+        if (j >= i || lines_.walls[at(i)].receiver == lines_.walls[at(j)].receiver) return;
+        const bool j_is_longer = stretches_[at(i)].length() < stretches_[at(j)].length();
+        const double gap = j_is_longer ? gap_between(j, i) : gap_between(i, j);
+        if (gap < HUGE_VAL) overlaps.push_back({gap, j, i});
+      });
+    return overlaps;
+  }
+
+  // Where the second runs along the first, in terms of the first's length.
+  std::array<double, 2> range_along(int first, int second) const {
+    const Stretch &a = stretches_[at(first)], &b = stretches_[at(second)];
+    const Vec3 direction = (a.to - a.from) / a.length();
+    return {direction.dot(b.from - a.from), direction.dot(b.to - a.from)};
+  }
+
+  // Infinite if they do not lie on each other. The first is not shorter than the second.
+  double gap_between(int first, int second) const {
+    const Stretch &a = stretches_[at(first)], &b = stretches_[at(second)];
+    if (!(b.length() > 0)) return HUGE_VAL;
+    const auto [t0, t1] = range_along(first, second);
+    const double begin = std::max(std::min(t0, t1), 0.0);
+    const double end = std::min(std::max(t0, t1), a.length());
+    if (!(end - begin > scene_.tolerance.length)) return HUGE_VAL;
+    double gap = 0;
+    for (const double t : {begin, end}) {
+      const Vec3 offset = b.from + (t - t0) / (t1 - t0) * (b.to - b.from) -
+                          (a.from + t / a.length() * (a.to - a.from));
+      if (offset.norm() > std::min(a.reach, b.reach) ||
+          !planes_explain(offset, normal(first), normal(second), scene_.tolerance))
+        return HUGE_VAL;
+      gap = std::max(gap, offset.norm());
+    }
+    return gap;
+  }
+
+  // Whether walls of one receiver would come to lie on each other.
+  bool clash(const std::vector<int>& a, const std::vector<int>& b) const {
+    const auto& [fewer, more] =
+        std::minmax(a, b, [](auto& x, auto& y) { return x.size() < y.size(); });
+    for (const int w : fewer) {
+      const int r = lines_.walls[at(w)].receiver;
+      auto other = std::lower_bound(more.begin(), more.end(), lines_.first_wall[at(r)]);
+      for (; other != more.end() && *other < lines_.first_wall[at(r) + 1]; ++other) {
+        const auto [t0, t1] = range_along(w, *other);
+        if (std::min(std::max(t0, t1), stretches_[at(w)].length()) -
+                std::max(std::min(t0, t1), 0.0) >
+            scene_.tolerance.length)
+          return true;
+      }
+    }
+    return false;
+  }
+
+  const SoundScene& scene_;
+  const SharedLines& lines_;
+  const std::vector<Stretch>& stretches_;
+  std::vector<int> group_;                 // of each wall
+  std::vector<std::vector<int>> members_;  // of each group, sorted
+};
 
 }  // namespace
 
@@ -104,11 +180,8 @@ SharedLines find_shared_lines(const SoundScene& scene) {
   SharedLines result;
   std::vector<Stretch> stretches;
   collect(scene, result, stretches);
-  const std::vector<int> group = join(result, stretches, scene.tolerance.length);
-  std::vector<std::vector<int>> members(group.size());
-  for (std::size_t w = 0; w < group.size(); ++w)
-    members[at(group[w])].push_back(static_cast<int>(w));
-  for (std::vector<int>& walls : members) {
+  std::vector<std::vector<int>> groups = WallJoiner(scene, result, stretches).run();
+  for (std::vector<int>& walls : groups) {
     if (walls.size() < 2) continue;
     const auto& longest =
         stretches[at(*std::max_element(walls.begin(), walls.end(), [&](int a, int b) {

@@ -27,8 +27,9 @@ struct SharedLines {
 };
 
 /// Finds where walls of different receivers lie on each other. Two do where they run along each
-/// other for more than the tolerance's length and no farther apart than the receivers' planes may
-/// be off their corners. Walls that do so directly or through others are of one line.
+/// other for more than the tolerance's length and no farther apart than by what their receivers'
+/// planes may be off their corners. Walls that do so directly or through others are of one line,
+/// but where that would bring together walls of one receiver, those that lie closer go first.
 SharedLines find_shared_lines(const SoundScene& scene);
 
 /// Where a point of a receiver's frame lies along a line.

@@ -19,6 +19,8 @@ constexpr double roundings_per_step = 1e4;
 // What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
 // only at some distance; what lies closer together is told apart by the narrow step.
 constexpr double wide_step = 300;
+// Edges shorter than this share of the scene's size call for the narrow step.
+constexpr double fine_detail = 1e-4;
 // Pieces of swath shorter than this many side steps on the receiver cannot be decided.
 constexpr double least_steps = 4;
 // How often a conic may be halved before it is made of arcs that turn little.
@@ -115,6 +117,11 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
       stage_(stage),
       finder_(opaque),
       step_(side_step(scene, opaque)) {
+  const double fine = fine_detail * scene.tolerance.scene_size;
+  for (const StageEdge& edge : stage.edges)
+    has_fine_detail_ = has_fine_detail_ || edge.whole.direction().norm() < fine;
+  for (const OutlinePiece& piece : stage.outline)
+    has_fine_detail_ = has_fine_detail_ || piece.span.direction().norm() < fine;
   for (const auto& edge : opaque_.edges) {
     const auto receiver_of = [&](int i) {
       return opaque_.triangles[at(opaque_.incidences[at(edge.first + i)].triangle)].receiver;
@@ -278,10 +285,12 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
   if ((trace->point - before->point).norm() < least || (trace->point - after->point).norm() < least)
     return;
   const Vec2 p = target.frame.to_plane(trace->point);
+  if (is_known(swath, receiver, before->point, after->point)) return;
   if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
   const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
   EventEvidence evidence;
   for (const double step : {wide_step * step_, step_}) {
+    if (step == step_ && !has_fine_detail_) break;
     const Vec3 a = trace->point + step * left, b = trace->point - step * left;
     finder_.find(a, target.frame.normal, stage_.emitter, left_);
     finder_.find(b, target.frame.normal, stage_.emitter, right_);
@@ -290,6 +299,8 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
     if (evidence.differs) break;
   }
   if (!evidence.differs) return;
+  if (swath.source.kind == CurveKind::face)
+    known_.push_back({receiver, before->point, after->point});
   std::sort(evidence.triples.begin(), evidence.triples.end());
   if (!open.empty())
     for (auto last = open.rbegin(); last != open.rend() && last->t1 >= t0; ++last)
@@ -298,6 +309,25 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
         return;
       }
   open.push_back({receiver, t0, t1, std::move(evidence.triples)});
+}
+
+/// All swaths of one face lie in its plane and may make the same piece of curve.
+bool SwathTracer::is_known(const Swath& swath, int receiver, const Vec3& from, const Vec3& to) {
+  if (swath.source != known_source_) {
+    known_source_ = swath.source;
+    known_.clear();
+  }
+  const double slack = scene_.tolerance.length;
+  return std::any_of(known_.begin(), known_.end(), [&](const KnownPiece& known) {
+    if (known.receiver != receiver) return false;
+    const Vec3 along = (known.to - known.from).normalized();
+    const double length = (known.to - known.from).norm();
+    const auto lies_on = [&](const Vec3& p) {
+      const double t = along.dot(p - known.from);
+      return t >= -slack && t <= length + slack;
+    };
+    return lies_on(from) && lies_on(to);
+  });
 }
 
 /// Turns a piece of swath into arcs.

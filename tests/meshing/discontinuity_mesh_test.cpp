@@ -282,7 +282,7 @@ TEST(LabelElements, AreasOfUmbraAndPenumbraAreExact) {
 
 TEST(LabelElements, HoldForWholeElements) {
   for (const SoundScene& scene :
-       {test::s1(), test::skew_bars_maker().sound(), test::two_lights()}) {
+       {test::s1(), test::skew_bars_maker().sound(), test::light_with_a_hole()}) {
     const OpaqueScene opaque(scene);
     const std::vector<LightSource> sources = light_sources(scene);
     const Discontinuities found = find_discontinuities(scene, opaque, sources);

@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-
 // None of the curves is missing: along random segments on random receivers, the structure of what
 // is visible changes at curves only.
 
@@ -30,10 +28,8 @@ std::string jumps_at(const SignatureChange& change, const SoundScene& scene) {
                             .measure(change.receiver, change.emitter,
                                      0.5 * (change.before + change.after), across, change.miss);
   if (!measured) return "no room to measure a jump";
-  char text[128];
-  std::snprintf(text, sizeof text, "jumps along the segment %.3g, %.3g, %.3g (to ± %.2g)",
-                measured->jump[0], measured->jump[1], measured->jump[2], measured->reach);
-  return text;
+  return fmt::format("jumps along the segment {:.3g}, {:.3g}, {:.3g} (to ± {:.2g})",
+                     measured->jump[0], measured->jump[1], measured->jump[2], measured->reach);
 }
 
 /// Segments along a scene with the curves that `options` find; misses are failures if `expect`.
@@ -61,7 +57,7 @@ TEST(DiscontinuityCompleteness, TheVisiblePartChangesOnlyAtCurves) {
   std::size_t segments = 0, changes = 0;
   for (const NamedScene& named : test::discontinuity_scenes()) {
     if (!test::is_wanted(named.name)) continue;
-    const SegmentAudit result = audit(named, 400 * test::effort(), true);
+    const SegmentAudit result = audit(named, 370 * test::effort(), true);
     segments += result.segments;
     changes += result.changes;
   }
@@ -77,16 +73,14 @@ TEST(DiscontinuityCompleteness, AlsoWhereThingsTouchAndEventsCoincide) {
     if (test::is_wanted(named.name)) audit(named, 150 * test::effort(), true);
 }
 
-/// So the test above can fail: without one kind of event there are misses where only it makes
-/// lines.
-TEST(DiscontinuityCompleteness, EachKindIsMissedWhereItIsLeftOut) {
+/// So the tests above can fail: without events of three edges, or with a vertex, there are misses.
+TEST(DiscontinuityCompleteness, WhatIsLeftOutIsMissed) {
   const auto misses = [](const SoundScene& scene, const DiscontinuityOptions& options) {
     return audit({"", scene}, 60, false, options).misses.size();
   };
   const SoundScene skew = test::skew_bars_maker().sound();
   EXPECT_GT(misses(skew, {.eee = false}), 5u);
   EXPECT_GT(misses(test::one_triangle(), {.ev = false}), 5u);
-  EXPECT_GT(misses(test::face_plane(), {.face = false}), 0u);
   EXPECT_EQ(misses(skew, {}), 0u);
 }
 

@@ -165,7 +165,7 @@ inline int expect_alike_across_receivers(const ElementTable& table, const SoundS
     int receiver;
     Vec3 low, high, a, b;
   };
-  const double near = 1e-8 * scene.tolerance.scene_size;
+  const double near = scene.tolerance.length;
   std::vector<Wall> walls;
   for (int e = 0; e < table.count(); ++e)
     for (std::size_t k = 0; k < 3; ++k) {

@@ -31,7 +31,7 @@ class JumpMeter {
     const Line line{frame.to_space(at), across.x() * frame.e1 + across.y() * frame.e2, frame.normal,
                     emitter};
     const double size = scene_.tolerance.scene_size;
-    for (double reach = std::min(0.5 * clear, longest * size); reach > shortest * size;
+    for (double reach = std::min(share * clear, longest * size); reach > shortest * size;
          reach *= 0.5) {
       const auto left = sample(line, reach), right = sample(line, -reach);
       if (!left || !right) continue;
@@ -42,6 +42,8 @@ class JumpMeter {
 
  private:
   static constexpr double longest = 0.01, shortest = 1e-6;  // relative to the scene's size
+  // Of the distance to what may be singular: polynomials converge like 22^-nodes.
+  static constexpr double share = 0.2;
   static constexpr std::size_t nodes = 9;
 
   struct Line {

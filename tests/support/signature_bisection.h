@@ -126,20 +126,18 @@ class SegmentAuditor {
   std::string describe(const SignatureChange& change) const {
     const PlaneFrame& frame = scene_.receivers[static_cast<std::size_t>(change.receiver)].frame;
     const Vec3 at = frame.to_space(0.5 * (change.before + change.after));
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "receiver %d (normal %.6g %.6g %.6g), light %d, at (%.17g, %.17g, %.17g), "
-                  "across (%.6g, %.6g), %.3g from any line\n",
-                  change.receiver, frame.normal.x(), frame.normal.y(), frame.normal.z(),
-                  change.emitter, at.x(), at.y(), at.z(),
-                  (change.after - change.before).normalized().x(),
-                  (change.after - change.before).normalized().y(), change.miss);
-    std::string all = text;
+    const Vec2 across = (change.after - change.before).normalized();
+    const Vec3& normal = frame.normal;
+    std::string text = fmt::format(
+        "receiver {} (normal {:.6g} {:.6g} {:.6g}), light {}, at ({:.17g}, {:.17g}, {:.17g}), "
+        "across ({:.6g}, {:.6g}), {:.3g} from any line\n",
+        change.receiver, normal.x(), normal.y(), normal.z(), change.emitter, at.x(), at.y(), at.z(),
+        across.x(), across.y(), change.miss);
     for (const auto& [name, list] : {std::pair("-", &change.lost), std::pair("+", &change.gained)})
       for (const Junction& j : *list)
-        all += std::string("  ") + name + " " + signer_.describe(j.from, change.emitter) + " | " +
-               signer_.describe(j.to, change.emitter) + "\n";
-    return all;
+        text += fmt::format("  {} {} | {}\n", name, signer_.describe(j.from, change.emitter),
+                            signer_.describe(j.to, change.emitter));
+    return text;
   }
 
  private:

@@ -3,6 +3,8 @@
 #include "meshing/opaque_scene.h"
 #include "meshing/visible_part.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <compare>
@@ -78,25 +80,14 @@ class Signer {
   /// Name and ends, for messages.
   std::string describe(int line, int emitter) const {
     if (line == horizon_edge) return "horizon";
-    if (line >= first_plane()) return "cut of plane " + std::to_string(line - first_plane());
-    const auto ends = ends_of(line, emitter);
-    std::string text = line < 0 ? "light edge " : "edge ";
-    text += std::to_string(line < 0 ? -1 - line : line);
-    for (const Vec3& p : ends) {
-      text += " (";
-      for (int k = 0; k < 3; ++k) text += (k > 0 ? ", " : "") + number(p[k]);
-      text += ")";
-    }
-    return text;
+    if (line >= first_plane()) return fmt::format("cut of plane {}", line - first_plane());
+    const auto [a, b] = ends_of(line, emitter);
+    return fmt::format("{} {} ({:.10g}, {:.10g}, {:.10g}) ({:.10g}, {:.10g}, {:.10g})",
+                       line < 0 ? "light edge" : "edge", line < 0 ? -1 - line : line, a.x(), a.y(),
+                       a.z(), b.x(), b.y(), b.z());
   }
 
  private:
-  static std::string number(double x) {
-    std::array<char, 32> buffer{};
-    return {buffer.data(),
-            static_cast<std::size_t>(std::snprintf(buffer.data(), buffer.size(), "%.10g", x))};
-  }
-
   int first_plane() const {
     return opaque_.edge_count() + static_cast<int>(opaque_.impl().triangles.size());
   }

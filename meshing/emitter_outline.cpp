@@ -9,13 +9,18 @@ namespace {
 
 // More planes than this cost more in tests than they save in edges.
 constexpr std::size_t max_sides = 8;
+// How far the horizon is raised, in roundings of a length.
+constexpr double raised = 4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+/// Above the horizon, which is raised by a few roundings: so edges of other faces that lie in the
+/// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
 double EmitterOutline::height(const PointView& view, int corner) const {
-  const double h = normal_.dot(view.corners[at(corner)].true_position - point_);
+  const double h =
+      normal_.dot(view.corners[at(corner)].true_position - point_) - raised * view.slack();
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 

@@ -139,7 +139,7 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
   }
 }
 
-/// Parameters between which nothing changes along the swath's lines, in order.
+/// Adds the parameters between t0 and t1 at which the swath's line meets an edge.
 void SwathTracer::cut(const Swath& swath, double t0, double t1) {
   const double slack = scene_.tolerance.length;
   const SwathHull hull = hull_of(swath, t0, t1);
@@ -163,7 +163,7 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
   // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
   for (const Span3& contact : contacts_) consider(contact);
   for (const double t : found)
-    if (t > t0 && t < t1) parameters_.push_back(t);
+    if (t >= t0 && t <= t1) parameters_.push_back(t);
 }
 
 /// Where the faces at the edges that make the swath turn from one side to the other.
@@ -186,7 +186,6 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
   for (const OutlinePiece& piece : stage_.outline)
     critical_parameters(swath, piece.span, scene_.tolerance.length, coarse);
   add_silhouette_limits(swath, coarse);
-  for (int k = 1; k < hulls_per_swath; ++k) coarse.push_back(1.0 * k / hulls_per_swath);
   std::sort(coarse.begin(), coarse.end());
   std::vector<Open> open;
   for (std::size_t i = 1; i < coarse.size(); ++i) {
@@ -195,7 +194,9 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
     if (!line || !(swath.ends_on_outline || stage_.contains(line->start))) continue;
     parameters_.assign({t0, t1});
-    cut(swath, t0, t1);
+    const int hulls = static_cast<int>(std::ceil(hulls_per_swath * (t1 - t0)));
+    for (int h = 0; h < hulls; ++h)
+      cut(swath, t0 + h * (t1 - t0) / hulls, t0 + (h + 1) * (t1 - t0) / hulls);
     std::sort(parameters_.begin(), parameters_.end());
     for (std::size_t k = 1; k < parameters_.size(); ++k)
       if (parameters_[k] > parameters_[k - 1])

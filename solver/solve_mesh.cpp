@@ -119,7 +119,6 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
     mesh_options.irradiance_tolerance = search.tolerance() * mean_irradiance;
     std::optional<SolveMesh> mesh = try_mesh(scene, found, mesh_options, progress);
     const double count = mesh ? mesh->elements.count() : 2. * options.max_elements;
-    fprintf(stderr,"length %g tol %g count %g\n",search.length(),search.tolerance(),count);
     const bool fits = mesh && !search.is_too_many(count);
     if (fits && (!best || search.tolerance() > best->tolerance ||
                  search.distance(count) < search.distance(best->elements.count()))) {

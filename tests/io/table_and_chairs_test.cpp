@@ -19,8 +19,10 @@ TEST(TableAndChairs, FileHasTheSceneOfTheTests) {
   ASSERT_EQ(built.receivers.size(), read.receivers.size());
   for (std::size_t r = 0; r < read.receivers.size(); ++r) {
     EXPECT_NEAR(area(read.receivers[r]), area(built.receivers[r]), 1e-9) << r;
-    EXPECT_LT((read.receivers[r].frame.origin - built.receivers[r].frame.origin).norm(), 1e-9);
-    EXPECT_LT((read.receivers[r].frame.normal - built.receivers[r].frame.normal).norm(), 1e-9);
+    const PlaneFrame &a = read.receivers[r].frame, &b = built.receivers[r].frame;
+    EXPECT_LT((a.normal - b.normal).norm(), 1e-9);
+    for (std::size_t k = 0; k < built.receivers[r].rings[0].size(); ++k)
+      EXPECT_NEAR(a.height(b.to_space(built.receivers[r].rings[0][k])), 0, 1e-9);
   }
 }
 

@@ -9,7 +9,6 @@ namespace {
 // Parts of the receiver's size: of an element where no length is asked for, of the distance of a
 // mesh from its curves where no tolerance is, and of that distance at least, for jumps without
 // bound.
-constexpr double default_element = 1.0 / 20;
 constexpr double default_deviation = 1e-4;
 constexpr double least_deviation = 1e-5;
 // Part of an element beyond which a polyline would no longer look like its curve.
@@ -31,11 +30,6 @@ double size_of(const Receiver& receiver) {
   return box.diagonal().norm();
 }
 
-double element_size(double receiver_size, const DiscontinuityMeshOptions& options) {
-  return options.max_length > 0 ? std::min(options.max_length, receiver_size)
-                                : default_element * receiver_size;
-}
-
 bool is_negligible(const DiscontinuityCurve& curve, double h, double irradiance_tolerance) {
   return curve.order > 0 &&
          largest_jump(curve) * std::pow(h, curve.order) / factorial(curve.order) <
@@ -50,7 +44,7 @@ double flattening_deviation(const DiscontinuityCurve& curve, double receiver_siz
   const double harmless =
       std::pow(factorial(curve.order) * options.irradiance_tolerance / largest_jump(curve),
                1.0 / curve.order);
-  const double most = largest_deviation * element_size(receiver_size, options);
+  const double most = largest_deviation * element_size(receiver_size, options.max_length);
   return std::min(most, std::max(harmless, least_deviation * receiver_size));
 }
 
@@ -64,7 +58,7 @@ CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
   for (std::size_t id = 0; id < found.curves.size(); ++id) {
     const DiscontinuityCurve& curve = found.curves[id];
     const auto r = static_cast<std::size_t>(curve.receiver);
-    if (is_negligible(curve, element_size(size[r], options), options.irradiance_tolerance)) {
+    if (is_negligible(curve, element_size(size[r], options.max_length), options.irradiance_tolerance)) {
       ++result.culled;
       continue;
     }

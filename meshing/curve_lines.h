@@ -11,9 +11,6 @@ namespace halfshade {
 /// Diagonal of a receiver's bounding rectangle.
 double size_of(const Receiver& receiver);
 
-/// Length of the elements that a curve in a receiver of this size would cut.
-double element_size(double receiver_size, const DiscontinuityMeshOptions& options);
-
 /// Whether elements of size h across the curve are wrong by less than the irradiance tolerance:
 /// J_k h^k / k! with the largest of the three jumps. Never true of order 0.
 bool is_negligible(const DiscontinuityCurve& curve, double h, double irradiance_tolerance);

@@ -96,8 +96,11 @@ class Search {
     parallel_for(
         count,
         [&](std::size_t i) {
-          auto tracer =
-              tracers_.take([&] { return std::make_unique<SwathTracer>(scene_, opaque_, stage_); });
+          auto tracer = tracers_.take([&] {
+            return std::make_unique<SwathTracer>(
+                scene_, opaque_, stage_,
+                TraceLimits{options_.irradiance_tolerance / exitance_, options_.max_length});
+          });
           generate(static_cast<int>(i),
                    [&](const Swath& swath) { tracer->trace(swath, found[i]); });
           tracers_.give_back(std::move(tracer));

@@ -5,6 +5,7 @@
 #include "meshing/repair.h"
 #include "meshing/visible_part.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -78,8 +79,19 @@ struct LightSource {
 /// The receivers with E > 0, those that send most power first.
 std::vector<LightSource> light_sources(const SoundScene& scene);
 
+/// The size of the elements that the effect of a curve is judged by: the longest edge asked for, or
+/// a twentieth of the receiver's size if that is 0.
+inline double element_size(double receiver_size, double max_length) {
+  return max_length > 0 ? std::min(max_length, receiver_size) : receiver_size / 20;
+}
+
 struct DiscontinuityOptions {
   bool contact = true, face = true, ev = true, eee = true;  ///< which events to look for
+  /// Lines of sight along which the irradiance can change by less than this (W/m²) over an element
+  /// are not followed; those that can change its slope only where the source gives
+  /// less than this. 0: all are.
+  double irradiance_tolerance = 0;
+  double max_length = 0;  ///< of the elements to come, scene units; see element_size
 };
 
 /// How the curves came about.

@@ -288,11 +288,24 @@ EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, i
                    position_roundings * std::numeric_limits<double>::epsilon() * impl.magnitude);
   rings = scene.receivers[at(receiver)].rings;
   hull = convex_hull(rings[0]);
+  for (const Vec2& p : hull) bounds.extend(p);
+  area = halfshade::area(scene.receivers[at(receiver)]);
   Builder(scene, impl, *this).run();
   for (OutlinePoint& corner : corners) {
     std::sort(corner.edges.begin(), corner.edges.end());
     corner.edges.erase(std::unique(corner.edges.begin(), corner.edges.end()), corner.edges.end());
   }
+}
+
+Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int edge) {
+  if (edge >= 0 && edge < static_cast<int>(opaque.edges.size())) {
+    const auto& ends = opaque.edges[at(edge)];
+    const Vec3& from = opaque.vertices[at(ends.from)];
+    return {from, opaque.vertices[at(ends.to)] - from};
+  }
+  for (const OutlinePiece& piece : stage.outline)
+    if (piece.id == edge) return {piece.span.from, piece.span.direction()};
+  return {stage.frame.origin, stage.frame.e1};
 }
 
 bool EmitterStage::may_be_silhouette(const StageEdge& edge, const Vec3& direction) const {

@@ -53,6 +53,8 @@ struct EmitterStage {
   double slack;  ///< a length: positions closer than this are the same
   std::vector<std::vector<Vec2>> rings;
   std::vector<Vec2> hull;  ///< of the outer ring, counter-clockwise
+  Eigen::AlignedBox2d bounds;
+  double area;
   std::vector<StageEdge> edges;
   std::vector<StageEdge::Face> faces;
   std::vector<StageVertex> vertices;
@@ -71,6 +73,9 @@ struct EmitterStage {
   /// Whether a point of the plane lies in the emitter or within the slack of its border.
   bool contains(const Vec3& point) const;
 };
+
+/// The line that an edge, as in BoundaryPiece::edge, lies on.
+Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int edge);
 
 /// The convex hull of points in a plane, counter-clockwise.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);

@@ -82,7 +82,7 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
                                         int edge) const {
-  const Line3 line = line_of(edge);
+  const Line3 line = line_of(stage_, opaque_.impl(), edge);
   const double slack = scene_.tolerance.length;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
@@ -92,22 +92,13 @@ double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3
                                      const Vec3& left, const Vec3& normal) const {
   double jump = 0;
   for (const EdgeTriple& triple : curve.triples) {
-    const double size = triangle_jump(
-        {point, normal, left}, stage_.frame,
-        {line_of(triple.edges[0]), line_of(triple.edges[1]), line_of(triple.edges[2])});
+    const double size = triangle_jump({point, normal, left}, stage_.frame,
+                                      {line_of(stage_, opaque_.impl(), triple.edges[0]),
+                                       line_of(stage_, opaque_.impl(), triple.edges[1]),
+                                       line_of(stage_, opaque_.impl(), triple.edges[2])});
     if (std::isfinite(size)) jump += triple.sign * size;
   }
   return jump;
-}
-
-Line3 JumpPredictor::line_of(int edge) const {
-  if (edge >= 0 && edge < opaque_.edge_count()) {
-    const auto [from, to] = opaque_.edge_ends(edge);
-    return {from, to - from};
-  }
-  for (const OutlinePiece& piece : stage_.outline)
-    if (piece.id == edge) return {piece.span.from, piece.span.direction()};
-  return {stage_.frame.origin, stage_.frame.e1};
 }
 
 }  // namespace halfshade

@@ -24,7 +24,6 @@ class JumpPredictor {
   double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
                         const Vec3& normal) const;
   bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, int edge) const;
-  Line3 line_of(int edge) const;
 
   const SoundScene& scene_;
   const OpaqueScene& opaque_;

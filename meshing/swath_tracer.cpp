@@ -1,10 +1,12 @@
 #include "meshing/swath_tracer.h"
 
+#include "meshing/curve_lines.h"
 #include "meshing/event_evidence.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -19,6 +21,8 @@ constexpr double roundings_per_step = 1e4;
 // What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
 // only at some distance; what lies closer together is told apart by the narrow step.
 constexpr double wide_step = 300;
+// One line of a piece decides for all, so that less than the limit must count.
+constexpr double least_share_of_limit = 0.25;
 // Edges shorter than this share of the scene's size call for the narrow step.
 constexpr double fine_detail = 1e-4;
 // Pieces of swath shorter than this many side steps on the receiver cannot be decided.
@@ -111,10 +115,11 @@ struct SwathTracer::Open {
 };
 
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
-                         const EmitterStage& stage)
+                         const EmitterStage& stage, const TraceLimits& limits)
     : scene_(scene),
       opaque_(opaque.impl()),
       stage_(stage),
+      limits_(limits),
       finder_(opaque),
       step_(side_step(scene, opaque)) {
   const double fine = fine_detail * scene.tolerance.scene_size;
@@ -130,6 +135,7 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
   }
   for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
     const Receiver& receiver = scene.receivers[r];
+    receiver_size_.push_back(size_of(receiver));
     for (const Segment2& contact : receiver.contacts)
       contacts_.push_back(
           {receiver.frame.to_space(contact[0]), receiver.frame.to_space(contact[1])});
@@ -211,7 +217,7 @@ void SwathTracer::trace_piece(const Swath& swath, double t0, double t1, std::vec
   ++counts_.pieces;
   find_crossings(*line);
   collect_receivers(*line);
-  for (const int receiver : reached_) try_receiver(swath, receiver, t0, t1, open);
+  for (const int receiver : reached_) try_receiver(swath, *line, receiver, t0, t1, open);
 }
 
 bool SwathTracer::may_be_event(const Swath& swath, const SightLine& line) const {
@@ -275,8 +281,8 @@ void SwathTracer::collect_receivers(const SightLine& line) {
   }
 }
 
-void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, double t1,
-                               std::vector<Open>& open) {
+void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0,
+                               double t1, std::vector<Open>& open) {
   const Receiver& target = scene_.receivers[at(receiver)];
   const double tm = 0.5 * (t0 + t1);
   const auto trace = trace_at(swath, target.frame, tm);
@@ -289,6 +295,7 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
   if (is_known(swath, receiver, before->point, after->point)) return;
   if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
   const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
+  if (!may_matter(swath, line, receiver, {trace->point, target.frame.normal, left})) return;
   EventEvidence evidence;
   for (const double step : {wide_step * step_, step_}) {
     if (step == step_ && !has_fine_detail_) break;
@@ -310,6 +317,43 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
         return;
       }
   open.push_back({receiver, t0, t1, std::move(evidence.triples)});
+}
+
+/// False only if what happens at a point is below the limits.
+bool SwathTracer::may_matter(const Swath& swath, const SightLine& line, int receiver,
+                             const ReceivingPoint& at) const {
+  if (!(limits_.least_change > 0)) return true;
+  // The form factor is at most the emitter's area times the largest kernel.
+  const Vec2 in_plane = stage_.frame.to_plane(at.position);
+  Vec2 nearest = in_plane;
+  for (Eigen::Index k = 0; k < 2; ++k)
+    nearest[k] = std::clamp(in_plane[k], stage_.bounds.min()[k], stage_.bounds.max()[k]);
+  const double height = stage_.frame.height(at.position);
+  const double distance = std::hypot(height, (nearest - in_plane).norm());
+  if (stage_.area * height < limits_.least_change * std::numbers::pi * std::pow(distance, 3))
+    return false;
+  const double h =
+      element_size(receiver_size_[static_cast<std::size_t>(receiver)], limits_.max_length);
+  if (swath.may_be_first_order) {
+    // A shadow's straight edge across all of the emitter, moving as its nearest point does.
+    const Vec3 way = line.start - at.position;
+    const double kernel = std::abs(at.normal.dot(way) * stage_.frame.normal.dot(way)) /
+                          (std::numbers::pi * std::pow(way.squaredNorm(), 2));
+    const double speed = (line.start - line.last).norm() / (line.last - at.position).norm();
+    const double jump = kernel * speed * stage_.bounds.diagonal().norm();
+    return jump * h >= least_share_of_limit * limits_.least_change;
+  }
+  const auto& ids = swath.group;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      for (std::size_t k = 0; k < j; ++k) {
+        const double jump =
+            triangle_jump(at, stage_.frame,
+                          {line_of(stage_, opaque_, ids[i]), line_of(stage_, opaque_, ids[j]),
+                           line_of(stage_, opaque_, ids[k])});
+        if (!(0.5 * jump * h * h < least_share_of_limit * limits_.least_change)) return true;
+      }
+  return false;
 }
 
 /// All swaths of one face lie in its plane and may make the same piece of curve.

@@ -8,6 +8,12 @@
 
 namespace halfshade {
 
+/// What is not worth following.
+struct TraceLimits {
+  double least_change = 0;  ///< of the form factor over an element
+  double max_length = 0;    ///< see element_size
+};
+
 /// Counts of what a tracer did.
 struct TraceCounts {
   std::size_t swaths = 0;
@@ -22,7 +28,8 @@ struct TraceCounts {
 class SwathTracer {
  public:
   /// All must outlive the tracer.
-  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage);
+  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
+              const TraceLimits& limits = {});
 
   /// Appends the pieces of curve that a swath makes.
   void trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves);
@@ -48,14 +55,18 @@ class SwathTracer {
   void find_crossings(const SightLine& line);
   bool may_be_event(const Swath& swath, const SightLine& line) const;
   void collect_receivers(const SightLine& line);
-  void try_receiver(const Swath& swath, int receiver, double t0, double t1,
+  void try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0, double t1,
                     std::vector<Open>& open);
+  bool may_matter(const Swath& swath, const SightLine& line, int receiver,
+                  const ReceivingPoint& at) const;
   bool is_known(const Swath& swath, int receiver, const Vec3& from, const Vec3& to);
   void finish(const Swath& swath, const Open& piece, std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
   const OpaqueScene::Impl& opaque_;
   const EmitterStage& stage_;
+  TraceLimits limits_;
+  std::vector<double> receiver_size_;    ///< diagonals of the bounding boxes
   std::vector<std::vector<int>> backs_;  ///< plane → receivers that are backs
   std::vector<Span3> contacts_;          ///< of all receivers
   std::vector<bool> is_inner_;           ///< edges between two triangles of one receiver

@@ -36,11 +36,6 @@ void check(const MeshOptions& options) {
 void make_elements(const MeshOptions& options, const OpaqueScene& opaque, const Progress& progress,
                    Stages& stages, MeshResult& result) {
   const SoundScene& scene = result.scene;
-  if (options.tolerance > 0)
-    stages.run("tolerance", [&] {
-      result.irradiance_tolerance = options.tolerance * mean_direct_irradiance(scene, progress);
-      return std::size_t{1};
-    });
   stages.run("mesh", [&] {
     DiscontinuityMeshOptions mesh_options;
     mesh_options.max_length = options.max_length;
@@ -80,9 +75,18 @@ MeshResult mesh_scene(const Scene& scene, const MeshOptions& options, const Prog
     sources = all_sources(scene, result.scene, options.secondary, progress);
     return sources.size();
   });
+  if (options.tolerance > 0)
+    stages.run("tolerance", [&] {
+      result.irradiance_tolerance =
+          options.tolerance * mean_direct_irradiance(result.scene, progress);
+      return std::size_t{1};
+    });
   const OpaqueScene opaque(result.scene);
   stages.run("discontinuities", [&] {
-    result.found = find_discontinuities(result.scene, opaque, sources, options.events, progress);
+    DiscontinuityOptions events = options.events;
+    events.irradiance_tolerance = result.irradiance_tolerance;
+    events.max_length = options.max_length;
+    result.found = find_discontinuities(result.scene, opaque, sources, events, progress);
     return result.found.curves.size();
   });
   if (options.with_elements) make_elements(options, opaque, progress, stages, result);

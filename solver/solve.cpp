@@ -67,9 +67,12 @@ void make_elements(const Scene& scene, const SolveOptions& options, const Progre
   if (needless.empty())
     stages.run("discontinuities", [&] {
       const auto sources = all_sources(scene, result.scene, options.secondary, progress);
-      found = find_discontinuities(result.scene, OpaqueScene(result.scene), sources, options.events,
-                                   progress);
       mean_irradiance = mean_direct_irradiance(result.scene, progress);
+      DiscontinuityOptions events = options.events;
+      events.irradiance_tolerance = options.tolerance * mean_irradiance;
+      events.max_length = longest_edge(result.scene, options);
+      found =
+          find_discontinuities(result.scene, OpaqueScene(result.scene), sources, events, progress);
       return found.curves.size();
     });
   result.discontinuities = found.report;

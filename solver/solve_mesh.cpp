@@ -40,7 +40,7 @@ class SizeSearch {
         most_(options.max_length > 0 ? options.max_elements
                                      : std::min<double>(options.max_elements, 2 * wanted_)),
         is_fixed_(options.max_length > 0),
-        longest_(at_most_longer * first_length(scene, options)),
+        longest_(longest_edge(scene, options)),
         density_(1 / std::pow(first_length(scene, options), 2)),
         tolerance_(options.tolerance) {}
 
@@ -72,9 +72,7 @@ class SizeSearch {
 
  private:
   static constexpr double raise = 4, smallest_raised = 0.01;
-  /// What curves can do is judged for elements as long as allowed, so length is no way to have
-  /// fewer.
-  static constexpr double at_most_longer = 2, most_at_once = 4;
+  static constexpr double most_at_once = 4;
   static constexpr int most_raises = 8, most_changes = 5;
 
   double wanted_, most_;
@@ -85,6 +83,13 @@ class SizeSearch {
 };
 
 }  // namespace
+
+double longest_edge(const SoundScene& scene, const SolveOptions& options) {
+  // What curves can do is judged for elements as long as allowed, so length is no way to have
+  // fewer.
+  constexpr double at_most_longer = 2;
+  return (options.max_length > 0 ? 1 : at_most_longer) * first_length(scene, options);
+}
 
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
                           const Progress& progress) {

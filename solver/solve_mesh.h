@@ -12,6 +12,9 @@ struct SolveMesh {
   double tolerance = 0;  ///< share of the mean irradiance, as used
 };
 
+/// The longest element edge that a mesh along curves may come to have.
+double longest_edge(const SoundScene& scene, const SolveOptions& options);
+
 /// Meshes with the length asked for, or with the one that comes nearest to the number of elements
 /// asked for: narrow receivers need more than their area suggests. Throws Error(too_large) if it
 /// takes more than options.max_elements.

@@ -47,9 +47,9 @@ TEST(IsNegligible, NothingIsWithoutATolerance) {
 }
 
 TEST(ElementSize, IsWhatIsAskedForButNotMoreThanTheReceiver) {
-  EXPECT_DOUBLE_EQ(element_size(4, {}), 0.2);
-  EXPECT_DOUBLE_EQ(element_size(4, {.max_length = 0.7}), 0.7);
-  EXPECT_DOUBLE_EQ(element_size(4, {.max_length = 7}), 4);
+  EXPECT_DOUBLE_EQ(element_size(4, 0), 0.2);
+  EXPECT_DOUBLE_EQ(element_size(4, 0.7), 0.7);
+  EXPECT_DOUBLE_EQ(element_size(4, 7), 4);
 }
 
 TEST(FlatteningDeviation, IsWhereTheDamageReachesTheTolerance) {

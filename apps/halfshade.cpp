@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <new>
@@ -42,6 +43,19 @@ void add_common(CLI::App& app, CommonOptions& common) {
       ->check(CLI::Range(1, 4096));
   app.add_option("--json", common.json, "Write a machine-readable report to FILE")
       ->type_name("FILE");
+}
+
+/// A number that is finite and at least zero, or above it; CLI11's own checks let NaN pass.
+CLI::Validator number(bool zero_too) {
+  return {[zero_too](const std::string& text) -> std::string {
+            double value = -1;
+            if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
+                (value > 0 || (zero_too && value == 0)))
+              return {};
+            return fmt::format("'{}' is not a number {} zero", text,
+                               zero_too ? "of at least" : "above");
+          },
+          zero_too ? "NUMBER >= 0" : "NUMBER > 0"};
 }
 
 /// Which discontinuities to look for.
@@ -85,7 +99,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       ->check(CLI::Range(1, 1000000));
   app->add_option("--max-length", options.max_length,
                   "Longest element edge in scene units (instead of --elements)")
-      ->check(CLI::PositiveNumber);
+      ->check(number(false));
   app->add_option("--max-elements", options.max_elements, "Refuse to make more elements than this")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
@@ -116,7 +130,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   app->add_option("--tolerance", options.tolerance,
                   "Leave out lines that change the irradiance by less than this share of its mean")
       ->capture_default_str()
-      ->check(CLI::Range(0., 1e6));
+      ->check(number(true));
   add_events(*app, options.events, options.secondary);
   add_common(*app, common);
   app->footer(
@@ -149,10 +163,10 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
          "--tolerance", options.tolerance,
          "Leave out lines that change the irradiance by less than this share of its mean,\n"
          "and draw conics accordingly (default: 0, the mesh is complete)")
-      ->check(CLI::Range(0., 1e6));
+      ->check(number(true));
   app->add_option("--max-length", options.max_length,
                   "Longest element edge in scene units (default: no limit)")
-      ->check(CLI::PositiveNumber);
+      ->check(number(false));
   add_events(*app, options.events, options.secondary);
   CLI::Option* picture =
       app->add_option("--picture", command.picture,

@@ -41,15 +41,17 @@ std::string closure_line(const ExchangeReport& exchange) {
                      exchange.closure_enforced ? ", put right" : ", left as it is");
 }
 
-void print_summary(const SolveResult& result, bool verbose) {
+void print_summary(const SolveResult& result, double asked_tolerance, bool verbose) {
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
       fmt::print("repair       {}\n", repair.sentence);
   fmt::print("receivers    {}\n", result.scene.receivers.size());
   fmt::print("elements     {}\n", result.elements.count());
   if (result.curves > 0)
-    fmt::print("lines        {} of {} discontinuities, effect above {:.2g} of the mean light\n",
-               result.mesh.kept, result.curves, result.discontinuity_tolerance);
+    fmt::print("lines        {} of {} discontinuities{}\n", result.mesh.kept, result.curves,
+               result.discontinuity_tolerance > asked_tolerance
+                   ? "; more would take more elements than asked for"
+                   : "");
   fmt::print("factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
              closure_line(result.exchange));
   const ChannelReport& channel = result.radiosity.channel[0];
@@ -80,7 +82,7 @@ int run(const SolveCommand& command, const Context& context) {
   if (!context.common.json.empty())
     write_report(result, context.provenance, outputs, context.common.json);
   if (!context.common.quiet) {
-    print_summary(result, context.common.verbose);
+    print_summary(result, command.options.tolerance, context.common.verbose);
     for (const auto& path : outputs) fmt::print("wrote        {}\n", path.string());
   }
   if (result.interrupted) {

@@ -55,6 +55,16 @@ Json repairs_json(const SoundScene& scene) {
   return json;
 }
 
+/// Shares of the area by smallest angle; what lies at input angles stands apart.
+Json area_quality_json(const ElementTable& elements) {
+  const AreaQuality quality = summarize_area_quality(elements);
+  return {{"histogram", {{"bin_width", 5}, {"shares", quality.histogram}}},
+          {"near_input_angles", quality.near_input_angles},
+          {"good", quality.good},
+          {"tolerable", quality.tolerable},
+          {"min_angle", quality.min_angle}};
+}
+
 Json mesh_json(const ElementTable& elements) {
   const QualitySummary quality = summarize_quality(elements);
   return {{"elements", elements.count()},
@@ -236,6 +246,7 @@ void write_report(const MeshResult& result, const Provenance& provenance,
   detail::require_consistent(result.elements, "write_report");
   Json mesh = mesh_json(result.elements);
   mesh.update(along_curves_json(result.mesh));
+  mesh["area_quality"] = area_quality_json(result.elements);
   mesh["irradiance_tolerance"] = result.irradiance_tolerance;
   write({{"version", provenance.version},
          {"command_line", provenance.command_line},

@@ -53,14 +53,15 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
 }
 
 // Whether the planes of two receivers, each off its corners by at most `planarity`, explain that an
-// edge of both lies here in one and, moved by `offset` across it, in the other.
+// edge of both lies here in one and, moved by `offset` across it, in the other. Parallel ones do
+// not: receivers that lie in one plane to within the tolerance have the same plane.
 bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal_b,
                     const Tolerance& tolerance) {
   if (offset.norm() <= tolerance.length) return true;
   // The offset as a sum of parts along the normals.
   const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
   const double squared_sine = normal_a.cross(normal_b).squaredNorm();
-  if (squared_sine <= least_squared_sine) return (offset - a * normal_a).norm() <= tolerance.length;
+  if (squared_sine <= least_squared_sine) return false;
   return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
          std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
 }
@@ -146,7 +147,8 @@ class WallJoiner {
         return HUGE_VAL;
       gap = std::max(gap, offset.norm());
     }
-    return gap;
+    // Or they only touch at their ends, which overlap by as much as planes are off.
+    return gap <= largest_gap * (end - begin) ? gap : HUGE_VAL;
   }
 
   // Whether walls of one receiver would come to lie on each other.

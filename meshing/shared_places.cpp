@@ -89,10 +89,16 @@ class PlaceFinder {
     return i;
   }
 
+  Vec3 position(int i) const {
+    const auto [receiver, point] = points_[at(i)];
+    return scene_.receivers[at(receiver)].frame.to_space(
+        meshes_[at(receiver)].mesh->points[at(point)]);
+  }
+
   // Not if both have a point of the same receiver.
   void join(int p, int q) {
     const int a = std::min(root(p), root(q)), b = std::max(root(p), root(q));
-    if (a == b) return;
+    if (a == b || (position(p) - position(q)).norm() > farthest_) return;
     std::vector<int> both;
     std::merge(owners_[at(a)].begin(), owners_[at(a)].end(), owners_[at(b)].begin(),
                owners_[at(b)].end(), std::back_inserter(both));
@@ -117,8 +123,7 @@ class PlaceFinder {
       const auto first = at(root(static_cast<int>(i)));  // the lowest of those joined
       if (first == i) {
         place_[i] = static_cast<int>(result.position.size());
-        const Vec2& p = meshes_[at(receiver)].mesh->points[at(point)];
-        result.position.push_back(scene_.receivers[at(receiver)].frame.to_space(p));
+        result.position.push_back(position(static_cast<int>(i)));
         receivers_at_.push_back(owners_[i]);
       }
       place_[i] = place_[first];
@@ -188,6 +193,8 @@ class PlaceFinder {
   std::vector<std::vector<int>> owners_;        // of roots: the receivers that have a point there
   std::vector<int> place_;                      // of each point
   std::vector<std::vector<int>> receivers_at_;  // of each place
+  // Two planes are off a common corner by this much at most, and its rounding.
+  const double farthest_ = 4 * std::max(scene_.tolerance.planarity, scene_.tolerance.length);
 };
 
 }  // namespace

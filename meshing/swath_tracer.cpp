@@ -19,6 +19,8 @@ constexpr double roundings_per_step = 1e4;
 // What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
 // only at some distance; what lies closer together is told apart by the narrow step.
 constexpr double wide_step = 300;
+// Edges shorter than this share of the scene's size call for the narrow step.
+constexpr double fine_detail = 1e-4;
 // Pieces of swath shorter than this many side steps on the receiver cannot be decided.
 constexpr double least_steps = 4;
 // How often a conic may be halved before it is made of arcs that turn little.
@@ -115,6 +117,11 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
       stage_(stage),
       finder_(opaque),
       step_(side_step(scene, opaque)) {
+  const double fine = fine_detail * scene.tolerance.scene_size;
+  for (const StageEdge& edge : stage.edges)
+    has_fine_detail_ = has_fine_detail_ || edge.whole.direction().norm() < fine;
+  for (const OutlinePiece& piece : stage.outline)
+    has_fine_detail_ = has_fine_detail_ || piece.span.direction().norm() < fine;
   for (const auto& edge : opaque_.edges) {
     const auto receiver_of = [&](int i) {
       return opaque_.triangles[at(opaque_.incidences[at(edge.first + i)].triangle)].receiver;
@@ -132,7 +139,7 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
   }
 }
 
-/// Parameters between which nothing changes along the swath's lines, in order.
+/// Adds the parameters between t0 and t1 at which the swath's line meets an edge.
 void SwathTracer::cut(const Swath& swath, double t0, double t1) {
   const double slack = scene_.tolerance.length;
   const SwathHull hull = hull_of(swath, t0, t1);
@@ -156,7 +163,7 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
   // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
   for (const Span3& contact : contacts_) consider(contact);
   for (const double t : found)
-    if (t > t0 && t < t1) parameters_.push_back(t);
+    if (t >= t0 && t <= t1) parameters_.push_back(t);
 }
 
 /// Where the faces at the edges that make the swath turn from one side to the other.
@@ -179,7 +186,6 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
   for (const OutlinePiece& piece : stage_.outline)
     critical_parameters(swath, piece.span, scene_.tolerance.length, coarse);
   add_silhouette_limits(swath, coarse);
-  for (int k = 1; k < hulls_per_swath; ++k) coarse.push_back(1.0 * k / hulls_per_swath);
   std::sort(coarse.begin(), coarse.end());
   std::vector<Open> open;
   for (std::size_t i = 1; i < coarse.size(); ++i) {
@@ -188,7 +194,9 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
     if (!line || !(swath.ends_on_outline || stage_.contains(line->start))) continue;
     parameters_.assign({t0, t1});
-    cut(swath, t0, t1);
+    const int hulls = static_cast<int>(std::ceil(hulls_per_swath * (t1 - t0)));
+    for (int h = 0; h < hulls; ++h)
+      cut(swath, t0 + h * (t1 - t0) / hulls, t0 + (h + 1) * (t1 - t0) / hulls);
     std::sort(parameters_.begin(), parameters_.end());
     for (std::size_t k = 1; k < parameters_.size(); ++k)
       if (parameters_[k] > parameters_[k - 1])
@@ -278,10 +286,12 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
   if ((trace->point - before->point).norm() < least || (trace->point - after->point).norm() < least)
     return;
   const Vec2 p = target.frame.to_plane(trace->point);
+  if (is_known(swath, receiver, before->point, after->point)) return;
   if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
   const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
   EventEvidence evidence;
   for (const double step : {wide_step * step_, step_}) {
+    if (step == step_ && !has_fine_detail_) break;
     const Vec3 a = trace->point + step * left, b = trace->point - step * left;
     finder_.find(a, target.frame.normal, stage_.emitter, left_);
     finder_.find(b, target.frame.normal, stage_.emitter, right_);
@@ -290,6 +300,8 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
     if (evidence.differs) break;
   }
   if (!evidence.differs) return;
+  if (swath.source.kind == CurveKind::face)
+    known_.push_back({receiver, before->point, after->point});
   std::sort(evidence.triples.begin(), evidence.triples.end());
   if (!open.empty())
     for (auto last = open.rbegin(); last != open.rend() && last->t1 >= t0; ++last)
@@ -298,6 +310,25 @@ void SwathTracer::try_receiver(const Swath& swath, int receiver, double t0, doub
         return;
       }
   open.push_back({receiver, t0, t1, std::move(evidence.triples)});
+}
+
+/// All swaths of one face lie in its plane and may make the same piece of curve.
+bool SwathTracer::is_known(const Swath& swath, int receiver, const Vec3& from, const Vec3& to) {
+  if (swath.source != known_source_) {
+    known_source_ = swath.source;
+    known_.clear();
+  }
+  const double slack = scene_.tolerance.length;
+  return std::any_of(known_.begin(), known_.end(), [&](const KnownPiece& known) {
+    if (known.receiver != receiver) return false;
+    const Vec3 along = (known.to - known.from).normalized();
+    const double length = (known.to - known.from).norm();
+    const auto lies_on = [&](const Vec3& p) {
+      const double t = along.dot(p - known.from);
+      return t >= -slack && t <= length + slack;
+    };
+    return lies_on(from) && lies_on(to);
+  });
 }
 
 /// Turns a piece of swath into arcs.

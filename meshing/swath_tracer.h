@@ -37,6 +37,10 @@ class SwathTracer {
     bool is_clear;  ///< well inside the triangle and not along it
   };
   struct Open;
+  struct KnownPiece {
+    int receiver;
+    Vec3 from, to;
+  };
 
   void add_silhouette_limits(const Swath& swath, std::vector<double>& parameters) const;
   void cut(const Swath& swath, double t0, double t1);
@@ -46,20 +50,24 @@ class SwathTracer {
   void collect_receivers(const SightLine& line);
   void try_receiver(const Swath& swath, int receiver, double t0, double t1,
                     std::vector<Open>& open);
+  bool is_known(const Swath& swath, int receiver, const Vec3& from, const Vec3& to);
   void finish(const Swath& swath, const Open& piece, std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
   const OpaqueScene::Impl& opaque_;
   const EmitterStage& stage_;
   std::vector<std::vector<int>> backs_;  ///< plane → receivers that are backs
-  std::vector<Span3> contacts_;  ///< of all receivers
-  std::vector<bool> is_inner_;   ///< edges between two triangles of one receiver
+  std::vector<Span3> contacts_;          ///< of all receivers
+  std::vector<bool> is_inner_;           ///< edges between two triangles of one receiver
   VisiblePartFinder finder_;
   VisiblePart left_, right_;
   double step_;  ///< see side_step
   std::vector<double> parameters_;
   std::vector<Crossing> crossings_;
   std::vector<int> reached_;
+  bool has_fine_detail_ = false;
+  CurveSource known_source_;       ///< what made the pieces below
+  std::vector<KnownPiece> known_;  ///< of the plane of one face
   TraceCounts counts_;
 };
 

@@ -52,7 +52,7 @@ std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice)
 std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options) {
   const DiscontinuityOptions& events = options.events;
   if (!options.discontinuities || !(events.contact || events.face || events.ev || events.eee))
-    return "it was asked to";
+    return "they were not asked for";
   if (is_convex(scene)) return "no surface can come between two others";
   return most_surfaces_emit(scene);
 }

@@ -6,7 +6,7 @@
 namespace halfshade::test {
 
 /// Three curves on the floor of S1 (receiver 2) that nothing in the scene makes: a D1 line
-/// x = 1 + floor's centre, a quarter of a circle of radius 1 about the floor's centre (D2, three
+/// x = 1.2 + floor's centre, a quarter of a circle of radius 1 about the floor's centre (D2, three
 /// edges), a contact line. Coordinates are those of the floor's frame.
 inline Discontinuities hand_made_curves() {
   Discontinuities found;
@@ -15,7 +15,7 @@ inline Discontinuities hand_made_curves() {
   line.receiver = 2;
   line.kind = CurveKind::ev;
   line.order = 1;
-  line.arc = straight_arc({1, -0.5}, {1, 0.5});
+  line.arc = straight_arc({1.2, -0.5}, {1.2, 0.5});
   line.jump = {-0.1, -0.2, -0.3};
   line.sources = {
       {CurveKind::ev, {{{Feature::Kind::emitter_edge, 3}, {Feature::Kind::edge, 2}}}, 2},

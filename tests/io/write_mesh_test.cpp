@@ -157,6 +157,10 @@ TEST(MeshReport, CountsCurvesByKindAndOrder) {
   EXPECT_EQ(mesh.at("culled"), 1);
   EXPECT_NEAR(mesh.at("min_angle").get<double>(), 45, 1e-12);
   EXPECT_EQ(mesh.at("irradiance_tolerance"), 0.125);
+  EXPECT_NEAR(mesh.at("area_quality").at("histogram").at("shares").at(8).get<double>() +
+                  mesh.at("area_quality").at("histogram").at("shares").at(9).get<double>(),
+              1, 1e-12)
+      << "halves of squares: 45 degrees, this side of it or that";
   EXPECT_EQ(json.at("stages").at(0).at("name"), "mesh");
   EXPECT_EQ(json.at("outputs"), nlohmann::json({"m.vtu"}));
 }

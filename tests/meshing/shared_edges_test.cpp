@@ -3,6 +3,7 @@
 #include "meshing/patch_mesh.h"
 #include "meshing/quality.h"
 #include "tests/support/cornell.h"
+#include "tests/support/degenerate_scenes.h"
 #include "tests/support/mesh_invariants.h"
 
 #include <gtest/gtest.h>
@@ -104,6 +105,70 @@ TEST(SharedEdges, PlainMeshesAreAlikeOnBothSides) {
       EXPECT_GT(expect_alike_across_receivers(table, scene), 0);
     }
   }
+}
+
+TEST(SharedEdges, ScenesWithShadowsOfEveryKindAreAlike) {
+  for (const auto& scenes : {test::degenerate_scenes(), test::discontinuity_scenes()})
+    for (const auto& [name, scene] : scenes) {
+      SCOPED_TRACE(name);
+      PatchMesh mesh(scene, {.max_length = length_for_count(scene, 500)});
+      for (int round = 0; round < 2; ++round) {
+        expect_sound(mesh.elements(), scene);
+        expect_alike_across_receivers(mesh.elements(), scene);
+        mesh.split_in_four(std::vector<int>{0, 3, mesh.element_count() - 1});
+      }
+    }
+}
+
+// Coordinates with six digits: polygons are off their planes, and neighbours off each other, by
+// more than the tolerance of points.
+TEST(SharedEdges, PolygonsOffTheirPlanesAreAlike) {
+  for (Scene input : {turned(stack()), turned(room_with_boxes()), turned(book())}) {
+    for (Vec3& p : input.vertices) p = (1e6 * p).array().round() * 1e-6;
+    const SoundScene scene = make_sound(input);
+    PatchMesh mesh(scene, {.max_length = length_for_count(scene, 400)});
+    for (int round = 0; round < 3; ++round) {
+      const ElementTable table = mesh.elements();
+      EXPECT_GT(expect_alike_across_receivers(table, scene, 3e-6), 50);
+      double area = 0, whole = 0;
+      for (const double a : table.area) area += a;
+      for (const Receiver& receiver : scene.receivers) whole += test::area_of(receiver.rings);
+      EXPECT_NEAR(area / whole, 1, 1e-6);
+      mesh.split_in_four(std::vector<int>{0, 50, 100, 150});
+    }
+  }
+}
+
+TEST(SharedEdges, WallsAHairApartAreNotJoined) {
+  // Two floors with a gap between them, and a box that does not quite touch a wall; the planes of
+  // box and wall must be farther apart than what counts as one.
+  for (const auto& [gap, box_gap] : {std::pair(5e-9, 1e-5), {1e-7, 1e-4}, {1e-5, 1e-3}}) {
+    Scene input;
+    const int grey = add_material(input, 0.5, 0);
+    add_polygon(input, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, grey);
+    add_polygon(input, {{1 + gap, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1 + gap, 1, 0}},
+                add_material(input, 0.4, 0));
+    add_box(input, {box_gap, 0.3, 0}, {0.4, 0.7, 0.5});
+    add_polygon(input, {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}}, grey);
+    const SoundScene scene = make_sound(input);
+    const ElementTable table = PatchMesh(scene, {.max_length = 0.3}).elements();
+    expect_sound(table, scene);
+    EXPECT_GT(expect_alike_across_receivers(table, scene), 0);
+  }
+}
+
+TEST(SharedEdges, SameForAnyNumberOfThreads) {
+  const SoundScene scene = make_sound(room_with_boxes());
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    PatchMesh mesh(scene, {.max_length = 0.2});
+    mesh.bisect(std::vector<int>{0, 100, 1000});
+    return mesh.elements();
+  };
+  const ElementTable one = run(1), two = run(2);
+  EXPECT_EQ(one.points, two.points);
+  EXPECT_EQ(one.corners, two.corners);
+  EXPECT_EQ(one.edge_order, two.edge_order);
 }
 
 TEST(SharedEdges, QualityDoesNotSufferFromNeighbours) {

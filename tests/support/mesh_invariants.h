@@ -159,13 +159,15 @@ inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
 }
 
 /// Where edges on rings and contact lines of different receivers lie on each other, they are the
-/// same, bit for bit. Returns how many pairs of such edges there are.
-inline int expect_alike_across_receivers(const ElementTable& table, const SoundScene& scene) {
+/// same, bit for bit. They do if they are less than `near` apart (the tolerance's length if it is
+/// 0). Returns how many pairs of such edges there are.
+inline int expect_alike_across_receivers(const ElementTable& table, const SoundScene& scene,
+                                         double near = 0) {
   struct Wall {
     int receiver;
     Vec3 low, high, a, b;
   };
-  const double near = scene.tolerance.length;
+  if (near == 0) near = scene.tolerance.length;
   std::vector<Wall> walls;
   for (int e = 0; e < table.count(); ++e)
     for (std::size_t k = 0; k < 3; ++k) {

@@ -7,8 +7,8 @@
 namespace halfshade {
 namespace {
 
-// No straight way passes more triangles than this before it is worth giving up.
-constexpr int most_steps = 100000;
+// A way past more triangles than this starts at a needle in fine surroundings; those come first.
+constexpr int most_steps = 500;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 

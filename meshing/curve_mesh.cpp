@@ -49,21 +49,32 @@ ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& 
   return mesh;
 }
 
-// Nothing if edges cross after all.
-std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
-  const auto& edges = drawing.graph.edges();
-  std::vector<Link> links, border;
-  for (const auto& edge : edges)
-    if (edge.part_count == 0) links.push_back({edge.a, edge.b});
+// The edges that the inside ends at. Where rings have become one, within rounding of a needle's
+// tip, say, there is nothing between them.
+std::vector<Link> border_of(const CurveDrawing& drawing) {
+  std::vector<Link> all, border;
   for (const auto& [edge, is_border] : drawing.ring_edges)
     if (is_border)
       drawing.graph.for_each_part(edge, [&](int part) {
-        border.push_back({edges[at(part)].a, edges[at(part)].b});
+        const auto& e = drawing.graph.edges()[at(part)];
+        all.push_back({e.a, e.b});
       });
-  std::sort(border.begin(), border.end());
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = 0, j = 0; i < all.size(); i = j) {
+    while (j < all.size() && all[j] == all[i]) ++j;
+    if ((j - i) % 2 == 1) border.push_back(all[i]);
+  }
+  return border;
+}
+
+// Nothing if edges cross after all.
+std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
+  std::vector<Link> links;
+  for (const auto& edge : drawing.graph.edges())
+    if (edge.part_count == 0) links.push_back({edge.a, edge.b});
   try {
     const HullTriangulation hull = constrained_delaunay(drawing.graph.points(), links);
-    return cut_out(hull, inside(hull, border), drawing.graph);
+    return cut_out(hull, inside(hull, border_of(drawing)), drawing.graph);
   } catch (const Error&) {
     return {};
   }

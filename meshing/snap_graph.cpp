@@ -18,6 +18,8 @@ constexpr double edge_share = 0.5;
 constexpr double route_share = 0.35;
 // Edges this close are held against each other exactly; far above rounding.
 constexpr double crossing_share = 0.01;
+// Relative to coordinates: points closer to a fixed edge than this lie on it.
+constexpr double roundings = 8 * 0x1p-53;
 // Rounds of new crossings, and of leading edges through points. Real input settles in a few.
 constexpr int most_rounds = 200, most_passes = 1000;
 
@@ -51,6 +53,16 @@ double nearest_along(const Vec2& a, const Vec2& b, const Vec2& p) {
 
 double distance_to(const Vec2& a, const Vec2& b, const Vec2& p) {
   return (a + nearest_along(a, b, p) * (b - a) - p).norm();
+}
+
+bool are_crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) ||
+      std::max(c.x(), d.x()) < std::min(a.x(), b.x()) ||
+      std::max(a.y(), b.y()) < std::min(c.y(), d.y()) ||
+      std::max(c.y(), d.y()) < std::min(a.y(), b.y()))
+    return false;
+  return orientation(a, b, c) * orientation(a, b, d) < 0 &&
+         orientation(c, d, a) * orientation(c, d, b) < 0;
 }
 
 }  // namespace
@@ -128,7 +140,8 @@ int SnapGraph::add_fixed_edge(int a, int b) {
 }
 
 int SnapGraph::add_line(const Vec2& from, const Vec2& to, double merge) {
-  const int a = point_for(from, merge), b = point_for(to, merge);
+  const int a = point_for(from, merge, {-1, -1, -1, -1}),
+            b = point_for(to, merge, {-1, -1, -1, -1});
   return a == b ? -1 : add_edge(a, b, false);
 }
 
@@ -166,29 +179,48 @@ void SnapGraph::insert(int e, int point) {
       {e, nearest_along(place(target.a), place(target.b), place(point)), point, target.is_fixed});
 }
 
-// A point of a present fixed edge near p, which lies on the edge to rounding: one that is there
-// within `radius`, or a new one, which then awaits its insertion.
-int SnapGraph::point_on(int fixed_edge, const Vec2& p, double radius) {
+// A point of a present fixed edge near p, which lies on the edge to rounding: the nearest accepted
+// one that is there, or a new one, which then awaits its insertion.
+template <class Accept>
+int SnapGraph::point_on(int fixed_edge, const Vec2& p, const Accept& accept) {
   const Edge& e = edge(fixed_edge);
-  const int there = nearest(p, radius, [&](int i, double) {
-    return i == e.a || i == e.b || awaits_insert_.contains(pair_key(fixed_edge, i));
+  const double rounding = roundings * p.cwiseAbs().maxCoeff();
+  const int there = nearest(p, edge_share * snap_, [&](int i, double distance) {
+    const bool is_on_it = i == e.a || i == e.b || awaits_insert_.contains(pair_key(fixed_edge, i));
+    return (is_on_it && accept(i)) || distance <= rounding;
   });
-  if (there >= 0) return there;
+  if (there >= 0) {
+    insert(fixed_edge, there);
+    return there;
+  }
   const int point = new_point(p);
   insert(fixed_edge, point);
   return point;
 }
 
-// The point that stands for p: a point nearby, or one on a fixed edge nearby, or a new one.
-int SnapGraph::point_for(const Vec2& p, double merge) {
+// Whether a fixed edge lies between two points.
+bool SnapGraph::is_hidden(const Vec2& p, const Vec2& q) {
+  if (!fixed_tree_) index_fixed_edges();
+  bool result = false;
+  fixed_tree_->query_box(box_of(p, q, 0), [&](int i) {
+    const Edge& e = edge(indexed_[at(i)]);
+    result = result || are_crossing(p, q, place(e.a), place(e.b));
+  });
+  return result;
+}
+
+// The point that stands for p: a point nearby, or one on a fixed edge nearby, or a new one. `ends`:
+// of the edges that p lies on.
+int SnapGraph::point_for(const Vec2& p, double merge, const std::array<int, 4>& ends) {
   const int there = nearest(p, snap_, [&](int i, double distance) {
-    return distance <= merge || is_fixed_point_[at(i)];
+    if (distance > merge && !is_fixed_point_[at(i)]) return false;
+    return std::find(ends.begin(), ends.end(), i) != ends.end() || !is_hidden(p, place(i));
   });
   if (there >= 0) return there;
   const int fixed_edge = nearest_fixed_edge(p, edge_share * snap_);
   if (fixed_edge < 0) return new_point(p);
   const Vec2 a = place(edge(fixed_edge).a), b = place(edge(fixed_edge).b);
-  return point_on(fixed_edge, a + nearest_along(a, b, p) * (b - a), edge_share * snap_);
+  return point_on(fixed_edge, a + nearest_along(a, b, p) * (b - a), [](int) { return true; });
 }
 
 std::vector<int> SnapGraph::present() const {
@@ -244,7 +276,7 @@ bool SnapGraph::lead_through_points() {
     if (off * off > radius * radius * squared) return;
     if (to_p.squaredNorm() >= squared || (place(p) - place(e.b)).squaredNorm() >= squared) return;
     const auto where = std::lower_bound(list.begin(), list.end(), p);
-    if (*where == p) return;
+    if (*where == p || is_hidden(place(e.a) + along / squared * d, place(p))) return;
     std::move_backward(where, list.end() - 1, list.end());
     *where = p;
   };
@@ -268,14 +300,7 @@ bool SnapGraph::split_at_crossings() {
   const auto visit = [&](int i, int j) {
     const Edge &e = edge(ids[at(i)]), &f = edge(ids[at(j)]);
     if ((e.is_fixed && f.is_fixed) || e.a == f.a || e.a == f.b || e.b == f.a || e.b == f.b) return;
-    const Vec2 &a = place(e.a), &b = place(e.b), &c = place(f.a), &d = place(f.b);
-    if (std::max(a.x(), b.x()) < std::min(c.x(), d.x()) ||
-        std::max(c.x(), d.x()) < std::min(a.x(), b.x()) ||
-        std::max(a.y(), b.y()) < std::min(c.y(), d.y()) ||
-        std::max(c.y(), d.y()) < std::min(a.y(), b.y()))
-      return;
-    if (orientation(a, b, c) * orientation(a, b, d) >= 0) return;
-    if (orientation(c, d, a) * orientation(c, d, b) >= 0) return;
+    if (!are_crossing(place(e.a), place(e.b), place(f.a), place(f.b))) return;
     crossings.push_back({std::min(ids[at(i)], ids[at(j)]), std::max(ids[at(i)], ids[at(j)])});
   };
   SegmentPairs(segments, {}, crossing_share * snap_, visit).run();
@@ -295,10 +320,13 @@ void SnapGraph::resolve(const Pair& crossing) {
   const double side_a = cross(d - c, a - c), side_b = cross(d - c, b - c);
   const double t = side_a == side_b ? 0.5 : std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
   const Vec2 x = a + t * (b - a);
-  // An end of f farther away than this would give f a part that is not shorter.
-  const double limit = std::min((x - c).norm(), (x - d).norm());
-  const int point =
-      edge(e).is_fixed ? point_on(e, x, std::min(edge_share * snap_, limit)) : point_for(x, snap_);
+  const auto shortens_f = [&](int i) {
+    const double length = (d - c).norm();
+    return (place(i) - c).norm() < length && (place(i) - d).norm() < length;
+  };
+  const int point = edge(e).is_fixed
+                        ? point_on(e, x, shortens_f)
+                        : point_for(x, snap_, {edge(e).a, edge(e).b, edge(f).a, edge(f).b});
   insert(e, point);
   insert(f, point);
 }

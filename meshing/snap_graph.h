@@ -17,7 +17,7 @@ namespace halfshade {
 /// 2. points that are not fixed are at least snap/2 from all others (snap, where neither lies on
 ///    a fixed edge) and from fixed edges they do not lie on;
 /// 3. edges that are not fixed run through every point within snap/3 of them, save where they
-///    would have to grow to reach it;
+///    would have to grow or to cross a fixed edge to reach it;
 /// 4. every line is a chain of edges within a few snap of it.
 /// Settling ends: an edge is only ever replaced by strictly shorter ones, and there is room for
 /// finitely many points. See curve_mesh.md.
@@ -80,8 +80,10 @@ class SnapGraph {
   std::int64_t cell(double x) const;
   template <class Accept>
   int nearest(const Vec2& p, double radius, const Accept& accept) const;
-  int point_for(const Vec2& p, double merge);
-  int point_on(int fixed_edge, const Vec2& p, double radius);
+  bool is_hidden(const Vec2& p, const Vec2& q);
+  int point_for(const Vec2& p, double merge, const std::array<int, 4>& ends);
+  template <class Accept>
+  int point_on(int fixed_edge, const Vec2& p, const Accept& accept);
   int nearest_fixed_edge(const Vec2& p, double radius);
   int add_edge(int a, int b, bool is_fixed);
   void insert(int edge, int point);

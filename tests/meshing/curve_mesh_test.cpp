@@ -246,6 +246,27 @@ TEST(MeshWithCurves, SliversKeepTheirWidth) {
   }
 }
 
+// Lines that cross a needle at so shallow an angle that they come within the snap distance of both
+// its sides over a long way must not be led to and fro between them.
+TEST(MeshWithCurves, ShallowLinesThroughNeedlesSettle) {
+  for (const double height : {1e-3, 1e-5, 1e-7, 1e-8, 2e-9}) {
+    const std::vector<Ring> rings = {{{0, 0}, {0.4, 0}, {1, 0}, {0.5, height}}};
+    std::vector<CurveLine> lines = LineFamily("Random", 9).make(40);
+    for (CurveLine& line : lines)
+      for (Vec2& p : line.points) p.y() = 1e-5 * (p.y() - 0.5);
+    const CurveMesh mesh = mesh_with_curves(rings, {}, lines, unrefined());
+    EXPECT_TRUE(mesh.mesh.complete);
+    EXPECT_LE(mesh.deviation, 6e-7);
+    double area = 0;
+    for (const auto& t : mesh.mesh.triangles) {
+      Ring corners;
+      for (const int p : t) corners.push_back(mesh.mesh.points[static_cast<std::size_t>(p)]);
+      area += signed_area(corners);
+    }
+    EXPECT_NEAR(area, 0.5 * height, 1e-15) << "points on the slanted sides are rounded";
+  }
+}
+
 TEST(MeshWithCurves, ContactLinesAreKeptAlsoWhereCurvesRunAlongThem) {
   const std::vector<Segment2> contacts = {{Vec2(0.1, 0.5), Vec2(0.9, 0.5)},
                                           {Vec2(0.5, 0.1), Vec2(0.5, 0.9)},

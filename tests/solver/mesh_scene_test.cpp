@@ -44,7 +44,8 @@ TEST(MeshScene, LabelsEveryElementForEverySource) {
   for (std::size_t e = 0; e < n; ++e) {
     if (result.elements.receiver[e] == 1) {
       EXPECT_EQ(result.region[e], Region::away);
-    } else if (result.elements.receiver[e] == 2) {
+    }
+    if (result.elements.receiver[e] == 2) {
       EXPECT_EQ(result.region[e], Region::lit);
     }
     if (result.region[e] == Region::umbra) umbra += result.elements.area[e];

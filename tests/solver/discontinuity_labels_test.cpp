@@ -1,4 +1,5 @@
 #include "meshing/discontinuity_mesh.h"
+#include "solver/direct_light.h"
 #include "tests/support/degenerate_scenes.h"
 #include "tests/support/effort.h"
 #include "tests/support/mesh_invariants.h"
@@ -86,9 +87,15 @@ class HorizonJudge {
 };
 
 struct Tally {
-  int points = 0, near_a_curve = 0, at_horizon = 0;
+  int points = 0, near_a_curve = 0, at_horizon = 0, rounding = 0;
   std::array<int, 4> by_region{};
 };
+
+/// Next to a face's own border, rounding may lift the border over the horizon.
+bool is_lit_to_rounding(const DirectLightIndex& index, const SurfacePoint& point, int emitter) {
+  const PointFactor factor = index.factor(point, emitter);
+  return factor.visible > (1 - 1e-12) * factor.unobstructed;
+}
 
 void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m, int count,
              Tally& tally) {
@@ -99,6 +106,7 @@ void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m
   test::Random random(8);
   const double allowed = 1.01 * m.mesh.report.deviation + 1e-9 * scene.tolerance.scene_size;
   HorizonJudge judge(scene, opaque);
+  const DirectLightIndex index(scene);
   int wrong = 0;
   for (int i = 0; i < count; ++i) {
     const int element = random.integer(0, m.elements.count() - 1);
@@ -121,6 +129,8 @@ void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m
       ++tally.near_a_curve;
     } else if (judge.differ(point, middle, normal, emitter)) {
       ++tally.at_horizon;
+    } else if (label != Region::umbra && is_lit_to_rounding(index, {point, normal}, emitter)) {
+      ++tally.rounding;
     } else if (++wrong <= 3) {
       ADD_FAILURE() << named.name << ": element " << element << " of receiver " << receiver
                     << ", light " << emitter << ": label " << static_cast<int>(label) << ", point ("
@@ -148,6 +158,7 @@ TEST(DiscontinuityLabels, HoldForWholeElementsOfSoundMeshes) {
   if (std::getenv("HALFSHADE_SCENE")) return;
   EXPECT_LT(tally.near_a_curve, tally.points / 1000);
   EXPECT_LT(tally.at_horizon, tally.points / 1000);
+  EXPECT_LE(tally.rounding, tally.points / 10000);
   for (const Region region : {Region::lit, Region::penumbra, Region::umbra})
     EXPECT_GT(tally.by_region[static_cast<std::size_t>(region)], tally.points / 50);
 }

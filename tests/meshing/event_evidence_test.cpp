@@ -5,8 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <numeric>
 #include <vector>
 
 // Visible parts made by hand, on the plane z = 1 seen from the origin. Seen from there they lie on
@@ -32,9 +33,7 @@ struct Part {
   std::vector<int> edges;     // from corner k to the next
 };
 
-Part everything() {
-  return {{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, {-101, -102, -103, -104}};
-}
+Part everything() { return {{{-5, -5}, {5, -5}, {5, 5}, {-5, 5}}, {-101, -102, -103, -104}}; }
 
 Part clip(const Part& part, const Half& half) {
   Part kept;
@@ -123,8 +122,8 @@ TEST(EventEvidence, AnOccludersCornerOverTheBorderHidesATriangle) {
   const Part whole = cut({below, beside});
   // The side y = 1 runs from (1, 1) to (−5, 1); a notch goes down to (0, .99).
   Part notched = whole;
-  const auto side = static_cast<std::size_t>(
-      std::find(whole.edges.begin(), whole.edges.end(), -1) - whole.edges.begin());
+  const auto side = static_cast<std::size_t>(std::find(whole.edges.begin(), whole.edges.end(), -1) -
+                                             whole.edges.begin());
   const auto after = static_cast<std::ptrdiff_t>(side) + 1;
   notched.corners.insert(notched.corners.begin() + after, {{0.01, 1}, {0, 0.99}, {-0.01, 1}});
   notched.edges.insert(notched.edges.begin() + after, {5, 6, -1});
@@ -200,15 +199,19 @@ double triangle_area(const Half& a, const Half& b, const Half& c) {
 TEST(EventEvidence, TriplesAddUpToTheJumpOfTheAreasSecondDerivative) {
   // All sides pass through one point at t = 0, so that the area is a constant minus c±·t².
   Random random(1);
-  int several = 0, compared = 0;
+  int several = 0;
   for (int round = 0; round < 1000; ++round) {
     std::vector<Moving> lines;
     const int count = random.integer(3, 5);
+    std::vector<int> slot(static_cast<std::size_t>(count));  // none is parallel to another
+    std::iota(slot.begin(), slot.end(), 0);
+    for (std::size_t k = slot.size() - 1; k > 0; --k)
+      std::swap(slot[k], slot[static_cast<std::size_t>(random.integer(0, static_cast<int>(k)))]);
     for (int k = 0; k < count; ++k) {
-      const double angle = random(0.2, 1.4) + (k % 2 == 0 ? 0 : 0.6);
-      lines.push_back({{std::cos(angle), std::sin(angle)},
-                       k < 2 ? 0 : random(-1, 1),
-                       k < 2 ? -1 - k : 10 + k});
+      const double angle =
+          0.1 + (slot[static_cast<std::size_t>(k)] + random(0.1, 0.9)) * 1.8 / count;
+      lines.push_back(
+          {{std::cos(angle), std::sin(angle)}, k < 2 ? 0 : random(-1, 1), k < 2 ? -1 - k : 10 + k});
     }
     const double t = 1e-3;
     const auto part_at = [&](double time) {
@@ -220,19 +223,18 @@ TEST(EventEvidence, TriplesAddUpToTheJumpOfTheAreasSecondDerivative) {
     std::vector<int> group;
     for (const Moving& line : lines) group.push_back(line.edge);
     const EventEvidence evidence = compare(visible(left), visible(right), group);
-    // What is smooth is linear in t: the outermost lines move, and their far ends do not count.
-    const Part now = part_at(0);
     const auto line_of = [&](int edge, double time) {
-      return std::find_if(lines.begin(), lines.end(), [&](const Moving& l) {
-               return l.edge == edge;
-             })->at(time);
+      return std::find_if(lines.begin(), lines.end(),
+                          [&](const Moving& l) { return l.edge == edge; })
+          ->at(time);
     };
-    std::vector<Half> outer;
-    for (const int edge : now.edges)
-      if (std::count(group.begin(), group.end(), edge) > 0) outer.push_back(line_of(edge, 0));
-    if (outer.size() != 2) continue;
+    // At t = 0 the outermost lines make the corner; what they bound is smooth.
+    const auto [first, last] = std::minmax_element(
+        lines.begin(), lines.end(),
+        [](const Moving& a, const Moving& b) { return a.normal.x() > b.normal.x(); });
+    const std::array<Moving, 2> outer = {*first, *last};
     const auto smooth = [&](double time) {
-      return area(cut({line_of(outer[0].edge, time), line_of(outer[1].edge, time)}));
+      return area(cut({outer[0].at(time), outer[1].at(time)}));
     };
     const double jump = (area(left) - smooth(t)) - (area(right) - smooth(-t));
     double sum = 0;
@@ -242,9 +244,7 @@ TEST(EventEvidence, TriplesAddUpToTheJumpOfTheAreasSecondDerivative) {
     EXPECT_NEAR(sum, jump, 1e-12 + 1e-6 * std::abs(jump)) << round;
     EXPECT_EQ(evidence.differs, std::abs(jump) > 1e-13) << round;
     several += evidence.triples.size() > 1;
-    ++compared;
   }
-  EXPECT_GT(compared, 500);
   EXPECT_GT(several, 50);
 }
 

@@ -90,7 +90,7 @@ TEST(Intersections, TwoCrossingRectanglesGetOneContactLineEach) {
   for (const std::size_t r : {0u, 1u}) {
     const auto contacts = contacts_of(scene, r);
     ASSERT_EQ(contacts.size(), 1u);
-    const auto [low, high] = std::minmax(contacts[0][0].x(), contacts[0][1].x());
+    const auto [low, high] = std::minmax({contacts[0][0].x(), contacts[0][1].x()});
     EXPECT_NEAR(low, -0.5, 1e-9);
     EXPECT_NEAR(high, 0.7, 1e-9);
     for (const Vec3& p : contacts[0]) EXPECT_NEAR((p - Vec3(p.x(), 0.2, 0.3)).norm(), 0, 1e-9);

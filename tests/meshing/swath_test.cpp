@@ -318,6 +318,28 @@ TEST(SwathHull, NeverExcludesABoxThatALineHits) {
   EXPECT_GT(excluded, 3000) << "a hull that excludes nothing is of no use";
 }
 
+TEST(SwathHull, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
+  Random random(11);
+  int compared = 0;
+  for (int round = 0; round < 500; ++round) {
+    const Swath swath = random_swath(random);
+    const double t = random(0, 1);
+    const auto line = line_at(swath, emitter, t);
+    if (!line || std::abs(line->direction.z()) < 0.2) continue;
+    const SwathHull hull = hull_of(swath, t, t);
+    if ((hull.near.center() - hull.far.center()).norm() < 0.1) continue;
+    const Vec3 size = Vec3::Constant(1e-6), across = line->direction.unitOrthogonal();
+    for (int k = 0; k < 5; ++k) {
+      const Vec3 p = line->start + random(0, 2) * line->direction;
+      EXPECT_TRUE(hull.meets(p - size, p + size, 1e-9)) << round;
+      const Vec3 beside = p + 1e-3 * across;
+      EXPECT_FALSE(hull.meets(beside - size, beside + size, 1e-9)) << round;
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 200);
+}
+
 TEST(SwathHull, SlackLetsItReachFarther) {
   Swath swath;
   swath.apex = {0, 0, 2};

@@ -236,6 +236,25 @@ TEST(SwathTracer, CurvesOfThreeEdgesLieOnTheirCriticalConic) {
   EXPECT_GT(found, 0);
 }
 
+TEST(SwathTracer, KeepsOnlyLinesAcrossWhichWhatIsSeenDiffers) {
+  // A sheet hangs from the light along y = 0 and reaches beyond its border x = .5. Lines from
+  // (x, 0, 2) through the vertex end in (1.2 − x, .2, 0); those from outside the light are nothing.
+  Traced traced(SceneMaker()
+                    .square_light()
+                    .floor()
+                    .polygon({{0.2, 0, 2}, {1.2, 0, 2}, {0.7, 0, 1.7}}, test::two_sided_grey)
+                    .polygon({{0.6, 0.1, 1}, {1.4, 0.5, 1}, {1.3, 0.9, 1}}));
+  std::vector<DiscontinuityCurve> curves;
+  for (std::size_t v = 0; v < traced.stage.vertices.size(); ++v)
+    if ((traced.stage.vertices[v].position - Vec3(0.6, 0.1, 1)).norm() < 1e-9)
+      vertex_swaths(traced.stage, static_cast<int>(v), [&](const Swath& swath) {
+        if (swath.base.from.y() == 0 && swath.base.to.y() == 0) traced.tracer.trace(swath, curves);
+      });
+  expect_ranges(
+      traced.ranges(curves, -1, 0.1, 0, [](const Vec3& p) { return std::abs(p.y() - 0.2) < 1e-9; }),
+      {{0.7, 1}});
+}
+
 TEST(SwathTracer, CountsWhatItDoes) {
   Traced traced(s1_maker());
   EXPECT_EQ(traced.tracer.counts().swaths, 0u);

@@ -58,7 +58,8 @@ CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
   for (std::size_t id = 0; id < found.curves.size(); ++id) {
     const DiscontinuityCurve& curve = found.curves[id];
     const auto r = static_cast<std::size_t>(curve.receiver);
-    if (is_negligible(curve, element_size(size[r], options.max_length), options.irradiance_tolerance)) {
+    if (is_negligible(curve, element_size(size[r], options.max_length),
+                      options.irradiance_tolerance)) {
       ++result.culled;
       continue;
     }

@@ -102,11 +102,6 @@ bool lines_up(const EmitterStage& stage, const Span3& a, const Span3& b, int hal
   return lines_up(stage, a, parts[0], halvings - 1) || lines_up(stage, a, parts[1], halvings - 1);
 }
 
-bool are_coplanar(const Span3& a, const Span3& b, double slack) {
-  const double volume = std::abs(a.direction().cross(b.direction()).dot(b.from - a.from));
-  return volume <= slack * a.direction().norm() * b.direction().norm();
-}
-
 bool are_collinear(const Span3& a, const Span3& b, double slack) {
   const Vec3 along = a.direction().normalized();
   const auto off = [&](const Vec3& p) {
@@ -125,10 +120,19 @@ Vec3 common_normal(const Span3& a, const Span3& b) {
   return (by_directions.norm() > widest.norm() ? by_directions : widest).normalized();
 }
 
+/// Whether the ends of both spans lie in one plane. Edges that were parallel before a file rounded
+/// them must count, for the families of lines they make are as thin as that rounding.
+bool are_coplanar(const Span3& a, const Span3& b, double slack) {
+  if (are_collinear(a, b, slack)) return true;
+  const Vec3 normal = common_normal(a, b);
+  const auto off = [&](const Vec3& p) { return std::abs(normal.dot(p - a.from)); };
+  return std::max({off(a.to), off(b.from), off(b.to)}) <= slack;
+}
+
 /// Lines in the plane of two spans through the point where a third crosses it.
 void coplanar_swath(const EmitterStage& stage, Swath swath, const Span3& base, const Span3& other,
                     const Span3& third, const SwathSink& sink) {
-  if (are_collinear(base, other, stage.slack)) return;
+  if (are_collinear(base, other, stage.joined)) return;
   const Vec3 normal = common_normal(base, other);
   const double a = normal.dot(third.from - base.from), b = normal.dot(third.to - base.from);
   const bool crosses = (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > stage.slack;
@@ -168,7 +172,7 @@ void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& s
           const SwathSink& sink) {
   bool splits = false;
   for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1}})
-    if (are_coplanar(spans[at(i)], spans[at(j)], stage.slack)) {
+    if (are_coplanar(spans[at(i)], spans[at(j)], stage.joined)) {
       splits = true;
       coplanar_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
       crossing_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);

@@ -286,6 +286,7 @@ EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, i
   const Impl& impl = opaque.impl();
   slack = std::max(1e-3 * scene.tolerance.length,
                    position_roundings * std::numeric_limits<double>::epsilon() * impl.magnitude);
+  joined = std::max(slack, scene.tolerance.length);
   rings = scene.receivers[at(receiver)].rings;
   hull = convex_hull(rings[0]);
   for (const Vec2& p : hull) bounds.extend(p);

@@ -50,7 +50,8 @@ struct EmitterStage {
 
   int emitter;
   PlaneFrame frame;
-  double slack;  ///< a length: positions closer than this are the same
+  double slack;   ///< a length: positions closer than this are the same
+  double joined;  ///< a length: things closer than this are meant to be
   std::vector<std::vector<Vec2>> rings;
   std::vector<Vec2> hull;  ///< of the outer ring, counter-clockwise
   Eigen::AlignedBox2d bounds;

@@ -52,8 +52,8 @@ bool outline_in_plane(const EmitterStage& stage, const Swath& swath, const Outli
   const Vec3 normal = hull_of(swath, 0, 1).normal;
   for (const OutlinePiece& piece : stage.outline)
     if (std::find(corner.edges.begin(), corner.edges.end(), piece.id) != corner.edges.end() &&
-        std::abs(normal.dot(piece.span.from - swath.apex)) <= stage.slack &&
-        std::abs(normal.dot(piece.span.to - swath.apex)) <= stage.slack)
+        std::abs(normal.dot(piece.span.from - swath.apex)) <= stage.joined &&
+        std::abs(normal.dot(piece.span.to - swath.apex)) <= stage.joined)
       return true;
   return false;
 }
@@ -116,7 +116,7 @@ void non_emitter_swaths(const EmitterStage& stage, int edge, const SwathSink& si
       normalize(swath.group);
       swath.silhouettes[0] = edge;
       swath.corner = static_cast<int>(w);
-      swath.may_be_first_order = count_in_plane(stage, swath, vertex, stage.slack) > 0;
+      swath.may_be_first_order = count_in_plane(stage, swath, vertex, stage.joined) > 0;
       sink(swath);
     }
   }
@@ -155,7 +155,7 @@ void vertex_swaths(const EmitterStage& stage, int vertex, const SwathSink& sink)
     normalize(swath.group);
     swath.corner = vertex;
     swath.ends_on_outline = true;
-    swath.may_be_first_order = count_in_plane(stage, swath, w, stage.slack) > 0;
+    swath.may_be_first_order = count_in_plane(stage, swath, w, stage.joined) > 0;
     sink(swath);
   }
 }

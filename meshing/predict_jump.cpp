@@ -10,6 +10,8 @@ namespace halfshade {
 namespace {
 
 constexpr std::array<double, 3> samples = {1. / 6, 1. / 2, 5. / 6};
+// Edges count as in the plane of sight if they are within so many times what counts as joined.
+constexpr double in_plane = 4;
 // A jump of the slope that is this small a share of what makes it is rounding.
 constexpr double least_share = 1e-6;
 
@@ -83,7 +85,7 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
                                         int edge) const {
   const Line3 line = line_of(stage_, opaque_.impl(), edge);
-  const double slack = scene_.tolerance.length;
+  const double slack = in_plane * stage_.joined;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }

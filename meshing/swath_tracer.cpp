@@ -28,7 +28,9 @@ constexpr double fine_detail = 1e-4;
 // Pieces of swath shorter than this many side steps on the receiver cannot be decided.
 constexpr double least_steps = 4;
 // How often a conic may be halved before it is made of arcs that turn little.
-constexpr int most_halvings = 12;
+constexpr int most_halvings = 6;
+// Arcs this flat, in side steps, are straight.
+constexpr double straight_enough = 0.1;
 // Lines whose hulls are searched for edges at once.
 constexpr int hulls_per_swath = 4;
 
@@ -403,7 +405,7 @@ void SwathTracer::finish(const Swath& swath, const Open& piece,
     if (!a || !b || !c) return;
     const Vec2 from = plane.to_plane(a->point), to = plane.to_plane(c->point);
     if (const auto arc = conic_arc(from, direction(*a), plane.to_plane(b->point), to, direction(*c),
-                                   1e-3 * step_)) {
+                                   straight_enough * step_)) {
       curve.arc = *arc;
       curves.push_back(curve);
     } else if (halvings < most_halvings) {

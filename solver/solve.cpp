@@ -57,6 +57,22 @@ std::string discontinuities_needless(const SoundScene& scene, const SolveOptions
   return most_surfaces_emit(scene);
 }
 
+/// Without the sources whose share of all power sent is no more than the tolerance: were their
+/// light wrong everywhere, it would still be within it.
+std::vector<LightSource> strong_enough(std::vector<LightSource> sources, const SoundScene& scene,
+                                       double tolerance) {
+  constexpr double rounding = 1e-9;
+  const auto power = [&](const LightSource& source) {
+    return source.exitance * area(scene.receivers[static_cast<std::size_t>(source.receiver)]);
+  };
+  double all = 0;
+  for (const LightSource& source : sources) all += power(source);
+  std::erase_if(sources, [&](const LightSource& source) {
+    return power(source) <= (1 + rounding) * tolerance * all;
+  });
+  return sources;
+}
+
 /// Meshes the scene, along its discontinuities if it has any.
 void make_elements(const Scene& scene, const SolveOptions& options, const Progress& progress,
                    Stages& stages, SolveResult& result) {
@@ -66,7 +82,9 @@ void make_elements(const Scene& scene, const SolveOptions& options, const Progre
   stages.leave_out_if(!needless.empty(), "discontinuities", needless);
   if (needless.empty())
     stages.run("discontinuities", [&] {
-      const auto sources = all_sources(scene, result.scene, options.secondary, progress);
+      const auto sources =
+          strong_enough(all_sources(scene, result.scene, options.secondary, progress), result.scene,
+                        options.tolerance);
       mean_irradiance = mean_direct_irradiance(result.scene, progress);
       DiscontinuityOptions events = options.events;
       events.irradiance_tolerance = options.tolerance * mean_irradiance;

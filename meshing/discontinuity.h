@@ -37,12 +37,13 @@ struct Feature {
   auto operator<=>(const Feature&) const = default;
 };
 
-/// Three edges that line up at the curve, seen from its points. On one side of it they bound a
-/// small triangle of the emitter that is visible (`sign` +1) or hidden (−1) there and does not
-/// exist on the other side.
+/// Three edges that line up at the curve, seen from its points: on each side of it they bound a
+/// small triangle of the emitter. `sign` is that with which the triangle's area is part of the jump
+/// of the second derivative from right to left: +1 if it is visible on the left only, or hidden on
+/// the right only.
 struct EdgeTriple {
   std::array<int, 3> edges{};  ///< as BoundaryPiece::edge
-  int sign = 0;                ///< of the jump of the second derivative from right to left
+  int sign = 0;
   auto operator<=>(const EdgeTriple&) const = default;
 };
 

@@ -71,6 +71,7 @@ struct SwathHull {
   /// False only if no line of the hull meets the box; `slack` is added to the box.
   bool meets(const Vec3& low, const Vec3& high, double slack) const;
 };
+/// Precondition: no own limit of the swath lies between t0 and t1.
 SwathHull hull_of(const Swath& swath, double t0, double t1);
 
 /// A swath through three edges, no two of which lie in a plane.

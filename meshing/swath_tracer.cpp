@@ -145,6 +145,10 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
     if (at(receiver.plane) >= backs_.size()) backs_.resize(at(receiver.plane) + 1);
     backs_[at(receiver.plane)].push_back(static_cast<int>(r));
   }
+  std::vector<Bounds> boxes;
+  for (const Span3& contact : contacts_)
+    boxes.push_back({contact.from.cwiseMin(contact.to), contact.from.cwiseMax(contact.to)});
+  contact_tree_ = make_flat_tree(boxes);
 }
 
 /// Adds the parameters between t0 and t1 at which the swath's line meets an edge.
@@ -169,7 +173,7 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
   walk(opaque_.closed_edges, skip, visit);
   walk(opaque_.open_edges, skip, visit);
   // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
-  for (const Span3& contact : contacts_) consider(contact);
+  walk(contact_tree_, skip, [&](int c) { consider(contacts_[at(c)]); });
   for (const double t : found)
     if (t >= t0 && t <= t1) parameters_.push_back(t);
 }
@@ -200,7 +204,9 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     const double t0 = coarse[i - 1], t1 = coarse[i];
     if (!(t1 > t0)) continue;
     const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
-    if (!line || !(swath.ends_on_outline || stage_.contains(line->start))) continue;
+    if (!line || !(swath.ends_on_outline || stage_.contains(line->start)) ||
+        !may_be_event(swath, *line))
+      continue;
     parameters_.assign({t0, t1});
     const int hulls = static_cast<int>(std::ceil(hulls_per_swath * (t1 - t0)));
     for (int h = 0; h < hulls; ++h)
@@ -215,7 +221,7 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
 
 void SwathTracer::trace_piece(const Swath& swath, double t0, double t1, std::vector<Open>& open) {
   const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
-  if (!line || !may_be_event(swath, *line)) return;
+  if (!line) return;
   ++counts_.pieces;
   find_crossings(*line);
   collect_receivers(*line);

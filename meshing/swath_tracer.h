@@ -69,6 +69,7 @@ class SwathTracer {
   std::vector<double> receiver_size_;    ///< diagonals of the bounding boxes
   std::vector<std::vector<int>> backs_;  ///< plane → receivers that are backs
   std::vector<Span3> contacts_;          ///< of all receivers
+  FlatTree contact_tree_;                ///< over them
   std::vector<bool> is_inner_;           ///< edges between two triangles of one receiver
   VisiblePartFinder finder_;
   VisiblePart left_, right_;

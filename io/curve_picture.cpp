@@ -14,6 +14,9 @@
 namespace halfshade {
 namespace {
 
+// Directions this nearly alike are alike: the first is taken.
+constexpr double least_better = 1e-6;
+
 using Bytes = std::array<std::uint8_t, 3>;
 
 constexpr Bytes red = {235, 60, 50}, blue = {70, 130, 255}, pink = {255, 105, 190},
@@ -47,7 +50,7 @@ Vec3 upwards(const Vec3& normal, const Vec3& up) {
       const Vec3 candidate = sign * Vec3::Unit(axis);
       const Vec3 projected = candidate - candidate.dot(normal) * normal;
       if (projected.norm() < 0.5) continue;
-      if (best.isZero() || flat.dot(projected) > flat.dot(best) + 1e-6) best = projected;
+      if (best.isZero() || flat.dot(projected) > flat.dot(best) + least_better) best = projected;
     }
   return best.normalized();
 }

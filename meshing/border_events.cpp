@@ -1,5 +1,6 @@
 #include "meshing/border_events.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/swath_tracer.h"
 
 #include <algorithm>
@@ -9,14 +10,14 @@
 namespace halfshade {
 namespace {
 
+// The sine of the angle below which a receiver does not cross the emitter's plane.
+constexpr double parallel = 1e-9;
 // Contact lines with a smaller jump of the form factor, absolute, are none.
 constexpr double least_jump = 1e-9;
 // Places along a contact line at which a jump is looked for.
 constexpr int contact_samples = 8;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Parameters along the line origin + t·along inside a receiver, as pairs.
 std::vector<std::array<double, 2>> stretches(const Receiver& receiver, const Vec2& origin,
@@ -68,7 +69,7 @@ void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
                           std::vector<DiscontinuityCurve>& curves) {
   const Receiver& target = scene.receivers[at(receiver)];
   const Vec3 direction = target.frame.normal.cross(stage.frame.normal);
-  if (direction.norm() < 1e-9 || receiver == stage.emitter) return;
+  if (direction.norm() < parallel || receiver == stage.emitter) return;
   // A point of both planes: from the receiver's origin down its steepest line.
   const Vec3 steepest = direction.cross(target.frame.normal);
   const Vec3 origin = target.frame.origin - stage.frame.height(target.frame.origin) /

@@ -11,6 +11,9 @@
 namespace halfshade {
 namespace {
 
+// Lines are clipped to a box that is wider than the rings' by this share of its size.
+constexpr double clip_margin = 1e-3;
+
 // Corners of rings closer than this are one; of their size, and of their largest coordinate.
 constexpr double weld_of_size = 1e-13, weld_of_coordinates = 32 * 0x1p-53;
 // Snap distances of at least this many roundings of the largest coordinate make safe decisions.
@@ -94,7 +97,7 @@ std::optional<CurveDrawing> draw_curves(const CurveInput& input, double snap) {
   CurveDrawing drawing{SnapGraph(snap), {}, {}};
   add_rings(drawing, input.rings, weld);
   // Wide enough that ends made by clipping stay clear of the rings.
-  const double margin = 8 * snap + 1e-3 * (box.high - box.low).norm();
+  const double margin = 8 * snap + clip_margin * (box.high - box.low).norm();
   box.low.array() -= margin;
   box.high.array() += margin;
   for (const Segment2& contact : input.contacts)

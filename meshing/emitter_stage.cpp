@@ -1,5 +1,7 @@
 #include "meshing/emitter_stage.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,19 +15,12 @@ using Impl = OpaqueScene::Impl;
 
 // Lines that run along a face to within this sine may have it on either side.
 constexpr double grazing = 1e-9;
+// What the repair has joined agrees to this share of the tolerance by which it joins.
+constexpr double exact_share = 1e-3;
 // Positions agree to this many roundings of the largest coordinate.
 constexpr double position_roundings = 1e3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0., 1.) : 0;
-  return (a + t * along - p).norm();
-}
 
 /// Fills a stage step by step.
 class Builder {
@@ -284,7 +279,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, int receiver)
     : emitter(receiver), frame(scene.receivers[at(receiver)].frame) {
   const Impl& impl = opaque.impl();
-  slack = std::max(1e-3 * scene.tolerance.length,
+  slack = std::max(exact_share * scene.tolerance.length,
                    position_roundings * std::numeric_limits<double>::epsilon() * impl.magnitude);
   joined = std::max(slack, scene.tolerance.length);
   rings = scene.receivers[at(receiver)].rings;
@@ -321,15 +316,7 @@ bool EmitterStage::may_be_silhouette(const StageEdge& edge, const Vec3& directio
 
 bool EmitterStage::contains(const Vec3& point) const {
   const Vec2 p = frame.to_plane(point);
-  bool odd = false;
-  for (const std::vector<Vec2>& ring : rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if (distance_to(p, a, b) <= slack) return true;
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
-    }
-  return odd;
+  return is_inside(rings, p) || distance_to_rings(rings, p) <= slack;
 }
 
 }  // namespace halfshade

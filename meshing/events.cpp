@@ -1,5 +1,7 @@
 #include "meshing/events.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,8 +12,6 @@ namespace halfshade {
 namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool is_end(const Vec3& p, const Span3& span, double slack) {
   return (p - span.from).norm() <= slack || (p - span.to).norm() <= slack;

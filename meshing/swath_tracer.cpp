@@ -1,5 +1,6 @@
 #include "meshing/swath_tracer.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/curve_lines.h"
 #include "meshing/event_evidence.h"
 
@@ -77,29 +78,6 @@ class RayBoxTest {
   Vec3 origin_, inverse_;
   double slack_;
 };
-
-double distance_to_border(const Receiver& receiver, const Vec2& p) {
-  double least = HUGE_VAL;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      const Vec2 along = b - a;
-      const double t = std::clamp((p - a).dot(along) / along.squaredNorm(), 0., 1.);
-      least = std::min(least, (a + t * along - p).norm());
-    }
-  return least;
-}
-
-bool is_inside(const Receiver& receiver, const Vec2& p) {
-  bool odd = false;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()) > p.x()) odd = !odd;
-    }
-  return odd;
-}
 
 }  // namespace
 
@@ -301,7 +279,7 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
     return;
   const Vec2 p = target.frame.to_plane(trace->point);
   if (is_known(swath, receiver, before->point, after->point)) return;
-  if (distance_to_border(target, p) <= least || !is_inside(target, p)) return;
+  if (distance_to_rings(target.rings, p) <= least || !is_inside(target.rings, p)) return;
   const Vec3 left = target.frame.normal.cross(trace->tangent).normalized();
   if (!may_matter(swath, line, receiver, {trace->point, target.frame.normal, left})) return;
   EventEvidence evidence;

@@ -1,6 +1,7 @@
 #include "solver/surface_grid.h"
 
 #include "meshing/core/error.h"
+#include "meshing/core/planar.h"
 
 #include <fmt/format.h>
 
@@ -28,17 +29,7 @@ void add_grid(const Receiver& receiver, double spacing, std::vector<SurfacePoint
 
 }  // namespace
 
-bool contains(const Receiver& receiver, const Vec2& p) {
-  bool inside = false;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (p.x() < x) inside = !inside;
-    }
-  return inside;
-}
+bool contains(const Receiver& receiver, const Vec2& p) { return is_inside(receiver.rings, p); }
 
 std::vector<SurfacePoint> surface_grid(const SoundScene& scene, std::string_view name,
                                        double spacing) {

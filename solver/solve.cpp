@@ -78,13 +78,19 @@ void make_elements(const Scene& scene, const SolveOptions& options, const Progre
                    Stages& stages, SolveResult& result) {
   Discontinuities found;
   double mean_irradiance = 0;
-  const std::string needless = discontinuities_needless(result.scene, options);
+  std::vector<LightSource> sources;
+  std::string needless = discontinuities_needless(result.scene, options);
+  if (needless.empty()) {
+    stages.run("sources", [&] {
+      sources = strong_enough(all_sources(scene, result.scene, options.secondary, progress),
+                              result.scene, options.tolerance);
+      return sources.size();
+    });
+    if (sources.empty()) needless = "no source gives more than the tolerance of all light";
+  }
   stages.leave_out_if(!needless.empty(), "discontinuities", needless);
   if (needless.empty())
     stages.run("discontinuities", [&] {
-      const auto sources =
-          strong_enough(all_sources(scene, result.scene, options.secondary, progress), result.scene,
-                        options.tolerance);
       mean_irradiance = mean_direct_irradiance(result.scene, progress);
       DiscontinuityOptions events = options.events;
       events.irradiance_tolerance = options.tolerance * mean_irradiance;

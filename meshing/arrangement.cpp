@@ -1,6 +1,7 @@
 #include "meshing/arrangement.h"
 
 #include "meshing/box_tree.h"
+#include "meshing/core/planar.h"
 
 #include <cmath>
 #include <map>
@@ -21,8 +22,6 @@ Box flat_box(const Vec2& a, const Vec2& b, double margin) {
   const Vec2 low = a.cwiseMin(b).array() - margin, high = a.cwiseMax(b).array() + margin;
   return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
 
@@ -82,7 +81,7 @@ class Arranger {
     if (point == link[0] || point == link[1]) return {};
     const Vec2 &a = points_[at(link[0])], &b = points_[at(link[1])], &p = points_[at(point)];
     const double length = (b - a).norm();
-    if (std::abs(cross(b - a, p - a)) > snap_.links * length) return {};
+    if (std::abs(cross_2d(b - a, p - a)) > snap_.links * length) return {};
     // Both parts must come out shorter, or splitting might go on without end.
     if (!((p - a).norm() < length && (p - b).norm() < length)) return {};
     const double t = (p - a).dot(b - a) / (length * length);
@@ -139,8 +138,8 @@ class Arranger {
     if (m[0] == n[0] || m[0] == n[1] || m[1] == n[0] || m[1] == n[1]) return;
     const Vec2 a = points_[at(m[0])], b = points_[at(m[1])];
     const Vec2 c = points_[at(n[0])], d = points_[at(n[1])];
-    const double side_c = cross(b - a, c - a), side_d = cross(b - a, d - a);
-    const double side_a = cross(d - c, a - c), side_b = cross(d - c, b - c);
+    const double side_c = cross_2d(b - a, c - a), side_d = cross_2d(b - a, d - a);
+    const double side_a = cross_2d(d - c, a - c), side_b = cross_2d(d - c, b - c);
     if ((side_c > 0) == (side_d > 0) || (side_a > 0) == (side_b > 0)) return;
     const double t = side_a / (side_a - side_b), s = side_c / (side_c - side_d);
     const Vec2 x = a + t * (b - a);

@@ -26,25 +26,6 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
          cone.thickness * cone.cosine + cone.radius * cone.sine + slack;
 }
 
-/// Calls visit(item) for the items of the leaves below which `skip(node index)` never holds.
-template <class Skip, class Visit>
-void walk_tree(const FlatTree& tree, Skip&& skip, Visit&& visit) {
-  if (tree.nodes.empty()) return;
-  int stack[FlatTree::max_stack], depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const int index = stack[--depth];
-    if (skip(index)) continue;
-    const FlatTree::Node& node = tree.nodes[at(index)];
-    if (node.right >= 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-    } else {
-      for (int i = node.first; i < node.first + node.count; ++i) visit(tree.items[at(i)]);
-    }
-  }
-}
-
 }  // namespace
 
 void ShadowArrangement::collect_silhouettes() {

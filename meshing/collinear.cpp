@@ -1,5 +1,7 @@
 #include "meshing/collinear.h"
 
+#include "meshing/core/planar.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -12,8 +14,6 @@ namespace halfshade {
 namespace {
 
 constexpr double shortest = 8;  // tolerances
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Lines found so far, by their height over the left (or lower) side of the box of all segments.
 /// Steep lines are kept with x and y exchanged; those at about 45°, both ways, so that no segment
@@ -70,8 +70,8 @@ class Lines {
   double distance(int segment, int line) const {
     const Vec2 d = direction(line).normalized();
     const Vec2& origin = ends(line)[0];
-    return std::max(std::abs(cross(d, ends(segment)[0] - origin)),
-                    std::abs(cross(d, ends(segment)[1] - origin)));
+    return std::max(std::abs(cross_2d(d, ends(segment)[0] - origin)),
+                    std::abs(cross_2d(d, ends(segment)[1] - origin)));
   }
 
   std::span<const std::array<Vec2, 2>> segments_;

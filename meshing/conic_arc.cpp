@@ -1,5 +1,7 @@
 #include "meshing/conic_arc.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,15 +20,6 @@ constexpr double even_low = 0.5, even_high = 2;
 constexpr int deepest_halving = 20;
 /// Lengths below this share of the arc's size are rounding.
 constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double distance_to_segment(const Vec2& a, const Vec2& b, const Vec2& p) {
-  const Vec2 along = b - a;
-  const double square = along.squaredNorm();
-  const double s = square > 0 ? std::clamp(along.dot(p - a) / square, 0.0, 1.0) : 0;
-  return s < 0.5 ? (p - a - s * along).norm() : (p - b + (1 - s) * along).norm();
-}
 
 double denominator(double weight, double s, double t) {
   return (1 - s) * (1 - t) + ((1 - s) * t + s * (1 - t)) * weight + s * t;
@@ -66,7 +59,7 @@ double chord_deviation(const ConicArc& arc) {
   const Vec2 first = arc.control - arc.from, second = arc.to - arc.control;
   // An arc that bulges beyond the ends of its chord: it stays in its triangle, at least.
   if (first.dot(chord) <= 0 || second.dot(chord) <= 0) return std::max(first.norm(), second.norm());
-  return std::abs(cross(chord, first)) / chord.norm() * arc.weight / (1 + arc.weight);
+  return std::abs(cross_2d(chord, first)) / chord.norm() * arc.weight / (1 + arc.weight);
 }
 
 void halve(const ConicArc& arc, double s0, double s1, double deviation, int depth,
@@ -179,7 +172,7 @@ Nearest nearest(const ConicArc& arc, const Vec2& q) {
     const Vec2 along = arc.to - arc.from;
     const double square = along.squaredNorm();
     const double s = square > 0 ? std::clamp(along.dot(q - arc.from) / square, 0.0, 1.0) : 0;
-    return {s, distance_to_segment(arc.from, arc.to, q)};
+    return {s, distance_to_segment(q, arc.from, arc.to)};
   }
   if (arc.weight >= even_low && arc.weight <= even_high) return nearest_on_even(arc, q);
   // Halving takes weights towards one: w becomes √((1 + w)/2).
@@ -197,15 +190,15 @@ ConicArc straight_arc(const Vec2& from, const Vec2& to) {
 
 std::optional<ConicArc> conic_arc(const Vec2& from, const Vec2& from_tangent, const Vec2& between,
                                   const Vec2& to, const Vec2& to_tangent, double flat) {
-  const bool near_chord = distance_to_segment(from, to, between) <= flat;
+  const bool near_chord = distance_to_segment(between, from, to) <= flat;
   const Vec2 chord = to - from;
   const double size = chord.norm();
   if (near_chord && size <= flat) return straight_arc(from, to);
   if (!(size > 0)) return std::nullopt;
   // Angles at the ends, positive if the arc lies on the right of its chord (turns left).
   const Vec2 along = chord / size;
-  const double first = std::atan2(cross(from_tangent, along), from_tangent.dot(along));
-  const double second = std::atan2(cross(along, to_tangent), along.dot(to_tangent));
+  const double first = std::atan2(cross_2d(from_tangent, along), from_tangent.dot(along));
+  const double second = std::atan2(cross_2d(along, to_tangent), along.dot(to_tangent));
   // Tangents that leave the chord by less than `flat` over its length say nothing else either.
   if (near_chord && size * std::max(std::abs(first), std::abs(second)) <= flat)
     return straight_arc(from, to);

@@ -1,5 +1,6 @@
 #include "meshing/coplanar.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/overlay.h"
 
 #include <algorithm>
@@ -18,8 +19,6 @@ constexpr double straightness = 1e-3;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 // True for polygons that turn left at every corner and once round: those need no overlay.
 bool convex(const std::vector<Vec2>& polygon) {
   double turned = 0;
@@ -27,7 +26,7 @@ bool convex(const std::vector<Vec2>& polygon) {
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 in = polygon[(k + 1) % n] - polygon[k];
     const Vec2 out = polygon[(k + 2) % n] - polygon[(k + 1) % n];
-    const double turn = std::atan2(cross(in, out), in.dot(out));
+    const double turn = std::atan2(cross_2d(in, out), in.dot(out));
     if (turn <= 0) return false;
     turned += turn;
   }
@@ -143,7 +142,7 @@ class Resolver {
       const int after = ring[(k + 1) % ring.size()];
       const Vec2 in = overlay_.points[at(ring[k])] - overlay_.points[at(before)];
       const Vec2 out = overlay_.points[at(after)] - overlay_.points[at(ring[k])];
-      const bool straight = in.dot(out) > 0 && std::abs(cross(in, out)) <=
+      const bool straight = in.dot(out) > 0 && std::abs(cross_2d(in, out)) <=
                                                    straightness * snap_.points * (in + out).norm();
       if (!straight || visits.at(ring[k]) > 1) kept.push_back(ring[k]);
     }

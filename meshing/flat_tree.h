@@ -59,4 +59,24 @@ void visit_overlaps(const FlatTree& tree, const Bounds& box, Visit&& visit) {
   }
 }
 
+/// Calls visit(item) for the items of the leaves below which `skip(node index)` never holds.
+template <class Skip, class Visit>
+void walk_tree(const FlatTree& tree, Skip&& skip, Visit&& visit) {
+  if (tree.nodes.empty()) return;
+  int stack[FlatTree::max_stack], depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const int index = stack[--depth];
+    if (skip(index)) continue;
+    const FlatTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
+    if (node.right >= 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+    } else {
+      for (int i = node.first; i < node.first + node.count; ++i)
+        visit(tree.items[static_cast<std::size_t>(i)]);
+    }
+  }
+}
+
 }  // namespace halfshade

@@ -1,4 +1,5 @@
 #include "meshing/box_tree.h"
+#include "meshing/core/planar.h"
 #include "meshing/stacked_curves.h"
 
 #include <algorithm>
@@ -16,14 +17,12 @@ namespace {
 /// Ends of pieces that were cut at each other's ends are at most this many tolerances apart.
 constexpr double slack = 3;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// The triangle an arc lies in and what is within some length of it.
 class Hull {
  public:
   Hull(const ConicArc& arc, double length)
       : corners_{arc.from, arc.control, arc.to},
-        side_(cross(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1),
+        side_(cross_2d(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1),
         length_(length) {
     for (const Vec2& p : corners_) box_.extend(Vec3(p.x(), p.y(), 0));
     box_.min() -= Vec3(length, length, 0);
@@ -38,7 +37,7 @@ class Hull {
       const Vec2 d = corners_[(i + 1) % 3] - corners_[i];
       const double reach =
           length_ * d.norm() + std::abs(d.y()) * half.x() + std::abs(d.x()) * half.y();
-      if (side_ * cross(d, centre - corners_[i]) < -reach) return false;
+      if (side_ * cross_2d(d, centre - corners_[i]) < -reach) return false;
     }
     return true;
   }

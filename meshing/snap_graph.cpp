@@ -1,5 +1,6 @@
 #include "meshing/snap_graph.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/mix_bits.h"
 #include "meshing/planar_signs.h"
 #include "meshing/segment_pairs.h"
@@ -37,8 +38,6 @@ std::uint64_t pair_key(int a, int b) {
 std::uint64_t cell_key(std::int64_t x, std::int64_t y) {
   return mix_bits(mix_bits(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
 }
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 Box box_of(const Vec2& a, const Vec2& b, double margin) {
   const Vec2 low = a.cwiseMin(b).array() - margin, high = a.cwiseMax(b).array() + margin;
@@ -272,7 +271,7 @@ bool SnapGraph::lead_through_points() {
     const Vec2 d = place(e.b) - place(e.a), to_p = place(p) - place(e.a);
     const double along = to_p.dot(d), squared = d.squaredNorm();
     if (along <= 0 || along >= squared) return;
-    const double off = cross(d, to_p);
+    const double off = cross_2d(d, to_p);
     if (off * off > radius * radius * squared) return;
     if (to_p.squaredNorm() >= squared || (place(p) - place(e.b)).squaredNorm() >= squared) return;
     const auto where = std::lower_bound(list.begin(), list.end(), p);
@@ -317,7 +316,7 @@ void SnapGraph::resolve(const Pair& crossing) {
   if (edge(f).is_fixed) std::swap(e, f);
   const Vec2 a = place(edge(e).a), b = place(edge(e).b);
   const Vec2 c = place(edge(f).a), d = place(edge(f).b);
-  const double side_a = cross(d - c, a - c), side_b = cross(d - c, b - c);
+  const double side_a = cross_2d(d - c, a - c), side_b = cross_2d(d - c, b - c);
   const double t = side_a == side_b ? 0.5 : std::clamp(side_a / (side_a - side_b), 0.0, 1.0);
   const Vec2 x = a + t * (b - a);
   const auto shortens_f = [&](int i) {

@@ -37,22 +37,11 @@ constexpr int hulls_per_swath = 4;
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Skips by boxes.
 template <class Skip, class Visit>
 void walk(const FlatTree& tree, Skip&& skip, Visit&& visit) {
-  if (tree.nodes.empty()) return;
-  int stack[FlatTree::max_stack], depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const int index = stack[--depth];
-    const FlatTree::Node& node = tree.nodes[at(index)];
-    if (skip(node.box)) continue;
-    if (node.right >= 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-    } else {
-      for (int i = node.first; i < node.first + node.count; ++i) visit(tree.items[at(i)]);
-    }
-  }
+  walk_tree(
+      tree, [&](int index) { return skip(tree.nodes[at(index)].box); }, visit);
 }
 
 /// Whether a ray misses a box that is enlarged by `slack`.

@@ -7,9 +7,10 @@ namespace halfshade {
 
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0 ? std::clamp((p - a).dot(along) / length, 0., 1.) : 0;
-  return (a + t * along - p).norm();
+  const double square = along.squaredNorm();
+  const double s = square > 0 ? std::clamp(along.dot(p - a) / square, 0., 1.) : 0;
+  // From the nearer end, so that points at either end are exact.
+  return s < 0.5 ? (p - a - s * along).norm() : (p - b + (1 - s) * along).norm();
 }
 
 double distance_to_rings(std::span<const std::vector<Vec2>> rings, const Vec2& p) {

@@ -2,7 +2,7 @@
 
 #include "meshing/opaque_scene.h"
 #include "tests/meshing/visible_part_oracle.h"
-#include "tests/support/discontinuity_scenes.h"
+#include "tests/support/staged.h"
 
 #include <gtest/gtest.h>
 
@@ -17,19 +17,7 @@ namespace {
 
 using test::Random;
 using test::SceneMaker;
-
-/// A scene with one light, and its stage.
-struct Staged {
-  explicit Staged(SoundScene sound)
-      : scene(std::move(sound)),
-        opaque(scene),
-        stage(scene, opaque, light_sources(scene).at(0).receiver) {}
-  explicit Staged(const SceneMaker& maker) : Staged(maker.sound()) {}
-
-  SoundScene scene;
-  OpaqueScene opaque;
-  EmitterStage stage;
-};
+using test::Staged;
 
 bool is_same(const Vec3& a, const Vec3& b) { return (a - b).norm() < 1e-9; }
 

@@ -1,6 +1,6 @@
 #include "meshing/events.h"
 
-#include "tests/support/discontinuity_scenes.h"
+#include "tests/support/staged.h"
 
 #include <gtest/gtest.h>
 
@@ -16,18 +16,7 @@ namespace {
 
 using test::Random;
 using test::SceneMaker;
-
-struct Staged {
-  explicit Staged(SoundScene sound)
-      : scene(std::move(sound)),
-        opaque(scene),
-        stage(scene, opaque, light_sources(scene).at(0).receiver) {}
-  explicit Staged(const SceneMaker& maker) : Staged(maker.sound()) {}
-
-  SoundScene scene;
-  OpaqueScene opaque;
-  EmitterStage stage;
-};
+using test::Staged;
 
 template <class Generate>
 std::vector<Swath> collect(const Generate& generate) {

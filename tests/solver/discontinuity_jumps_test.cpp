@@ -23,8 +23,8 @@ using test::NamedScene;
 
 constexpr std::array<double, 3> jump_places = {1. / 6, 1. / 2, 5. / 6};
 
-/// A measured jump must agree with a predicted one to `relative` of the curve's largest, and to
-/// `absolute` of the derivative's size, for jumps far below it are lost in rounding; below the
+/// A measured jump must agree with a predicted one to `relative` of it, and to `absolute` of
+/// the derivative's size, for jumps far below it are lost in rounding; below the
 /// order of the curve nothing may jump by more than `smooth` of the size.
 constexpr double relative = 1e-4, absolute = 1e-8, smooth = 1e-8;
 
@@ -43,9 +43,9 @@ double clearance(const SoundScene& scene, const Discontinuities& found, std::siz
   double best = HUGE_VAL;
   for (const Ring& ring : receiver.rings)
     for (std::size_t k = 0; k < ring.size(); ++k)
-      best = std::min(best, test::distance_to({ring[k], ring[(k + 1) % ring.size()]}, p));
+      best = std::min(best, test::distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
   for (const Segment2& contact : receiver.contacts)
-    best = std::min(best, test::distance_to(contact, p));
+    best = std::min(best, test::distance_to_segment(p, contact));
   for (std::size_t c = 0; c < found.curves.size(); ++c) {
     const DiscontinuityCurve& other = found.curves[c];
     if (c == curve || other.receiver != own.receiver || other.emitter != own.emitter) continue;
@@ -86,12 +86,10 @@ bool agrees(const DiscontinuityCurve& curve, double predicted, const MeasuredJum
     const double size = measured.scale[below] + measured.reach * measured.scale[below + 1];
     if (std::abs(measured.jump[below]) > smooth * size + 1e-13) return false;
   }
-  double largest = 0;
-  for (const double jump : curve.jump) largest = std::max(largest, std::abs(jump));
   const double error = std::abs(exitance * measured.jump[k] - predicted);
-  const double allowed = relative * largest + absolute * exitance * measured.scale[k];
+  const double allowed = relative * std::abs(predicted) + absolute * exitance * measured.scale[k];
   if (error > allowed) return false;
-  tally.worst = std::max(tally.worst, error / (largest + allowed));
+  tally.worst = std::max(tally.worst, error / (std::abs(predicted) + allowed));
   return true;
 }
 

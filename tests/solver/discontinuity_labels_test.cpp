@@ -51,10 +51,10 @@ double distance_to_lines(const SoundScene& scene, const Discontinuities& found, 
   double best = HUGE_VAL;
   for (const DiscontinuityCurve& curve : found.curves)
     if (curve.receiver == receiver) best = std::min(best, distance(curve.arc, p));
-  for (const Segment2& s : surface.contacts) best = std::min(best, test::distance_to(s, p));
+  for (const Segment2& s : surface.contacts) best = std::min(best, test::distance_to_segment(p, s));
   for (const Ring& ring : surface.rings)
     for (std::size_t k = 0; k < ring.size(); ++k)
-      best = std::min(best, test::distance_to({ring[k], ring[(k + 1) % ring.size()]}, p));
+      best = std::min(best, test::distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
   return best;
 }
 

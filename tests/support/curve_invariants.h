@@ -13,18 +13,6 @@
 /// What must hold of every mesh with curves, checked without using anything that made it.
 namespace halfshade::test {
 
-inline bool is_inside(const std::vector<Ring>& rings, const Vec2& p) {
-  bool inside = false;
-  for (const Ring& ring : rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-  return inside;
-}
-
 inline double distance_to_rings(const std::vector<Ring>& rings, const Vec2& p) {
   double least = HUGE_VAL;
   for (const Ring& ring : rings)

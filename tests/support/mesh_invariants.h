@@ -46,6 +46,18 @@ inline double length_of(const std::vector<Segment2>& segments) {
   return sum;
 }
 
+inline bool is_inside(const std::vector<Ring>& rings, const Vec2& p) {
+  bool inside = false;
+  for (const Ring& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+      if ((a.y() > p.y()) != (b.y() > p.y()) &&
+          p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  return inside;
+}
+
 inline double distance_to_segment(const Vec2& p, const Segment2& s) {
   const Vec2 d = s[1] - s[0];
   const double t = std::clamp((p - s[0]).dot(d) / d.squaredNorm(), 0.0, 1.0);

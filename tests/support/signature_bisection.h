@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/discontinuity.h"
+#include "tests/support/mesh_invariants.h"
 #include "tests/support/sound_scenes.h"
 #include "tests/support/visible_signature.h"
 
@@ -23,18 +24,6 @@ struct SignatureChange {
   double miss = 0;  ///< distance from the nearest curve, border or contact line
 };
 
-inline bool is_inside(const std::vector<Ring>& rings, const Vec2& p) {
-  bool inside = false;
-  for (const Ring& ring : rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      if ((a.y() > p.y()) != (b.y() > p.y()) &&
-          p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
-        inside = !inside;
-    }
-  return inside;
-}
-
 inline Vec2 random_point(const Receiver& receiver, Random& random) {
   Vec2 low = receiver.rings[0][0], high = low;
   for (const Vec2& p : receiver.rings[0]) {
@@ -52,12 +41,6 @@ inline bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
     return (q - p).x() * (r - p).y() - (q - p).y() * (r - p).x() > 0;
   };
   return turn(a, b, c) != turn(a, b, d) && turn(c, d, a) != turn(c, d, b);
-}
-
-inline double distance_to(const Segment2& s, const Vec2& p) {
-  const Vec2 along = s[1] - s[0];
-  const double t = std::clamp((p - s[0]).dot(along) / along.squaredNorm(), 0., 1.);
-  return (s[0] + t * along - p).norm();
 }
 
 struct SegmentAudit {
@@ -114,8 +97,8 @@ class SegmentAuditor {
     double best = HUGE_VAL;
     for (const Ring& ring : surface.rings)
       for (std::size_t k = 0; k < ring.size(); ++k)
-        best = std::min(best, distance_to({ring[k], ring[(k + 1) % ring.size()]}, p));
-    for (const Segment2& s : surface.contacts) best = std::min(best, distance_to(s, p));
+        best = std::min(best, distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
+    for (const Segment2& s : surface.contacts) best = std::min(best, distance_to_segment(p, s));
     for (const DiscontinuityCurve& curve : curves_)
       if (curve.receiver == receiver && curve.emitter == emitter &&
           box_distance(curve.arc, p) < best)

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "meshing/emitter_stage.h"
+#include "tests/support/discontinuity_scenes.h"
+
+#include <utility>
+
+namespace halfshade::test {
+
+/// A scene with one light, and its stage.
+struct Staged {
+  explicit Staged(SoundScene sound)
+      : scene(std::move(sound)),
+        opaque(scene),
+        stage(scene, opaque, light_sources(scene).at(0).receiver) {}
+  explicit Staged(const SceneMaker& maker) : Staged(maker.sound()) {}
+
+  SoundScene scene;
+  OpaqueScene opaque;
+  EmitterStage stage;
+};
+
+}  // namespace halfshade::test

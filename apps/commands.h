@@ -1,11 +1,11 @@
 #pragma once
 
-#include "io/curve_picture.h"
-#include "io/picture.h"
-#include "io/write_result.h"
+#include "io/picture/curve_picture.h"
+#include "io/picture/picture.h"
+#include "io/write/write_result.h"
 #include "meshing/core/progress.h"
-#include "solver/mesh_scene.h"
-#include "solver/solve.h"
+#include "solver/pipeline/mesh_scene.h"
+#include "solver/pipeline/solve.h"
 
 #include <filesystem>
 #include <optional>
@@ -55,7 +55,7 @@ struct MeshCommand {
   std::vector<std::filesystem::path> outputs;
   std::filesystem::path curves;
   std::filesystem::path picture;
-  std::string picture_of;  ///< group or number of a receiver; empty: the plane with most curves
+  std::string picture_of;  ///< group or number of a surface; empty: the plane with most curves
   CurvePictureOptions picture_options;
   MeshOptions options;
 };
@@ -74,7 +74,7 @@ struct ProbeCommand {
   std::filesystem::path scene;
   std::filesystem::path materials;
   std::filesystem::path points;  ///< empty: a grid
-  std::string group;             ///< whose receivers carry the grid
+  std::string group;             ///< whose surfaces carry the grid
   double spacing = 0;            ///< of the grid, in scene units
   std::filesystem::path output;
   bool direct_only = false;  ///< no interreflection

@@ -173,7 +173,7 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
                       "Map of the lines over the exact direct light of one surface: .png")
           ->type_name("FILE");
   app->add_option("--of", command.picture_of,
-                  "Group or number of the receiver to draw (default: where most lines are)")
+                  "Group or number of the surface to draw (default: where most lines are)")
       ->needs(picture)
       ->type_name("NAME");
   const std::map<std::string, CurveColour> colours = {{"order", CurveColour::order},

@@ -1,9 +1,11 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/read_scene.h"
-#include "io/write_curves.h"
-#include "io/write_mesh.h"
+#include "io/files/extension.h"
+#include "io/read/read_scene.h"
+#include "io/write/write_curves.h"
+#include "io/write/write_mesh.h"
 #include "meshing/core/error.h"
+#include "meshing/repair/repair.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +29,7 @@ void check(const MeshCommand& command, const std::filesystem::path& json) {
     throw Error(ErrorCode::usage, command.curves.string(),
                 fmt::format("curves are written as .vtp, not as '{}'",
                             command.curves.extension().string()));
-  if (!command.picture.empty() && command.picture.extension() != ".png")
+  if (!command.picture.empty() && extension_of(command.picture) != ".png")
     throw Error(
         ErrorCode::usage, command.picture.string(),
         fmt::format("the extension '{}' is not .png", command.picture.extension().string()));
@@ -38,18 +40,18 @@ void check(const MeshCommand& command, const std::filesystem::path& json) {
 /// Draws the part of the scene asked for; up as in the scene's first camera.
 void draw(const MeshCommand& command, const MeshResult& result, const Context& context) {
   CurvePictureOptions options = command.picture_options;
-  const std::vector<int> receivers =
-      picture_receivers(result.scene, result.found, command.picture_of);
+  const std::vector<int> surfaces =
+      picture_surfaces(result.scene, result.found, command.picture_of);
   if (!result.cameras.empty()) {
     // Of a camera that looks along the normal, the picture's up; of others, where it looks to.
     const Camera& camera = result.cameras.front();
     const Vec3& normal =
-        result.scene.receivers[static_cast<std::size_t>(receivers.front())].frame.normal;
+        result.scene.surfaces[static_cast<std::size_t>(surfaces.front())].frame.normal;
     const Vec3 up = camera.up.stableNormalized(), ahead = camera.direction.stableNormalized();
     options.up = std::abs(up.dot(normal)) < std::abs(ahead.dot(normal)) ? up : ahead;
     if (std::abs(up.dot(normal)) < 0.7) options.up = up;
   }
-  write_png(draw_curves(result.scene, result.found, receivers, options, context.progress),
+  write_png(draw_curves(result.scene, result.found, surfaces, options, context.progress),
             command.picture);
 }
 
@@ -71,7 +73,7 @@ void print_summary(const MeshResult& result, bool with_elements, bool verbose) {
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
       fmt::print("repair       {}\n", repair.sentence);
-  fmt::print("receivers    {}\n", result.scene.receivers.size());
+  fmt::print("surfaces    {}\n", result.scene.surfaces.size());
   print_curves(result.found);
   if (with_elements) {
     fmt::print("elements     {}\n", result.elements.count());
@@ -95,7 +97,7 @@ int run(const MeshCommand& given, const Context& context) {
   const SceneFile file = read_scene(command.scene, command.materials);
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
-    picture_receivers(make_sound(file.scene), {}, command.picture_of);
+    picture_surfaces(make_sound(file.scene), {}, command.picture_of);
   const MeshResult result = mesh_scene(file.scene, command.options, context.progress);
   context.progress_ends();
   if (!context.common.quiet)

@@ -1,12 +1,13 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/atomic_file.h"
-#include "io/read_points.h"
-#include "io/read_scene.h"
-#include "io/write_points.h"
+#include "io/files/atomic_file.h"
+#include "io/read/read_points.h"
+#include "io/read/read_scene.h"
+#include "io/write/write_points.h"
 #include "meshing/core/error.h"
-#include "solver/gather.h"
-#include "solver/surface_grid.h"
+#include "meshing/repair/repair.h"
+#include "solver/exchange/gather.h"
+#include "solver/pipeline/surface_grid.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -74,12 +75,14 @@ void add_reflected(const Scene& scene, const SolveOptions& options,
   const SolveResult solved = solve(scene, options, progress);
   if (solved.interrupted) return light.clear();
   const VisibilityIndex visibility(occluders(solved.scene));
-  const std::size_t done = in_blocks(
-      points.first(light.size()), progress,
-      [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
-        const std::vector<Rgb> reflected = reflected_irradiance(solved, visibility, some, p);
-        for (std::size_t k = 0; k < some.size(); ++k) light[first + k].irradiance += reflected[k];
-      });
+  const std::size_t done =
+      in_blocks(points.first(light.size()), progress,
+                [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+                  const std::vector<Rgb> reflected = reflected_irradiance(
+                      {solved.scene, solved.elements, solved.solution}, visibility, some, p);
+                  for (std::size_t k = 0; k < some.size(); ++k)
+                    light[first + k].irradiance += reflected[k];
+                });
   light.resize(done);
 }
 

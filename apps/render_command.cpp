@@ -1,7 +1,8 @@
 #include "apps/commands.h"
-#include "io/read_scene.h"
+#include "io/files/extension.h"
+#include "io/read/read_scene.h"
 #include "meshing/core/error.h"
-#include "meshing/repair.h"
+#include "meshing/repair/repair.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +12,7 @@ namespace halfshade {
 namespace {
 
 bool is_result(const std::filesystem::path& path) {
-  return path.extension() == ".vtu" || path.extension() == ".vtp";
+  return extension_of(path) == ".vtu" || extension_of(path) == ".vtp";
 }
 
 ShadedMesh load(const RenderCommand& command) {
@@ -51,7 +52,7 @@ Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
 }  // namespace
 
 int run(const RenderCommand& command, const Context& context) {
-  if (command.output.extension() != ".png")
+  if (extension_of(command.output) != ".png")
     throw Error(ErrorCode::usage, command.output.string(),
                 fmt::format("the extension '{}' is not .png", command.output.extension().string()));
   const ShadedMesh mesh = load(command);

@@ -1,7 +1,8 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/read_scene.h"
-#include "io/write_report.h"
+#include "io/files/extension.h"
+#include "io/read/read_scene.h"
+#include "io/write/write_report.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>
@@ -11,7 +12,7 @@
 namespace halfshade {
 namespace {
 
-bool is_picture(const std::filesystem::path& path) { return path.extension() == ".png"; }
+bool is_picture(const std::filesystem::path& path) { return extension_of(path) == ".png"; }
 
 /// Wrong names are worth telling before an hour of computing.
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
@@ -45,7 +46,7 @@ void print_summary(const SolveResult& result, double asked_tolerance, bool verbo
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
       fmt::print("repair       {}\n", repair.sentence);
-  fmt::print("receivers    {}\n", result.scene.receivers.size());
+  fmt::print("surfaces    {}\n", result.scene.surfaces.size());
   fmt::print("elements     {}\n", result.elements.count());
   if (result.curves > 0)
     fmt::print("lines        {} of {} discontinuities{}\n", result.mesh.kept, result.curves,

@@ -1,8 +1,8 @@
-#include "io/read_scene.h"
+#include "io/read/read_scene.h"
 #include "meshing/core/parallel.h"
-#include "meshing/repair.h"
-#include "meshing/visibility.h"
-#include "solver/direct_light.h"
+#include "meshing/rays/visibility.h"
+#include "meshing/repair/repair.h"
+#include "solver/direct/direct_light.h"
 #include "tests/support/sound_scenes.h"
 
 #include <benchmark/benchmark.h>
@@ -55,7 +55,7 @@ class ShadowRays {
     const double whole = unobstructed(point, emitter);
     if (!(whole > 0)) return 0;
     buffers.visible = buffers.all = 0;
-    const Receiver& light = scene_.receivers[static_cast<std::size_t>(emitter)];
+    const Surface& light = scene_.surfaces[static_cast<std::size_t>(emitter)];
     const Ring& ring = light.rings.front();
     const Vec3 origin = light.frame.to_space(ring[0]);
     const Vec3 a = light.frame.to_space(ring[1]) - origin;
@@ -80,7 +80,7 @@ class ShadowRays {
 
   /// Looked up once a point and emitter, for no estimate needs to compute it again.
   double unobstructed(const SurfacePoint& point, int emitter) const {
-    const Receiver& light = scene_.receivers[static_cast<std::size_t>(emitter)];
+    const Surface& light = scene_.surfaces[static_cast<std::size_t>(emitter)];
     std::vector<Vec3> corners;
     for (const Vec2& p : light.rings.front()) corners.push_back(light.frame.to_space(p));
     double sum = 0;
@@ -93,7 +93,7 @@ class ShadowRays {
     return sum / (2 * M_PI);
   }
 
-  void add_ray(const SurfacePoint& point, const Vec3& q, const Receiver& light,
+  void add_ray(const SurfacePoint& point, const Vec3& q, const Surface& light,
                Buffers& buffers) const {
     const Vec3 to = q - point.position;
     const double r2 = to.squaredNorm();
@@ -221,9 +221,9 @@ void direct_light_of_half_unit_occluder(benchmark::State& state) {
     if (down) std::reverse(p.begin(), p.end());
     return p;
   };
-  test::add_receiver(scene, {square(0.5, 2, true)}, 1);
-  test::add_receiver(scene, {square(0.25, 1, false)}, 0);
-  test::add_receiver(scene, {square(2, 0, false)}, 0);
+  test::add_surface(scene, {square(0.5, 2, true)}, 1);
+  test::add_surface(scene, {square(0.25, 1, false)}, 0);
+  test::add_surface(scene, {square(2, 0, false)}, 0);
   compare(state, scene, 1, 64, 8);
 }
 BENCHMARK(direct_light_of_half_unit_occluder)->Iterations(1);

@@ -1,5 +1,6 @@
-#include "meshing/discontinuity_mesh.h"
-#include "solver/direct_light.h"
+#include "meshing/core/light_source.h"
+#include "meshing/patches/discontinuity_mesh.h"
+#include "solver/direct/direct_light.h"
 #include "tests/support/discontinuity_scenes.h"
 
 #include <cstdio>
@@ -23,13 +24,13 @@ constexpr int most_rounds = 14;
 struct Floor {
   const SoundScene& scene;
   const DirectLightIndex index;
-  int receiver = 0;
+  int surface = 0;
 
   explicit Floor(const SoundScene& s) : scene(s), index(s) {
-    for (int r = 0; r < static_cast<int>(s.receivers.size()); ++r)
-      if (const PlaneFrame& f = s.receivers[static_cast<std::size_t>(r)].frame;
+    for (int r = 0; r < static_cast<int>(s.surfaces.size()); ++r)
+      if (const PlaneFrame& f = s.surfaces[static_cast<std::size_t>(r)].frame;
           f.normal.z() > 0.5 && std::abs(f.origin.z()) < 1e-12)
-        receiver = r;
+        surface = r;
   }
   DirectLight at(const Vec3& p) const { return index.irradiance(SurfacePoint{p, Vec3::UnitZ()}); }
 };
@@ -81,7 +82,7 @@ Count refine(const Floor& floor, PatchMesh& mesh, double share) {
     double largest = 0;
     for (int node = 0; node < static_cast<int>(hierarchy.element.size()); ++node) {
       const int e = hierarchy.element[static_cast<std::size_t>(node)];
-      if (e < 0 || elements.receiver[static_cast<std::size_t>(e)] != floor.receiver) continue;
+      if (e < 0 || elements.surface[static_cast<std::size_t>(e)] != floor.surface) continue;
       const auto found = judged.find(node);
       const Judged& j =
           found != judged.end()

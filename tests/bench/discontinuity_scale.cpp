@@ -1,5 +1,7 @@
-#include "meshing/discontinuity_mesh.h"
-#include "solver/direct_light.h"
+#include "meshing/core/light_source.h"
+#include "meshing/patches/discontinuity_mesh.h"
+#include "meshing/repair/repair.h"
+#include "solver/direct/direct_light.h"
 #include "tests/support/room_families.h"
 
 #include <chrono>

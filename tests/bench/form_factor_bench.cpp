@@ -1,6 +1,7 @@
-#include "meshing/patch_mesh.h"
-#include "solver/exchange.h"
-#include "solver/form_factor.h"
+#include "meshing/patches/patch_mesh.h"
+#include "meshing/repair/repair.h"
+#include "solver/exchange/exchange.h"
+#include "solver/exchange/form_factor.h"
 #include "tests/support/scenes.h"
 
 #include <benchmark/benchmark.h>

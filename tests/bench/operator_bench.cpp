@@ -1,5 +1,5 @@
 #include "meshing/core/parallel.h"
-#include "solver/scaled_operator.h"
+#include "solver/exchange/scaled_operator.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
-#include "meshing/visibility.h"
-#include "tests/meshing/soups.h"
+#include "meshing/rays/visibility.h"
+#include "tests/support/soups.h"
 
 #include <benchmark/benchmark.h>
 #include <tbb/global_control.h>

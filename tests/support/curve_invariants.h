@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/curve_mesh.h"
+#include "meshing/triangulation/curve_mesh.h"
 #include "tests/support/mesh_invariants.h"
 
 #include <gtest/gtest.h>

@@ -111,7 +111,7 @@ inline SoundScene cutting_each_other() {
   return maker.floor().sound();
 }
 
-/// The light touches the receiver along an edge, and a box the light.
+/// The light touches the surface along an edge, and a box the light.
 inline SoundScene light_on_the_floor() {
   SceneMaker maker;
   maker.polygon({{-1.5, -0.6, 0}, {-1.5, 0.6, 0}, {-1.5, 0.6, 1}, {-1.5, -0.6, 1}}, white_light);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/repair.h"
+#include "meshing/repair/repair.h"
 #include "tests/support/sound_scenes.h"
 
 #include <string>
@@ -360,7 +360,7 @@ inline SoundScene window_in_a_sheet() {
   return maker.floor().sound();
 }
 
-/// A closed room: every wall is a receiver, and the plane of the light cuts none.
+/// A closed room: every wall is a surface, and the plane of the light cuts none.
 inline SoundScene closed_room() {
   SceneMaker maker;
   for (const auto& face : box_faces({-1.6, -1.4, 0}, {1.5, 1.7, 2.2}, true)) maker.polygon(face);

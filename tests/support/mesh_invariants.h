@@ -1,8 +1,8 @@
 #pragma once
 
-#include "meshing/element_table.h"
-#include "meshing/planar_mesh.h"
-#include "meshing/repair.h"
+#include "meshing/core/sound_scene.h"
+#include "meshing/patches/element_table.h"
+#include "meshing/triangulation/planar_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -121,7 +121,7 @@ inline void expect_sound(const PlanarMesh& mesh, const std::vector<Ring>& rings,
   EXPECT_NEAR(constrained / (perimeter_of(rings) + length_of(contacts)), 1, 1e-12);
 }
 
-/// Area by receiver, orientation, conformity within receivers, and that exactly the edges on rings
+/// Area by surface, orientation, conformity within surfaces, and that exactly the edges on rings
 /// and contact lines have no neighbour, from each side.
 inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
   using Place = std::array<double, 3>;
@@ -129,11 +129,11 @@ inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
     const Vec3& x = table.points[static_cast<std::size_t>(p)];
     return Place{x.x(), x.y(), x.z()};
   };
-  std::vector<double> area(scene.receivers.size(), 0), walls = area, unmatched = area;
-  std::vector<std::map<std::pair<Place, Place>, int>> directed(scene.receivers.size());
+  std::vector<double> area(scene.surfaces.size(), 0), walls = area, unmatched = area;
+  std::vector<std::map<std::pair<Place, Place>, int>> directed(scene.surfaces.size());
   for (int e = 0; e < table.count(); ++e) {
     const auto i = static_cast<std::size_t>(e);
-    const auto r = static_cast<std::size_t>(table.receiver[i]);
+    const auto r = static_cast<std::size_t>(table.surface[i]);
     const auto t = table.triangle(e);
     const Vec3 twice = (t[1] - t[0]).cross(t[2] - t[0]);
     ASSERT_NEAR(table.area[i], 0.5 * twice.norm(), 1e-12 * table.area[i]);
@@ -155,28 +155,28 @@ inline void expect_sound(const ElementTable& table, const SoundScene& scene) {
       EXPECT_TRUE(found) << "neighbours disagree";
     }
   }
-  for (std::size_t r = 0; r < scene.receivers.size(); ++r) {
-    const Receiver& receiver = scene.receivers[r];
+  for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
+    const Surface& surface = scene.surfaces[r];
     for (const auto& [edge, e] : directed[r])
       if (!directed[r].contains({edge.second, edge.first}))
         unmatched[r] += (Vec3(edge.second.data()) - Vec3(edge.first.data())).norm();
-    const double border = perimeter_of(receiver.rings);
-    const double whole = area_of(receiver.rings);
+    const double border = perimeter_of(surface.rings);
+    const double whole = area_of(surface.rings);
     // Points far from the origin are rounded to its grid.
-    const double rounding = receiver.frame.origin.lpNorm<Eigen::Infinity>() * 0x1p-52;
+    const double rounding = surface.frame.origin.lpNorm<Eigen::Infinity>() * 0x1p-52;
     EXPECT_NEAR(area[r] / whole, 1, 1e-12 + rounding * border / whole);
     EXPECT_NEAR(unmatched[r] / border, 1, 1e-9) << "T-vertices or gaps";
-    EXPECT_NEAR(walls[r] / (border + 2 * length_of(receiver.contacts)), 1, 1e-9);
+    EXPECT_NEAR(walls[r] / (border + 2 * length_of(surface.contacts)), 1, 1e-9);
   }
 }
 
-/// Where edges on rings and contact lines of different receivers lie on each other, they are the
+/// Where edges on rings and contact lines of different surfaces lie on each other, they are the
 /// same, bit for bit. They do if they are less than `near` apart (the tolerance's length if it is
 /// 0). Returns how many pairs of such edges there are.
-inline int expect_alike_across_receivers(const ElementTable& table, const SoundScene& scene,
-                                         double near = 0) {
+inline int expect_alike_across_surfaces(const ElementTable& table, const SoundScene& scene,
+                                        double near = 0) {
   struct Wall {
-    int receiver;
+    int surface;
     Vec3 low, high, a, b;
   };
   if (near == 0) near = scene.tolerance.length;
@@ -189,7 +189,7 @@ inline int expect_alike_across_receivers(const ElementTable& table, const SoundS
       Vec3 a = t[k], b = t[(k + 1) % 3];
       if (std::lexicographical_compare(b.data(), b.data() + 3, a.data(), a.data() + 3))
         std::swap(a, b);
-      walls.push_back({table.receiver[i], a.cwiseMin(b), a.cwiseMax(b), a, b});
+      walls.push_back({table.surface[i], a.cwiseMin(b), a.cwiseMax(b), a, b});
     }
   std::sort(walls.begin(), walls.end(),
             [](const Wall& v, const Wall& w) { return v.low.x() < w.low.x(); });
@@ -198,7 +198,7 @@ inline int expect_alike_across_receivers(const ElementTable& table, const SoundS
     for (std::size_t j = i + 1; j < walls.size(); ++j) {
       const Wall &v = walls[i], &w = walls[j];
       if (w.low.x() > v.high.x() + near) break;
-      if (v.receiver == w.receiver) continue;
+      if (v.surface == w.surface) continue;
       if ((w.low.array() > v.high.array() + near || v.low.array() > w.high.array() + near).any())
         continue;
       const double length = (v.b - v.a).norm();

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "meshing/conic_arc.h"
-#include "solver/direct_light.h"
+#include "meshing/geometry/conic_arc.h"
+#include "solver/direct/direct_light.h"
 
 #include <array>
 #include <cmath>
@@ -23,11 +23,11 @@ class JumpMeter {
   JumpMeter(const SoundScene& scene, const DirectLightIndex& index)
       : scene_(scene), index_(index) {}
 
-  /// At a point of a receiver, along the unit vector `across`. No other line may be nearer than
+  /// At a point of a surface, along the unit vector `across`. No other line may be nearer than
   /// `clear`; nothing if the visible part changes its structure within a millionth of the scene.
-  std::optional<MeasuredJump> measure(int receiver, int emitter, const Vec2& at, const Vec2& across,
+  std::optional<MeasuredJump> measure(int surface, int emitter, const Vec2& at, const Vec2& across,
                                       double clear) const {
-    const PlaneFrame& frame = scene_.receivers[static_cast<std::size_t>(receiver)].frame;
+    const PlaneFrame& frame = scene_.surfaces[static_cast<std::size_t>(surface)].frame;
     const Line line{frame.to_space(at), across.x() * frame.e1 + across.y() * frame.e2, frame.normal,
                     emitter};
     const double size = scene_.tolerance.scene_size;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/discontinuity.h"
+#include "meshing/discontinuity/discontinuity.h"
 #include "tests/support/mesh_invariants.h"
 #include "tests/support/sound_scenes.h"
 #include "tests/support/visible_signature.h"
@@ -24,7 +24,7 @@ struct SignatureChange {
   double miss = 0;  ///< distance from the nearest curve, border or contact line
 };
 
-inline Vec2 random_point(const Receiver& receiver, Random& random) {
+inline Vec2 random_point(const Surface& receiver, Random& random) {
   Vec2 low = receiver.rings[0][0], high = low;
   for (const Vec2& p : receiver.rings[0]) {
     low = low.cwiseMin(p);
@@ -68,13 +68,13 @@ class SegmentAuditor {
         size_(scene.tolerance.scene_size),
         limit_(accepted * size_ + rounding * opaque.impl().magnitude) {}
 
-  /// `count` segments on receivers chosen at random among those where something can be seen.
+  /// `count` segments on surfaces chosen at random among those where something can be seen.
   SegmentAudit run(std::span<const int> emitters, int count, std::uint64_t seed) {
     Random random(seed);
     SegmentAudit audit;
     const std::vector<Pair> pairs = choose_pairs(emitters, random);
     for (int i = 0; i < count && !pairs.empty(); ++i) {
-      // Receivers where much changes get most segments.
+      // Surfaces where much changes get most segments.
       const auto r =
           static_cast<std::size_t>(random.integer(0, static_cast<int>(pairs.size()) - 1));
       look_along(pairs[r], random, audit);
@@ -84,7 +84,7 @@ class SegmentAuditor {
   }
 
   Signature signature(const Vec2& p, int receiver, int emitter) {
-    const PlaneFrame& frame = scene_.receivers[static_cast<std::size_t>(receiver)].frame;
+    const PlaneFrame& frame = scene_.surfaces[static_cast<std::size_t>(receiver)].frame;
     const Vec3 point = frame.to_space(p);
     ++evaluations_;
     finder_.find(point, frame.normal, emitter, part_);
@@ -93,7 +93,7 @@ class SegmentAuditor {
 
   /// Distance from what a signature may change at.
   double distance_to_lines(const Vec2& p, int receiver, int emitter) const {
-    const Receiver& surface = scene_.receivers[static_cast<std::size_t>(receiver)];
+    const Surface& surface = scene_.surfaces[static_cast<std::size_t>(receiver)];
     double best = HUGE_VAL;
     for (const Ring& ring : surface.rings)
       for (std::size_t k = 0; k < ring.size(); ++k)
@@ -107,7 +107,7 @@ class SegmentAuditor {
   }
 
   std::string describe(const SignatureChange& change) const {
-    const PlaneFrame& frame = scene_.receivers[static_cast<std::size_t>(change.receiver)].frame;
+    const PlaneFrame& frame = scene_.surfaces[static_cast<std::size_t>(change.receiver)].frame;
     const Vec3 at = frame.to_space(0.5 * (change.before + change.after));
     const Vec2 across = (change.after - change.before).normalized();
     const Vec3& normal = frame.normal;
@@ -139,7 +139,7 @@ class SegmentAuditor {
       for (const Junction& j : *list) edges.insert({j.from, j.to});
     if (edges.erase(horizon_edge) == 0 || edges.size() > 2) return false;
     if (edges.size() < 2) return true;
-    const Vec3 at = scene_.receivers[static_cast<std::size_t>(change.receiver)].frame.to_space(
+    const Vec3 at = scene_.surfaces[static_cast<std::size_t>(change.receiver)].frame.to_space(
         0.5 * (change.before + change.after));
     const Vec3 a = signer_.plane_through(*edges.begin(), change.emitter, at);
     const Vec3 b = signer_.plane_through(*edges.rbegin(), change.emitter, at);
@@ -154,8 +154,8 @@ class SegmentAuditor {
   }
 
   bool before_emitter(const Vec2& p, const Pair& pair) const {
-    const Vec3 point = scene_.receivers[static_cast<std::size_t>(pair.receiver)].frame.to_space(p);
-    return scene_.receivers[static_cast<std::size_t>(pair.emitter)].frame.height(point) >
+    const Vec3 point = scene_.surfaces[static_cast<std::size_t>(pair.receiver)].frame.to_space(p);
+    return scene_.surfaces[static_cast<std::size_t>(pair.emitter)].frame.height(point) >
            accepted * size_;
   }
 
@@ -164,10 +164,10 @@ class SegmentAuditor {
     constexpr int samples = 24;
     std::vector<Pair> pairs;
     for (const int emitter : emitters)
-      for (int r = 0; r < static_cast<int>(scene_.receivers.size()); ++r) {
+      for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
         std::vector<Signature> seen;
         for (int i = 0; i < samples; ++i) {
-          const Vec2 p = random_point(scene_.receivers[static_cast<std::size_t>(r)], random);
+          const Vec2 p = random_point(scene_.surfaces[static_cast<std::size_t>(r)], random);
           if (before_emitter(p, {r, emitter})) seen.push_back(signature(p, r, emitter));
         }
         std::sort(seen.begin(), seen.end());
@@ -178,7 +178,7 @@ class SegmentAuditor {
     return pairs;
   }
 
-  bool crosses_border(const Vec2& a, const Vec2& b, const Receiver& receiver) const {
+  bool crosses_border(const Vec2& a, const Vec2& b, const Surface& receiver) const {
     for (const Ring& ring : receiver.rings)
       for (std::size_t k = 0; k < ring.size(); ++k)
         if (cross(a, b, ring[k], ring[(k + 1) % ring.size()])) return true;
@@ -186,7 +186,7 @@ class SegmentAuditor {
   }
 
   void look_along(const Pair& pair, Random& random, SegmentAudit& audit) {
-    const Receiver& receiver = scene_.receivers[static_cast<std::size_t>(pair.receiver)];
+    const Surface& receiver = scene_.surfaces[static_cast<std::size_t>(pair.receiver)];
     Vec2 a = random_point(receiver, random), b = random_point(receiver, random);
     for (int attempt = 0; attempt < 20 && crosses_border(a, b, receiver); ++attempt)
       b = 0.5 * (a + b);

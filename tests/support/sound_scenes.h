@@ -1,7 +1,7 @@
 #pragma once
 
+#include "meshing/core/sound_scene.h"
 #include "meshing/core/tolerance.h"
-#include "meshing/repair.h"
 #include "tests/support/scenes.h"
 
 #include <algorithm>
@@ -11,27 +11,27 @@
 /// Sound scenes made without the repair, so that tests of what comes after it do not depend on it.
 namespace halfshade::test {
 
-/// Adds a polygon with holes as a receiver. Rings lie in one plane; the first runs
+/// Adds a polygon with holes as a surface. Rings lie in one plane; the first runs
 /// counter-clockwise seen from the front, the holes clockwise.
-inline void add_receiver(SoundScene& scene, const std::vector<std::vector<Vec3>>& rings,
-                         int material) {
-  Receiver receiver;
-  receiver.frame = fit_plane(rings.front());
+inline void add_surface(SoundScene& scene, const std::vector<std::vector<Vec3>>& rings,
+                        int material) {
+  Surface surface;
+  surface.frame = fit_plane(rings.front());
   for (const std::vector<Vec3>& ring : rings) {
-    Ring& flat = receiver.rings.emplace_back();
-    for (const Vec3& p : ring) flat.push_back(receiver.frame.to_plane(p));
+    Ring& flat = surface.rings.emplace_back();
+    for (const Vec3& p : ring) flat.push_back(surface.frame.to_plane(p));
   }
-  receiver.material = material;
-  receiver.faces = {static_cast<int>(scene.receivers.size())};
-  receiver.face_rings = {receiver.rings.front()};
-  receiver.plane = static_cast<int>(scene.receivers.size());
-  for (const Receiver& other : scene.receivers)
-    if (std::abs(std::abs(other.frame.normal.dot(receiver.frame.normal)) - 1) < 1e-13 &&
-        std::abs(other.frame.height(receiver.frame.origin)) < 1e-12 * scene.tolerance.scene_size) {
-      receiver.plane = other.plane;
+  surface.material = material;
+  surface.faces = {static_cast<int>(scene.surfaces.size())};
+  surface.face_rings = {surface.rings.front()};
+  surface.plane = static_cast<int>(scene.surfaces.size());
+  for (const Surface& other : scene.surfaces)
+    if (std::abs(std::abs(other.frame.normal.dot(surface.frame.normal)) - 1) < 1e-13 &&
+        std::abs(other.frame.height(surface.frame.origin)) < 1e-12 * scene.tolerance.scene_size) {
+      surface.plane = other.plane;
       break;
     }
-  scene.receivers.push_back(receiver);
+  scene.surfaces.push_back(surface);
 }
 
 /// Materials 0 (does not emit) and 1 (E = 1), a nominal size, and nothing else.
@@ -47,20 +47,19 @@ inline SoundScene empty_sound_scene(double size) {
   return scene;
 }
 
-/// One receiver a face.
+/// One surface a face.
 inline SoundScene as_it_is(const Scene& scene) {
   SoundScene sound;
   sound.materials = scene.materials;
   sound.groups = scene.groups;
   sound.tolerance = make_tolerance(scene);
   for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f)
-    add_receiver(sound, {face_corners(scene, f)},
-                 scene.faces[static_cast<std::size_t>(f)].material);
+    add_surface(sound, {face_corners(scene, f)}, scene.faces[static_cast<std::size_t>(f)].material);
   return sound;
 }
 
 /// S1: a light of 1 × 1 at z = 2 that looks down, an occluder of 0.75 × 0.75 at z = 1, a floor.
-/// Receivers 0, 1 and 2. data/s1.md derives what is known of it.
+/// Surfaces 0, 1 and 2. data/s1.md derives what is known of it.
 inline SoundScene s1() {
   SoundScene scene = empty_sound_scene(5.5);
   const auto square = [](double low, double high, double z) {
@@ -68,9 +67,9 @@ inline SoundScene s1() {
   };
   std::vector<Vec3> light = square(-0.5, 0.5, 2);
   std::reverse(light.begin(), light.end());
-  add_receiver(scene, {light}, 1);
-  add_receiver(scene, {square(-0.375, 0.375, 1)}, 0);
-  add_receiver(scene, {square(-1.9371, 1.8613, 0)}, 0);
+  add_surface(scene, {light}, 1);
+  add_surface(scene, {square(-0.375, 0.375, 1)}, 0);
+  add_surface(scene, {square(-1.9371, 1.8613, 0)}, 0);
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "meshing/emitter_stage.h"
+#include "meshing/core/light_source.h"
+#include "meshing/events/emitter_stage.h"
 #include "tests/support/discontinuity_scenes.h"
 
 #include <utility>
@@ -12,7 +13,7 @@ struct Staged {
   explicit Staged(SoundScene sound)
       : scene(std::move(sound)),
         opaque(scene),
-        stage(scene, opaque, light_sources(scene).at(0).receiver) {}
+        stage(scene, opaque, light_sources(scene).at(0).surface) {}
   explicit Staged(const SceneMaker& maker) : Staged(maker.sound()) {}
 
   SoundScene scene;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/repair.h"
+#include "meshing/core/sound_scene.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ class VisibilityOracle {
   explicit VisibilityOracle(const SoundScene& scene) : scene_(scene) {}
 
   OracleAnswer form_factor(const Vec3& point, const Vec3& normal, int emitter) const {
-    const Receiver& source = scene_.receivers[static_cast<std::size_t>(emitter)];
+    const Surface& source = scene_.surfaces[static_cast<std::size_t>(emitter)];
     const Real3 x = point.cast<Real>(), n = normal.cast<Real>();
     const Real3 towards = -source.frame.normal.cast<Real>();
     const Real distance = towards.dot(source.frame.origin.cast<Real>() - x);
@@ -102,22 +102,22 @@ class VisibilityOracle {
   }
 
  private:
-  static Real3 corner(const Receiver& receiver, const Vec2& p) {
-    return receiver.frame.to_space(p).cast<Real>();
+  static Real3 corner(const Surface& surface, const Vec2& p) {
+    return surface.frame.to_space(p).cast<Real>();
   }
 
   /// Cones over what of the other polygons lies strictly between the point and the emitter's plane.
   /// Polygons that the point lies in the plane of are seen edge-on, or only touched.
-  std::vector<Cone> occluding_cones(const Receiver& source, const Real3& x, const Real3& towards,
+  std::vector<Cone> occluding_cones(const Surface& source, const Real3& x, const Real3& towards,
                                     Real distance) const {
     std::vector<Cone> cones;
-    for (const Receiver& receiver : scene_.receivers) {
-      if (receiver.plane == source.plane || receiver.back) continue;
+    for (const Surface& surface : scene_.surfaces) {
+      if (surface.plane == source.plane || surface.back) continue;
       const Real height =
-          receiver.frame.normal.cast<Real>().dot(x - receiver.frame.origin.cast<Real>());
+          surface.frame.normal.cast<Real>().dot(x - surface.frame.origin.cast<Real>());
       if (std::abs(height) < 1e-14L * static_cast<Real>(scene_.tolerance.scene_size)) continue;
       RealPolygon polygon;
-      for (const Vec2& p : receiver.rings[0]) polygon.push_back(corner(receiver, p) - x);
+      for (const Vec2& p : surface.rings[0]) polygon.push_back(corner(surface, p) - x);
       polygon = clip(clip(polygon, towards), -towards, -distance);
       if (polygon.empty()) continue;
       Cone cone{{}, height > 0 ? Real(-1) : Real(1)};

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "meshing/opaque_scene.h"
-#include "meshing/visible_part.h"
+#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/visible_part.h"
 
 #include <fmt/format.h>
 
@@ -62,10 +62,10 @@ class Signer {
 
   /// Unit normal of the plane through a point and a line.
   Vec3 plane_through(int line, int emitter, const Vec3& point) const {
-    if (line >= first_plane()) {  // where a receiver's plane cuts the emitter's
-      for (const Receiver& r : scene_.receivers)
+    if (line >= first_plane()) {  // where a surface's plane cuts the emitter's
+      for (const Surface& r : scene_.surfaces)
         if (r.plane == line - first_plane()) {
-          const PlaneFrame& light = scene_.receivers[static_cast<std::size_t>(emitter)].frame;
+          const PlaneFrame& light = scene_.surfaces[static_cast<std::size_t>(emitter)].frame;
           const Vec3 along = r.frame.normal.cross(light.normal);
           const Vec3 inwards = light.normal.cross(along);
           const Vec3 on =
@@ -101,8 +101,8 @@ class Signer {
     if (edge < 0) return line_of_outline(edge, emitter);
     if (edge < opaque_.edge_count()) return line_of_edge_[static_cast<std::size_t>(edge)];
     const auto triangle = static_cast<std::size_t>(edge - opaque_.edge_count());
-    const int receiver = opaque_.impl().triangles[triangle].receiver;
-    return first_plane() + scene_.receivers[static_cast<std::size_t>(receiver)].plane;
+    const int surface = opaque_.impl().triangles[triangle].surface;
+    return first_plane() + scene_.surfaces[static_cast<std::size_t>(surface)].plane;
   }
 
   static bool straight_on(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -113,7 +113,7 @@ class Signer {
   /// The first edge of the emitter's straight stretch.
   int line_of_outline(int edge, int emitter) const {
     int k = -1 - edge;
-    for (const Ring& ring : scene_.receivers[static_cast<std::size_t>(emitter)].rings) {
+    for (const Ring& ring : scene_.surfaces[static_cast<std::size_t>(emitter)].rings) {
       const int count = static_cast<int>(ring.size());
       if (k >= count) {
         k -= count;
@@ -132,7 +132,7 @@ class Signer {
 
   std::array<Vec3, 2> ends_of(int line, int emitter) const {
     if (line >= 0) return opaque_.edge_ends(line);
-    const Receiver& light = scene_.receivers[static_cast<std::size_t>(emitter)];
+    const Surface& light = scene_.surfaces[static_cast<std::size_t>(emitter)];
     auto k = static_cast<std::size_t>(-1 - line);
     for (const Ring& ring : light.rings) {
       if (k < ring.size())

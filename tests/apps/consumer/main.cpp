@@ -3,7 +3,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/scene.h"
-#include "solver/solve.h"
+#include "solver/pipeline/solve.h"
 
 #include <cstdio>
 #include <string>

@@ -1,0 +1,16 @@
+#include "io/files/vtk_messages.h"
+
+#include <string_view>
+
+namespace halfshade::detail {
+
+void VtkMessages::record(vtkObject*, unsigned long, void* text) {
+  if (!first.empty() || text == nullptr) return;
+  // "ERROR: In file.cxx, line 1\nvtkClass (0x1): what happened\n\n"
+  std::string_view message = static_cast<const char*>(text);
+  if (const auto preamble = message.find("): "); preamble != message.npos)
+    message.remove_prefix(preamble + 3);
+  first = message.substr(0, message.find('\n'));
+}
+
+}  // namespace halfshade::detail

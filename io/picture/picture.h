@@ -1,0 +1,70 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/core/scene.h"
+#include "solver/pipeline/solve.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace halfshade {
+
+/// Triangles that carry light, ready to be drawn.
+struct ShadedMesh {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<Rgb> point_radiosity;     ///< W/m²
+  std::vector<Rgb> triangle_radiosity;  ///< W/m²
+  std::vector<std::uint8_t> emits;  ///< 1 for triangles with exitance; the exposure ignores them
+  std::vector<Camera> cameras;
+  bool headlight =
+      false;  ///< without light: "radiosity" is under a lamp at the camera, seen square
+};
+
+/// A solution, with values at points interpolated from the elements.
+ShadedMesh shaded(const SolveResult& result);
+
+/// A scene without light: its reflectances under a lamp at the camera; emitters shine in the colour
+/// of their exitance.
+ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras);
+
+/// Reads a .vtu or .vtp that write_result has written. Throws Error(invalid_input) for anything
+/// else, whatever is in the file.
+ShadedMesh read_shaded(const std::filesystem::path& path);
+
+enum class Shading { smooth, flat };
+
+struct PictureOptions {
+  int width = 800, height = 800;  ///< pixels, 1…16384
+  int samples = 16;               ///< rays per pixel, 1…1024; rounded up to a square
+  double exposure = 0;  ///< factor from W/m² to [0,1] display values; 0: from the picture
+  Shading shading = Shading::smooth;
+  bool mesh_lines = false;  ///< draw the element edges
+};
+
+/// 8-bit sRGB pixels, three bytes each, top row first.
+struct Picture {
+  int width = 0, height = 0;
+  double exposure = 0;  ///< as used
+  std::vector<std::uint8_t> pixels;
+};
+
+/// A camera outside the scene's bounding box that shows all of it in a picture at least as wide as
+/// high, slightly from above. The shortest side of the box is taken for its height, y of equally
+/// short ones; of the sides to look from, the one that shows the most front side. Precondition: the
+/// mesh has points.
+Camera fitting_camera(const ShadedMesh& mesh);
+
+/// Draws by casting rays; needs no display. Back sides are not drawn, so that a room can be looked
+/// into from outside. A pixel is the mean of its tone-mapped samples, so that the edges of bright
+/// lamps are smooth, too. Image x runs along direction × up. If stopped, pixels not reached are
+/// black. Throws Error(contract) for options out of range or a camera that cannot be used.
+Picture draw(const ShadedMesh& mesh, const Camera& camera, const PictureOptions& options = {},
+             const Progress& progress = {});
+
+/// Throws Error(unwritable), or Error(usage) if the extension is not .png.
+void write_png(const Picture& picture, const std::filesystem::path& path);
+
+}  // namespace halfshade

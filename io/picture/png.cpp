@@ -1,0 +1,52 @@
+#include "io/files/atomic_file.h"
+#include "io/files/extension.h"
+#include "io/files/vtk_messages.h"
+#include "io/picture/picture.h"
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+#include <vtkCommand.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <algorithm>
+
+namespace halfshade {
+
+void write_png(const Picture& picture, const std::filesystem::path& path) {
+  if (extension_of(path) != ".png")
+    throw Error(
+        ErrorCode::usage, path.string(),
+        fmt::format("pictures are written as .png, not as '{}'", path.extension().string()));
+  const auto row = static_cast<std::ptrdiff_t>(picture.width) * 3;
+  if (picture.width < 1 || picture.height < 1 ||
+      static_cast<std::ptrdiff_t>(picture.pixels.size()) != row * picture.height)
+    throw Error(ErrorCode::contract, "write_png",
+                fmt::format("a picture of {} x {} pixels has {} bytes", picture.width,
+                            picture.height, picture.pixels.size()));
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(picture.width, picture.height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  auto* out = static_cast<unsigned char*>(image->GetScalarPointer());
+  for (int y = picture.height - 1; y >= 0; --y)  // VTK has the bottom row first
+    out = std::copy_n(picture.pixels.begin() + y * row, row, out);
+
+  detail::VtkMessages messages;
+  vtkNew<vtkPNGWriter> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, &messages, &detail::VtkMessages::record);
+  writer->AddObserver(vtkCommand::WarningEvent, &messages, &detail::VtkMessages::record);
+  writer->SetInputData(image);
+  writer->WriteToMemoryOn();
+  writer->Write();
+  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  if (!messages.first.empty() || writer->GetErrorCode() != 0 || bytes == nullptr)
+    throw Error(ErrorCode::unwritable, path.string(),
+                fmt::format("the picture could not be encoded ({})", messages.first));
+  const auto* begin = reinterpret_cast<const char*>(writer->GetResult()->GetPointer(0));
+  write_atomically(path,
+                   std::string_view(begin, static_cast<std::size_t>(bytes->GetNumberOfValues())));
+}
+
+}  // namespace halfshade

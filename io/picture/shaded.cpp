@@ -1,0 +1,57 @@
+#include "io/files/consistency.h"
+#include "io/picture/picture.h"
+#include "meshing/triangulation/planar_mesh.h"
+#include "solver/elements/vertex_values.h"
+
+namespace halfshade {
+namespace {
+
+// Radiosity of a lamp among reflectances of at most 1: far enough above white to look like one.
+constexpr double lamp_brightness = 4;
+
+Rgb scene_colour(const Material& material) {
+  const double exitance = material.exitance.maxCoeff();
+  return exitance > 0 ? Rgb(lamp_brightness * (material.exitance / exitance)) : material.rho;
+}
+
+}  // namespace
+
+ShadedMesh shaded(const SolveResult& result) {
+  detail::require_consistent(result, "shaded");
+  ShadedMesh mesh;
+  mesh.points = result.elements.points;
+  mesh.triangles = result.elements.corners;
+  mesh.cameras = result.cameras;
+  const ChannelArray at_points = values_at_points(result.elements, result.solution.radiosity);
+  for (Eigen::Index i = 0; i < at_points.rows(); ++i)
+    mesh.point_radiosity.emplace_back(at_points.row(i));
+  for (Eigen::Index e = 0; e < result.elements.count(); ++e) {
+    mesh.triangle_radiosity.emplace_back(result.solution.radiosity.row(e));
+    mesh.emits.push_back((result.solution.exitance.row(e) > 0).any());
+  }
+  return mesh;
+}
+
+ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras) {
+  ShadedMesh mesh;
+  mesh.cameras = cameras;
+  mesh.headlight = true;
+  for (const Surface& surface : scene.surfaces) {
+    const Material& material = scene.materials.at(static_cast<std::size_t>(surface.material));
+    const Rgb colour = scene_colour(material);
+    const PlanarMesh triangles = triangulate(surface.rings, {});
+    const int first = static_cast<int>(mesh.points.size());
+    for (const Vec2& q : triangles.points) {
+      mesh.points.push_back(surface.frame.to_space(q));
+      mesh.point_radiosity.push_back(colour);
+    }
+    for (const auto& t : triangles.triangles) {
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+      mesh.triangle_radiosity.push_back(colour);
+      mesh.emits.push_back((material.exitance > 0).any());
+    }
+  }
+  return mesh;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "meshing/core/scene.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+/// One reader per family of formats. They throw Error(invalid_input) with file and line or element.
+namespace halfshade::reading {
+
+/// Where a material comes from, so that a message about its values can point there.
+struct MaterialOrigin {
+  std::string name;             ///< as the scene file has it, whatever became of the material
+  std::string rho_place;        ///< "file:line"; empty if not given
+  std::string exitance_place;   ///< "file:line"; empty if not given
+  std::string undefined_place;  ///< where it is used, if no file defines it; else empty
+};
+
+/// A scene that has not been checked as a whole yet.
+struct SceneDraft {
+  Scene scene;
+  std::vector<MaterialOrigin> origins;  ///< one a material
+  std::vector<std::string> warnings;
+  std::unordered_map<std::string, int> material_ids;  ///< by the name in the scene file
+  std::unordered_map<std::string, int> group_ids;
+};
+
+/// The name of the material and of the group of faces that the file gives none.
+inline constexpr const char* default_name = "default";
+
+SceneDraft read_obj(const std::filesystem::path& path);
+SceneDraft read_ply(const std::filesystem::path& path);
+SceneDraft read_off(const std::filesystem::path& path);
+SceneDraft read_with_assimp(const std::filesystem::path& path);
+
+/// Adds what an MTL file defines to the draft's materials.
+void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
+
+/// True for .gltf and .glb files.
+bool is_gltf(const std::filesystem::path& path);
+
+/// The factors of KHR_materials_emissive_strength, which assimp leaves out, by material name.
+std::map<std::string, double> gltf_emissive_strengths(const std::filesystem::path& path);
+
+/// The id of the material with this name, which is appended with the default values if it is new.
+int material_id(SceneDraft& draft, const std::string& name);
+
+/// The id of the group with this name, which is appended if it is new.
+int group_id(SceneDraft& draft, const std::string& name);
+
+/// Appends a polygon whose corners count from 0, with the default material and group. Fails if a
+/// corner is out of range of the vertices read so far or if there are fewer than three.
+void add_plain_face(SceneDraft& draft, const std::vector<long long>& corners, int line);
+
+}  // namespace halfshade::reading

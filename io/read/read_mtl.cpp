@@ -1,0 +1,134 @@
+// Wavefront MTL: Kd is the reflectance, Ke the exitance in W/m².
+
+#include "io/read/read_formats.h"
+#include "io/read/read_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+namespace halfshade::reading {
+namespace {
+
+class MtlReader {
+ public:
+  MtlReader(const std::filesystem::path& file, SceneDraft& draft) : file_(file), draft_(draft) {}
+
+  void read() {
+    const std::string bytes = read_bytes(file_);
+    LineReader lines(bytes, LineReader::Continuation::backslash);
+    while (lines.next()) {
+      line_ = lines.line();
+      statement(lines.text());
+    }
+    finish_material();
+  }
+
+ private:
+  void statement(std::string_view text) {
+    split(text, words_);
+    const std::string_view keyword = words_[0];
+    if (keyword == "newmtl") {
+      finish_material();
+      start_material(trimmed(text.substr(keyword.size())));
+    } else if (keyword == "Kd") {
+      draft_.scene.materials[present(keyword)].rho = colour();
+      draft_.origins[present(keyword)].rho_place = place(file_, line_);
+    } else if (keyword == "Ke") {
+      draft_.scene.materials[present(keyword)].exitance = colour();
+      draft_.origins[present(keyword)].exitance_place = place(file_, line_);
+    } else {
+      unused(keyword);
+    }
+  }
+
+  void start_material(std::string_view name) {
+    if (name.empty()) fail(file_, line_, "newmtl does not name a material");
+    const auto id = static_cast<std::size_t>(material_id(draft_, std::string(name)));
+    if (!defined_.insert(id).second)
+      warn(
+          fmt::format("material {} is defined again; the last definition counts", in_quotes(name)));
+    Material& material = draft_.scene.materials[id];
+    material = Material{};
+    material.name = name;
+    draft_.origins[id] = {material.name, {}, {}, {}};
+    material_ = id;
+  }
+
+  void finish_material() {
+    if (material_ && draft_.origins[*material_].rho_place.empty()) {
+      const Material& material = draft_.scene.materials[*material_];
+      draft_.warnings.push_back(
+          fmt::format("{}: material {} has no Kd; its reflectance is taken as {}", file_.string(),
+                      in_quotes(material.name), material.rho[0]));
+    }
+    material_.reset();
+  }
+
+  std::size_t present(std::string_view keyword) const {
+    if (!material_) fail(file_, line_, fmt::format("{} comes before any newmtl", keyword));
+    return *material_;
+  }
+
+  /// One number stands for all channels.
+  Rgb colour() const {
+    if (words_.size() > 1 && (words_[1] == "spectral" || words_[1] == "xyz"))
+      fail(file_, line_,
+           fmt::format("{} {} is not supported; give red, green and blue", words_[0], words_[1]));
+    if (words_.size() != 2 && words_.size() != 4)
+      fail(file_, line_,
+           fmt::format("{} has {} numbers; it needs 3 (red, green, blue) or 1", words_[0],
+                       words_.size() - 1));
+    Rgb value;
+    for (int c = 0; c < 3; ++c)
+      value[c] =
+          number(words_[words_.size() == 2 ? 1 : static_cast<std::size_t>(c) + 1], file_, line_);
+    return value;
+  }
+
+  void unused(std::string_view keyword) {
+    const auto is_one_of = [&](std::initializer_list<std::string_view> names) {
+      return std::find(names.begin(), names.end(), keyword) != names.end();
+    };
+    // How a surface shines and looks up close does not concern a diffuse one.
+    if (is_one_of({"Ka", "Ks", "Ns", "Ni", "Tf", "illum", "sharpness", "map_Ka", "map_Ks", "map_Ns",
+                   "map_Bump", "map_bump", "bump", "disp", "decal", "refl", "norm", "map_aat"}))
+      return;
+    std::string why;
+    if (keyword == "map_Kd") {
+      why = "painted reflectances are not used yet; the material has its Kd everywhere";
+    } else if (keyword == "map_Ke") {
+      why = "painted exitances are not used; the material has its Ke everywhere";
+    } else if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
+      const std::optional<double> value = parse_double(words_.back());
+      if (value && *value == (keyword == "Tr" ? 0.0 : 1.0)) return;
+      why = "all surfaces are opaque; transparency is not used";
+    } else {
+      why = fmt::format("statements that begin with {} are not used", in_quotes(keyword));
+    }
+    constexpr std::size_t most = 10;  // a file of another kind has thousands
+    if (warned_.size() < most && warned_.insert(std::string(keyword)).second) warn(why);
+  }
+
+  void warn(const std::string& sentence) {
+    draft_.warnings.push_back(place(file_, line_) + ": " + sentence);
+  }
+
+  std::filesystem::path file_;
+  SceneDraft& draft_;
+  std::vector<std::string_view> words_;
+  int line_ = 0;
+  std::optional<std::size_t> material_;
+  std::set<std::size_t> defined_;
+  std::set<std::string> warned_;
+};
+
+}  // namespace
+
+void read_mtl(const std::filesystem::path& path, SceneDraft& draft) {
+  MtlReader(path, draft).read();
+}
+
+}  // namespace halfshade::reading

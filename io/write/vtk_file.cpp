@@ -1,0 +1,161 @@
+#include "io/write/vtk_file.h"
+
+#include "io/files/cameras_json.h"
+#include "io/files/seal.h"
+#include "io/files/vtk_messages.h"
+#include "meshing/core/error.h"
+#include "meshing/patches/quality.h"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCommand.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkStringArray.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include <algorithm>
+
+namespace halfshade::detail {
+namespace {
+
+template <class Array, class Value>
+void add_array(vtkFieldData* data, const char* name, const std::vector<Value>& values,
+               int components) {
+  vtkNew<Array> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(static_cast<vtkIdType>(values.size()) / components);
+  std::copy(values.begin(), values.end(), array->GetPointer(0));
+  data->AddArray(array);
+}
+
+/// Cuts out the ranges that VTK notes as information keys: for empty arrays and values near the
+/// ends of the range of doubles its own reader fails on them.
+std::string without_keys(std::string xml) {
+  std::string result;
+  result.reserve(xml.size());
+  constexpr std::string_view begin = "<InformationKey", end = "</InformationKey>";
+  std::size_t place = 0;
+  for (std::size_t key = xml.find(begin); key != std::string::npos; key = xml.find(begin, place)) {
+    const std::size_t line = xml.find_last_not_of(' ', key - 1) + 1;
+    result.append(xml, place, line - place);
+    place = xml.find(end, key) + end.size();
+    if (place < xml.size() && xml[place] == '\n') ++place;
+  }
+  return result.append(xml, place);
+}
+
+template <class Writer, class Grid>
+std::string encode(Grid* grid, const char* caller) {
+  VtkMessages messages;
+  vtkNew<Writer> writer;
+  writer->AddObserver(vtkCommand::ErrorEvent, &messages, &VtkMessages::record);
+  writer->AddObserver(vtkCommand::WarningEvent, &messages, &VtkMessages::record);
+  // Appended data, the default, comes out empty in ParaView builds with expat 2.5 and later.
+  writer->SetDataModeToBinary();
+  writer->SetCompressorTypeToZLib();
+  writer->SetIdTypeToInt32();
+  writer->WriteToOutputStringOn();
+  writer->SetInputData(grid);
+  if (writer->Write() == 0 || !messages.first.empty())
+    throw Error(ErrorCode::unwritable, caller,
+                fmt::format("the data could not be encoded for VTK ({})", messages.first));
+  return seal(without_keys(writer->GetOutputString()));
+}
+
+}  // namespace
+
+void add_numbers(vtkFieldData* data, const char* name, const std::vector<double>& values,
+                 int components) {
+  add_array<vtkDoubleArray>(data, name, values, components);
+}
+
+void add_integers(vtkFieldData* data, const char* name, const std::vector<int>& values,
+                  int components) {
+  add_array<vtkIntArray>(data, name, values, components);
+}
+
+void add_channels(vtkFieldData* data, const char* name, const ChannelArray& values) {
+  const Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = values;
+  add_numbers(data, name, {rows.data(), rows.data() + rows.size()}, 3);
+}
+
+void add_strings(vtkFieldData* data, const char* name, const std::vector<std::string>& values) {
+  vtkNew<vtkStringArray> array;
+  array->SetName(name);
+  for (const std::string& value : values) array->InsertNextValue(value);
+  data->AddArray(array);
+}
+
+/// 0 lit, 1 penumbra, 2 umbra, 3 where no emitter lies above the horizon.
+std::vector<int> region_codes(const std::vector<Region>& regions) {
+  std::vector<int> codes;
+  codes.reserve(regions.size());
+  for (const Region region : regions) codes.push_back(static_cast<int>(region));
+  return codes;
+}
+
+void add_element_data(const ElementTable& elements, vtkFieldData* data) {
+  add_integers(data, "face", elements.face);
+  add_integers(data, "group", elements.group);
+  add_integers(data, "material", elements.material);
+  add_integers(data, "surface", elements.surface);
+  add_integers(data, "level", elements.level);
+  add_numbers(data, "quality", min_angles(elements));
+}
+
+vtkSmartPointer<vtkCellArray> triangles_of(const ElementTable& elements) {
+  const auto triangles = vtkSmartPointer<vtkCellArray>::New();
+  for (const auto& corners : elements.corners) {
+    triangles->InsertNextCell(3);
+    for (const int p : corners) triangles->InsertCellPoint(p);
+  }
+  return triangles;
+}
+
+void add_run(vtkFieldData* data, const RunData& run, const Provenance& provenance) {
+  std::vector<std::string> stages, materials;
+  std::vector<double> seconds;
+  for (const StageReport& stage : run.stages) {
+    stages.push_back(stage.name);
+    seconds.push_back(stage.seconds);
+  }
+  for (const Material& material : run.scene.materials) materials.push_back(material.name);
+  add_provenance(data, provenance);
+  add_strings(data, "unit", {run.unit});
+  add_strings(data, "cameras", {cameras_to_json(run.cameras)});
+  add_strings(data, "group_names", run.scene.groups);
+  add_strings(data, "material_names", materials);
+  add_strings(data, "stage_names", stages);
+  add_numbers(data, "stage_seconds", seconds);
+  add_integers(data, "interrupted", {run.interrupted ? 1 : 0});
+}
+
+void add_provenance(vtkFieldData* data, const Provenance& provenance) {
+  add_strings(data, "version", {provenance.version});
+  add_strings(data, "command_line", {provenance.command_line});
+}
+
+void set_points(vtkPointSet* grid, std::span<const Vec3> points) {
+  vtkNew<vtkPoints> array;
+  array->SetDataTypeToDouble();
+  for (const Vec3& p : points) array->InsertNextPoint(p.data());
+  grid->SetPoints(array);
+}
+
+std::string vtk_bytes(vtkPointSet* grid, const char* caller) {
+  if (auto* cells = vtkUnstructuredGrid::SafeDownCast(grid))
+    return encode<vtkXMLUnstructuredGridWriter>(cells, caller);
+  if (auto* poly = vtkPolyData::SafeDownCast(grid))
+    return encode<vtkXMLPolyDataWriter>(poly, caller);
+  throw Error(ErrorCode::contract, caller, "the grid is neither unstructured nor poly data");
+}
+
+}  // namespace halfshade::detail

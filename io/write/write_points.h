@@ -1,0 +1,24 @@
+#pragma once
+
+#include "io/read/read_points.h"
+#include "io/write/write_result.h"
+
+#include <filesystem>
+#include <span>
+
+namespace halfshade {
+
+/// Writes points with the light at each, by extension. `light` may be shorter than the table: what
+/// comes after was not computed and is left out.
+/// * .csv: the rows of the table followed by H_r, H_g, H_b (irradiance in W/m²) and visible, with
+/// as many digits as it takes to read back the same numbers;
+/// * .vtp: points with the arrays irradiance, visible, region (0 lit, 1 penumbra, 2 umbra, 3 away)
+/// and normal; field data version and command_line.
+/// Throws Error(usage) for another extension, Error(unwritable) if it cannot be written.
+void write_points(const PointTable& table, std::span<const DirectLight> light,
+                  const Provenance& provenance, const std::filesystem::path& path);
+
+/// True if write_points knows the extension of `path`.
+bool is_points_path(const std::filesystem::path& path);
+
+}  // namespace halfshade

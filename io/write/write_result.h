@@ -1,0 +1,32 @@
+#pragma once
+
+#include "solver/pipeline/solve.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// What the files say about how they came about.
+struct Provenance {
+  std::string version;
+  std::string command_line;
+};
+
+/// Writes a solved scene by extension: .vtu, .vtp (VTK XML, inline binary, compressed) or .ply.
+/// VTK cell data: radiosity, irradiance, direct_irradiance, exitance, reflectance (3 components);
+/// error_estimate, order, region (0 lit, 1 penumbra, 2 umbra, 3 no emitter above the horizon; left
+/// out where direct light was not exact), face, group, material, surface, level, quality (minimum
+/// angle in degrees). Point data: radiosity, irradiance. Field data: version, command line, unit,
+/// stage names and times, group and material names, cameras (JSON), interrupted, achieved_error
+/// (relative, in the L2 norm of the irradiance). PLY: vertices with tone-mapped colours and float
+/// radiosity_r/g/b; the exposure is in a comment. Throws Error(usage) for another extension,
+/// Error(unwritable) if it cannot be written.
+void write_result(const SolveResult& result, const Provenance& provenance,
+                  const std::filesystem::path& path);
+
+/// True if write_result knows the extension of `path`.
+bool is_result_path(const std::filesystem::path& path);
+
+}  // namespace halfshade

@@ -1,0 +1,148 @@
+#include "meshing/backprojection/shadow_arrangement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+// The first step of the arrangement: which edges are silhouettes seen from the point.
+
+namespace halfshade {
+namespace {
+
+// How much boxes are enlarged, relative to the outline's size and to the rounding of a corner: far
+// above what can go wrong, and little enough to keep the boxes useful.
+constexpr double box_margin = 1e-9;
+constexpr double blur_margin = 1e5;
+
+/// All faces below a node look towards the eye, or all look away from it.
+bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
+  if (cone.axis.isZero()) return false;
+  const Vec3 offset = eye - cone.centre;
+  const double along = std::abs(cone.axis.dot(offset));
+  const double across = std::sqrt(std::max(0., offset.squaredNorm() - along * along));
+  return along * cone.cosine - across * cone.sine >
+         cone.thickness * cone.cosine + cone.radius * cone.sine + slack;
+}
+
+}  // namespace
+
+void ShadowArrangement::collect_silhouettes() {
+  const auto& scene = view_->scene();
+  const SightPyramid& pyramid = outline_->pyramid;
+  const auto consider = [&](int edge) { consider_edge(edge); };
+  walk_tree(
+      scene.closed_edges,
+      [&](int index) {
+        const Bounds& box = scene.closed_edges.nodes[at(index)].box;
+        if (pyramid.is_outside(box)) return true;
+        // Faces beyond the emitter's plane or in it do not count, so their edges may matter.
+        return look_one_way(scene.cones[at(index)], pyramid.eye, pyramid.slack) &&
+               pyramid.is_before_plane(box);
+      },
+      consider);
+  walk_tree(
+      scene.open_edges,
+      [&](int index) { return pyramid.is_outside(scene.open_edges.nodes[at(index)].box); },
+      consider);
+  collect_cuts();
+}
+
+void ShadowArrangement::consider_edge(int edge) {
+  const auto& e = view_->scene().edges[at(edge)];
+  int from = view_->corner_of_vertex(e.from), to = view_->corner_of_vertex(e.to);
+  if (outline_->pyramid.is_outside(view_->corners[at(from)].direction,
+                                   view_->corners[at(to)].direction))
+    return;
+  const Place a = view_->corners[at(from)].place, b = view_->corners[at(to)].place;
+  if (a != Place::before && b != Place::before && !(a == Place::on && b == Place::on)) return;
+  int weight = 0;
+  for (int i = e.first; i < e.first + e.count; ++i) {
+    const auto& incidence = view_->scene().incidences[at(i)];
+    weight += incidence.direction * view_->face_sign(incidence.triangle);
+  }
+  if (weight == 0) return;
+  if (a == Place::beyond) from = view_->corner_of_cut(edge);
+  if (b == Place::beyond) to = view_->corner_of_cut(edge);
+  if (weight > 0)
+    add_arc(from, to, weight, edge);
+  else
+    add_arc(to, from, -weight, edge);
+}
+
+/// The lines where faces pierce the emitter's plane.
+void ShadowArrangement::collect_cuts() {
+  const auto& scene = view_->scene();
+  const SightPyramid& pyramid = outline_->pyramid;
+  const auto skip = [&](int index) {
+    const Bounds& box = scene.faces.nodes[at(index)].box;
+    return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
+  };
+  const std::size_t first = arcs_.size();
+  walk_tree(scene.faces, skip, [&](int triangle) {
+    const int sign = view_->face_sign(triangle);
+    if (sign == 0) return;
+    std::array<int, 4> p{};
+    const int count = view_->clipped(triangle, p);
+    for (int k = 0; k < count; ++k) {
+      const int i = p[at(k)], j = p[at((k + 1) % count)];
+      const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
+      if (a.place != Place::on || b.place != Place::on || !(a.is_cut || b.is_cut)) continue;
+      const int id = static_cast<int>(scene.edges.size()) + triangle;
+      sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
+    }
+  });
+  join_repeated(first);
+}
+
+/// Faces that overlap in one plane may share two edges, and then their cuts are one. Edges of the
+/// scene are never repeated, but may lie in the emitter's plane, too.
+void ShadowArrangement::join_repeated(std::size_t first_cut) {
+  if (first_cut == arcs_.size()) return;
+  const auto ends = [](const Arc& arc) {
+    return std::pair(std::min(arc.from, arc.to), std::max(arc.from, arc.to));
+  };
+  const auto silhouettes = arcs_.begin() + static_cast<std::ptrdiff_t>(outline_->edges.size());
+  std::sort(silhouettes, arcs_.end(), [&](const Arc& a, const Arc& b) {
+    return std::pair(ends(a), a.edge) < std::pair(ends(b), b.edge);
+  });
+  auto kept = silhouettes;
+  for (auto arc = silhouettes; arc != arcs_.end();) {
+    Arc sum = *arc;
+    for (++arc; arc != arcs_.end() && ends(*arc) == ends(sum); ++arc)
+      sum.weight += arc->from == sum.from ? arc->weight : -arc->weight;
+    if (sum.weight < 0) {
+      std::swap(sum.from, sum.to);
+      sum.weight = -sum.weight;
+    }
+    if (sum.weight != 0) *kept++ = sum;
+  }
+  arcs_.erase(kept, arcs_.end());
+}
+
+void ShadowArrangement::add_arc(int from, int to, int weight, int edge) {
+  const auto& corners = view_->corners;
+  // Where a silhouette is an edge of the outline, the outline speaks for both.
+  if (corners[at(from)].next_on_outline == to || corners[at(to)].next_on_outline == from) return;
+  Arc arc{from, to, weight, edge};
+  if (set_box(arc)) arcs_.push_back(arc);
+}
+
+/// The bounding box in the emitter's plane, a little enlarged; false if it misses the outline's.
+bool ShadowArrangement::set_box(Arc& arc) const {
+  const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
+  const SightPyramid& pyramid = outline_->pyramid;
+  // Boxes need not be tight; these margins are far above rounding.
+  const double margin =
+      box_margin * (pyramid.high - pyramid.low).maxCoeff() + blur_margin * view_->blur();
+  if (a.is_ahead && b.is_ahead) {
+    arc.low = a.image.cwiseMin(b.image).array() - margin;
+    arc.high = a.image.cwiseMax(b.image).array() + margin;
+  } else {
+    arc.low = pyramid.low.array() - margin;
+    arc.high = pyramid.high.array() + margin;
+  }
+  return (arc.low.array() <= pyramid.high.array()).all() &&
+         (arc.high.array() >= pyramid.low.array()).all();
+}
+
+}  // namespace halfshade

@@ -1,0 +1,152 @@
+#include "meshing/backprojection/emitter_outline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+// More planes than this cost more in tests than they save in edges.
+constexpr std::size_t max_sides = 8;
+// How far the horizon is raised, in roundings of a length.
+constexpr double raised = 4;
+
+}  // namespace
+
+/// Above the horizon, which is raised by a few roundings: so edges of other faces that lie in the
+/// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
+double EmitterOutline::height(const PointView& view, int corner) const {
+  const double h =
+      normal_.dot(view.corners[at(corner)].true_position - point_) - raised * view.slack();
+  return std::abs(h) <= view.slack() ? 0 : h;
+}
+
+void EmitterOutline::add_edge(PointView& view, int from, int to, int edge) {
+  if (from == to) return;
+  edges.push_back({from, to, edge});
+  view.corners[at(from)].next_on_outline = to;
+}
+
+/// The corner where an edge between two sides of the horizon crosses it.
+int EmitterOutline::cross_horizon(PointView& view, int from, int to) {
+  const double a = height(view, from), b = height(view, to);
+  if (a == 0) return from;
+  if (b == 0) return to;
+  const Vec3 p = view.corners[at(from)].true_position, q = view.corners[at(to)].true_position;
+  const auto count = static_cast<std::int64_t>(exits_.size() + entries_.size());
+  return view.add_corner(p + a / (a - b) * (q - p), view.first_free_rank() + count);
+}
+
+void EmitterOutline::cut_ring(PointView& view,
+                              std::span<const OpaqueScene::Impl::OutlineVertex> ring) {
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const int a = view.corner_of_vertex(ring[k].vertex);
+    const int b = view.corner_of_vertex(ring[(k + 1) % ring.size()].vertex);
+    const double from = height(view, a), to = height(view, b);
+    reaches_above_ = reaches_above_ || from > 0;
+    if (from >= 0 && to >= 0) {
+      add_edge(view, a, b, -1 - ring[k].edge);
+      continue;
+    }
+    if (from < 0 && to < 0) continue;
+    const int c = cross_horizon(view, a, b);
+    const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
+    if (from >= 0) {
+      add_edge(view, a, c, -1 - ring[k].edge);
+      exits_.push_back({along, c});
+    } else {
+      add_edge(view, c, b, -1 - ring[k].edge);
+      entries_.push_back({along, c});
+    }
+  }
+}
+
+/// Along the horizon, exits and entries take turns.
+void EmitterOutline::close_along_horizon(PointView& view) {
+  const auto before = [](const Crossing& a, const Crossing& b) {
+    return a.along != b.along ? a.along < b.along : a.corner < b.corner;
+  };
+  std::sort(exits_.begin(), exits_.end(), before);
+  std::sort(entries_.begin(), entries_.end(), before);
+  for (std::size_t i = 0; i < exits_.size(); ++i)
+    add_edge(view, exits_[i].corner, entries_[i].corner, horizon_edge);
+}
+
+/// Chain by chain, each edge after the one that ends where it starts.
+void EmitterOutline::put_in_order(const PointView& view) {
+  unordered_.swap(edges);
+  edges.clear();
+  first_at_.assign(view.corners.size(), -1);
+  sibling_.assign(unordered_.size(), -1);
+  for (std::size_t e = unordered_.size(); e-- > 0;) {
+    int& first = first_at_[at(unordered_[e].from)];
+    sibling_[e] = first;
+    first = static_cast<int>(e);
+  }
+  for (const OutlineEdge& start : unordered_)
+    for (int corner = start.from; first_at_[at(corner)] >= 0;) {
+      const int e = first_at_[at(corner)];
+      first_at_[at(corner)] = sibling_[at(e)];
+      edges.push_back(unordered_[at(e)]);
+      corner = unordered_[at(e)].to;
+    }
+}
+
+void EmitterOutline::make_pyramid(const PointView& view) {
+  const PlaneFrame& frame = view.emitter();
+  pyramid.eye = point_;
+  pyramid.normal = frame.normal;
+  pyramid.plane_point = frame.origin;
+  pyramid.slack = 8 * view.blur();
+  pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
+  for (const OutlineEdge& edge : edges) {
+    pyramid.low = pyramid.low.cwiseMin(view.corners[at(edge.from)].image);
+    pyramid.high = pyramid.high.cwiseMax(view.corners[at(edge.from)].image);
+  }
+  pyramid.sides.assign(1, frame.normal);
+  const std::size_t step = (edges.size() + max_sides - 1) / max_sides;
+  for (std::size_t e = 0; e < edges.size(); e += step) {
+    // Seen from the front the outline runs counter-clockwise, so outwards is to the right.
+    const Vec2 along = view.corners[at(edges[e].to)].image - view.corners[at(edges[e].from)].image;
+    const Vec2 out = Vec2(along.y(), -along.x()).normalized();
+    double limit = -HUGE_VAL;
+    for (const OutlineEdge& other : edges)
+      limit = std::max(limit, out.dot(view.corners[at(other.from)].image));
+    pyramid.sides.push_back(
+        (out.x() * frame.e1 + out.y() * frame.e2 + limit / view.distance() * frame.normal)
+            .normalized());
+  }
+}
+
+void EmitterOutline::copy_ends(std::vector<int>& ends) const {
+  ends.clear();
+  std::size_t first = 0;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    if (edges[e].to == edges[first].from) {
+      first = e + 1;
+      ends.push_back(static_cast<int>(first));
+    }
+}
+
+bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {
+  edges.clear();
+  exits_.clear();
+  entries_.clear();
+  reaches_above_ = false;
+  point_ = point;
+  normal_ = normal;
+  horizon_ = normal.cross(view.emitter().normal);
+  const auto& surface = view.scene().surfaces[at(emitter)];
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
+    cut_ring(view, view.scene().ring(r));
+  if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
+  if (!exits_.empty()) {
+    close_along_horizon(view);
+    put_in_order(view);
+  }
+  make_pyramid(view);
+  return true;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "meshing/backprojection/point_view.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// A straight piece of the boundary of the emitter's part above the horizon; seen from the point
+/// the emitter is on its left.
+struct OutlineEdge {
+  int from, to;  ///< corners
+  int edge;      ///< as in BoundaryPiece
+};
+
+/// Cuts an emitter's rings at the point's horizon. Keeps its buffers.
+class EmitterOutline {
+ public:
+  std::vector<OutlineEdge> edges;  ///< closed chain after closed chain
+  SightPyramid pyramid;
+
+  /// False if nothing of the emitter lies above the horizon.
+  bool make(PointView& view, const Vec3& point, const Vec3& normal, int emitter);
+
+  /// For each chain, where the next one starts.
+  void copy_ends(std::vector<int>& ends) const;
+
+ private:
+  struct Crossing {
+    double along;
+    int corner;
+  };
+  void add_edge(PointView& view, int from, int to, int edge);
+  int cross_horizon(PointView& view, int from, int to);
+  void cut_ring(PointView& view, std::span<const OpaqueScene::Impl::OutlineVertex> ring);
+  void close_along_horizon(PointView& view);
+  void put_in_order(const PointView& view);
+  void make_pyramid(const PointView& view);
+  double height(const PointView& view, int corner) const;
+
+  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero(), horizon_ = Vec3::Zero();
+  std::vector<Crossing> exits_, entries_;
+  std::vector<OutlineEdge> unordered_;
+  std::vector<int> first_at_, sibling_;
+  bool reaches_above_ = false;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,121 @@
+#include "meshing/backprojection/opaque_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+using Impl = OpaqueScene::Impl;
+
+// Corners of neighbours lie apart by as much as their planes do, but never by this share of an
+// edge.
+constexpr double largest_gap = 0.01;
+
+/// One point per corner of a ring, in the order of the scene.
+struct Corners {
+  std::vector<Vec3> position;
+  std::vector<double> reach;  // corners this close are the same
+  std::vector<int> edge;
+};
+
+void add_ring(const Surface& surface, const Ring& ring, const Tolerance& tolerance, int first_edge,
+              Corners& corners) {
+  const std::size_t n = ring.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const double before = (ring[k] - ring[(k + n - 1) % n]).norm();
+    const double after = (ring[(k + 1) % n] - ring[k]).norm();
+    corners.position.push_back(surface.frame.to_space(ring[k]));
+    corners.reach.push_back(
+        std::max(tolerance.length,
+                 std::min(2 * tolerance.planarity, largest_gap * std::min(before, after))));
+    corners.edge.push_back(first_edge + static_cast<int>(k));
+  }
+}
+
+Bounds box_about(const Vec3& p, double reach) {
+  return {p - Vec3::Constant(reach), p + Vec3::Constant(reach)};
+}
+
+/// Maps each corner to a vertex.
+std::vector<int> join(const Corners& corners, std::vector<Vec3>& vertices) {
+  std::vector<Bounds> boxes;
+  for (std::size_t i = 0; i < corners.position.size(); ++i)
+    boxes.push_back(box_about(corners.position[i], 0));
+  const FlatTree tree = make_flat_tree(boxes);
+  std::vector<int> vertex(corners.position.size(), -1);
+  for (std::size_t i = 0; i < vertex.size(); ++i) {
+    if (vertex[i] >= 0) continue;
+    vertex[i] = static_cast<int>(vertices.size());
+    vertices.push_back(corners.position[i]);
+    visit_overlaps(tree, box_about(corners.position[i], corners.reach[i]), [&](int j) {
+      if (vertex[at(j)] < 0 && (corners.position[at(j)] - corners.position[i]).norm() <=
+                                   std::min(corners.reach[i], corners.reach[at(j)]))
+        vertex[at(j)] = vertex[i];
+    });
+  }
+  return vertex;
+}
+
+/// Appends the vertices that lie within `reach` of the inside of a straight edge, in order.
+struct EdgeFiller {
+  const std::vector<Vec3>& vertices;
+  const FlatTree& tree;
+  std::vector<std::pair<double, int>> found;
+
+  void add(int from, int to, int edge, double reach, std::vector<Impl::OutlineVertex>& outline) {
+    const Vec3 a = vertices[at(from)], along = vertices[at(to)] - a;
+    Bounds box = box_about(a, reach);
+    box.include(box_about(vertices[at(to)], reach));
+    found.clear();
+    visit_overlaps(tree, box, [&](int v) {
+      if (v == from || v == to) return;
+      const Vec3 offset = vertices[at(v)] - a;
+      const double t = along.dot(offset) / along.squaredNorm();
+      if (t > 0 && t < 1 && (offset - t * along).norm() <= reach) found.emplace_back(t, v);
+    });
+    std::sort(found.begin(), found.end());
+    for (const auto& [t, v] : found) outline.push_back({v, edge});
+  }
+};
+
+}  // namespace
+
+void join_outlines(const SoundScene& scene, Impl& out) {
+  Corners corners;
+  std::vector<int> sizes;
+  for (const Surface& surface : scene.surfaces) {
+    Impl::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
+                               static_cast<int>(surface.rings.size())};
+    int first_edge = 0;
+    for (const Ring& ring : surface.rings) {
+      add_ring(surface, ring, scene.tolerance, first_edge, corners);
+      first_edge += static_cast<int>(ring.size());
+      sizes.push_back(static_cast<int>(ring.size()));
+    }
+    out.surfaces.push_back(opaque);
+  }
+  const std::vector<int> vertex = join(corners, out.vertices);
+  std::vector<Bounds> boxes;
+  for (const Vec3& p : out.vertices) boxes.push_back(box_about(p, 0));
+  const FlatTree tree = make_flat_tree(boxes);
+  EdgeFiller filler{out.vertices, tree, {}};
+  std::size_t first = 0;
+  for (const int size : sizes) {
+    Impl::RingRange range{static_cast<int>(out.outline.size()), 0};
+    for (std::size_t k = 0; k < at(size); ++k) {
+      const int from = vertex[first + k], to = vertex[first + (k + 1) % at(size)];
+      if (from == to) continue;
+      out.outline.push_back({from, corners.edge[first + k]});
+      filler.add(from, to, corners.edge[first + k], scene.tolerance.length, out.outline);
+    }
+    range.count = static_cast<int>(out.outline.size()) - range.first;
+    out.rings.push_back(range);
+    first += at(size);
+  }
+  for (const Vec3& p : out.vertices)
+    out.magnitude = std::max(out.magnitude, p.lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace halfshade

@@ -1,0 +1,256 @@
+#include "meshing/backprojection/point_view.h"
+
+#include "meshing/geometry/mix_bits.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+// Stands for 0 where directions are inverted; its inverse is still finite.
+constexpr double least_slope = 1e-300;
+
+using Impl = OpaqueScene::Impl;
+
+// What rounding may put a point off a plane that it was computed to lie in, relative to the largest
+// coordinate: a few roundings each in the point, in the plane's origin and in the distance.
+constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+// Cosine beyond which the point's normal is its surface's.
+constexpr double same_normal = 1 - 1e-6;
+// Corners nearer to the plane through the point than this share of the emitter's distance are not
+// projected.
+constexpr double nearest_image = 1e-4;
+
+/// A vector in [−length, length)³ that looks random.
+Vec3 scatter(std::int64_t rank, double length) {
+  Vec3 v;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::uint64_t x = 3 * static_cast<std::uint64_t>(rank) + static_cast<std::uint64_t>(axis);
+    x = mix_bits(mix_bits(x) + std::bit_cast<std::uint64_t>(length));
+    v[axis] = length * (static_cast<double>(x >> 11) * 0x1p-52 - 1);
+  }
+  return v;
+}
+
+double reach(const Bounds& box, const Vec3& normal) {
+  return 0.5 * normal.cwiseAbs().dot(box.high - box.low);
+}
+
+}  // namespace
+
+bool SightPyramid::is_outside(const Bounds& box) const {
+  const Vec3 centre = 0.5 * (box.low + box.high);
+  if (normal.dot(centre - plane_point) + reach(box, normal) < -slack) return true;
+  const Vec3 offset = centre - eye;
+  for (const Vec3& side : sides)
+    if (side.dot(offset) - reach(box, side) > slack) return true;
+  return false;
+}
+
+bool SightPyramid::is_outside(const Vec3& from, const Vec3& to) const {
+  for (const Vec3& side : sides)
+    if (side.dot(from) > slack && side.dot(to) > slack) return true;
+  return false;
+}
+
+bool SightPyramid::is_before_plane(const Bounds& box) const {
+  return normal.dot(0.5 * (box.low + box.high) - plane_point) - reach(box, normal) > slack;
+}
+
+bool SightPyramid::crosses_plane(const Bounds& box) const {
+  return std::abs(normal.dot(0.5 * (box.low + box.high) - plane_point)) <=
+         reach(box, normal) + slack;
+}
+
+PointView::PointView(const Impl& scene)
+    : scene_(scene),
+      vertices_(scene.vertices.size()),
+      cuts_(scene.edges.size()),
+      signs_(scene.triangles.size()),
+      edge_on_(scene.surfaces.size()) {}
+
+void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
+  if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
+    for (auto* marks : {&vertices_, &cuts_, &signs_, &edge_on_})
+      std::fill(marks->begin(), marks->end(), Kept{});
+    query_ = 1;
+  }
+  corners.clear();
+  point_ = point;
+  jitter_ = jitter;
+  normal_ = normal;
+  emitter_ = &scene_.surfaces[at(emitter)].frame;
+  distance_ = emitter_->height(point);
+  slack_ = rounding * std::max(scene_.magnitude, point.lpNorm<Eigen::Infinity>());
+}
+
+std::int64_t PointView::first_free_rank() const {
+  return static_cast<std::int64_t>(scene_.vertices.size() + scene_.edges.size());
+}
+
+int PointView::add_corner(const Vec3& position, std::int64_t rank) {
+  Corner corner;
+  corner.true_position = corner.position = position;
+  if (jitter_ > 0) corner.position += scatter(rank, jitter_);
+  corner.direction = corner.position - point_;
+  corner.rank = rank;
+  corner.height = emitter_->height(position);
+  if (corner.height <= slack_) corner.place = corner.height < -slack_ ? Place::beyond : Place::on;
+  const double depth = -emitter_->normal.dot(corner.direction);
+  corner.is_ahead = depth > nearest_image * distance_;
+  if (corner.is_ahead)
+    corner.image = distance_ / depth *
+                   Vec2(emitter_->e1.dot(corner.direction), emitter_->e2.dot(corner.direction));
+  corners.push_back(corner);
+  return static_cast<int>(corners.size()) - 1;
+}
+
+int PointView::corner_of_vertex(int vertex) {
+  Kept& kept = vertices_[at(vertex)];
+  if (!is_fresh(kept)) kept = {query_, add_corner(scene_.vertices[at(vertex)], vertex)};
+  return kept.value;
+}
+
+int PointView::corner_of_cut(int edge) {
+  Kept& kept = cuts_[at(edge)];
+  if (!is_fresh(kept)) {
+    int from = corner_of_vertex(scene_.edges[at(edge)].from);
+    int to = corner_of_vertex(scene_.edges[at(edge)].to);
+    if (corners[at(from)].place == Place::beyond) std::swap(from, to);
+    const Corner &a = corners[at(from)], &b = corners[at(to)];
+    const Vec3 position =
+        a.true_position + a.height / (a.height - b.height) * (b.true_position - a.true_position);
+    const auto rank = static_cast<std::int64_t>(scene_.vertices.size()) + edge;
+    kept = {query_, add_corner(position, rank)};
+    corners.back().is_cut = true;
+    corners.back().place = Place::on;
+  }
+  return kept.value;
+}
+
+int PointView::turn(int a, int b, int c) const {
+  return halfshade::turn(point_, corners[at(a)], corners[at(b)], corners[at(c)]);
+}
+
+bool PointView::is_edge_on(int surface) {
+  Kept& kept = edge_on_[at(surface)];
+  if (!is_fresh(kept)) {
+    const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
+    const double height = std::abs(frame.height(point_));
+    kept = {query_, height <= slack_ ||
+                        (height <= scene_.tolerance.length &&
+                         std::abs(frame.normal.dot(normal_)) > same_normal && touches(surface))};
+  }
+  return kept.value != 0;
+}
+
+/// Whether the point lies over the surface or within the tolerance of its border.
+bool PointView::touches(int id) const {
+  const Impl::OpaqueSurface& surface = scene_.surfaces[at(id)];
+  bool inside = false;
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
+    const auto ring = scene_.ring(r);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Vec2 a = surface.frame.to_plane(scene_.vertices[at(ring[k].vertex)]);
+      const Vec2 b =
+          surface.frame.to_plane(scene_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
+      const Vec2 p = surface.frame.to_plane(point_), along = b - a;
+      const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0., 1.);
+      if ((p - a - t * along).norm() <= scene_.tolerance.length) return true;
+      if ((a.y() > p.y()) != (b.y() > p.y()) &&
+          p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
+        inside = !inside;
+    }
+  }
+  return inside;
+}
+
+int PointView::face_sign(int triangle) {
+  Kept& kept = signs_[at(triangle)];
+  if (!is_fresh(kept)) {
+    const Impl::Triangle& face = scene_.triangles[at(triangle)];
+    std::array<int, 3> c{};
+    bool blocks = false, flat = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      c[k] = corner_of_vertex(face.corner[k]);
+      blocks = blocks || corners[at(c[k])].place == Place::before;
+      flat = flat && std::abs(corners[at(c[k])].height) <= scene_.tolerance.length;
+    }
+    kept = {query_, blocks && !flat && !is_edge_on(face.surface) ? turn(c[0], c[1], c[2]) : 0};
+  }
+  return kept.value;
+}
+
+int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
+  const Impl::Triangle& face = scene_.triangles[at(triangle)];
+  int count = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int a = corner_of_vertex(face.corner[k]);
+    const int b = corner_of_vertex(face.corner[(k + 1) % 3]);
+    const auto from = static_cast<int>(corners[at(a)].place);
+    const auto to = static_cast<int>(corners[at(b)].place);
+    if (from <= 0) polygon[at(count++)] = a;
+    if (from * to < 0) polygon[at(count++)] = corner_of_cut(face.edge[k]);
+  }
+  return count;
+}
+
+int PointView::covers(int a, int b, int c, const Germ& germ) const {
+  const auto [v, w, side] = germ;
+  if (v == b) return covers(b, c, a, germ);
+  if (v == c) return covers(c, a, b, germ);
+  const int sign = turn(a, b, c);
+  if (v == a) {
+    if (w == b) return side == sign ? sign : 0;
+    if (w == c) return side == -sign ? sign : 0;
+    return turn(a, b, w) == sign && turn(a, w, c) == sign ? sign : 0;
+  }
+  return turn(a, b, v) == sign && turn(b, c, v) == sign && turn(c, a, v) == sign ? sign : 0;
+}
+
+int PointView::cover_by(int triangle, const Germ& germ) {
+  const int sign = face_sign(triangle);
+  if (sign == 0) return 0;
+  std::array<int, 4> p{};
+  const int count = clipped(triangle, p);
+  int sum = 0;
+  for (int k = 2; k < count; ++k) sum += covers(p[0], p[at(k - 1)], p[at(k)], germ);
+  if (sum != 0) covering_.push_back(scene_.triangles[at(triangle)].surface);
+  return sign * sum;
+}
+
+int PointView::cover(const Germ& germ) {
+  covering_.clear();
+  const FlatTree& tree = scene_.faces;
+  if (tree.nodes.empty()) return 0;
+  const Corner& target = corners[at(germ.from)];
+  const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
+  // The direction is off by its rounding, which grows along the ray.
+  const Vec3 margin = Vec3::Constant(blur() * last);
+  const Vec3 inverse = target.direction.unaryExpr(
+      [](double d) { return 1 / (std::abs(d) > least_slope ? d : least_slope); });
+  int stack[FlatTree::max_stack], depth = 0, sum = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const int index = stack[--depth];
+    const FlatTree::Node& node = tree.nodes[at(index)];
+    const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
+    const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
+    const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
+    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding));
+    if (enter > leave) continue;
+    if (node.right >= 0) {
+      stack[depth++] = node.right;
+      stack[depth++] = index + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      sum += cover_by(tree.items[at(i)], germ);
+  }
+  return sum;
+}
+
+}  // namespace halfshade

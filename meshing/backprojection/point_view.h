@@ -1,0 +1,106 @@
+#pragma once
+
+#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/geometry/exact_signs.h"
+
+#include <array>
+#include <vector>
+
+namespace halfshade {
+
+/// Where a point lies with respect to the emitter's plane.
+enum class Place : std::int8_t { before = -1, on = 0, beyond = 1 };
+
+/// A vertex as seen from the point. `position` is what decides, see PointView::start.
+struct Corner : SeenPoint {
+  Vec3 true_position = Vec3::Zero();
+  double height = 0;  ///< above the emitter's plane; positive on the point's side
+  Place place = Place::before;
+  bool is_cut = false;        ///< where an edge pierces the emitter's plane
+  bool is_ahead = false;      ///< clearly in the half-space of the directions to the emitter
+  Vec2 image = Vec2::Zero();  ///< projected onto the emitter's plane, if ahead
+  int next_on_outline = -1;   ///< the corner that follows it on the emitter's outline
+};
+
+/// A direction just beside an edge and just after its start.
+struct Germ {
+  int from, to;  ///< corners
+  int side;      ///< +1: left of the edge, −1: right of it
+};
+
+/// The directions from one point towards one emitter that are worth looking at.
+struct SightPyramid {
+  std::vector<Vec3> sides;  ///< unit length, outwards; planes through the point
+  Vec3 eye = Vec3::Zero(), normal = Vec3::Zero(), plane_point = Vec3::Zero();
+  double slack = 0;  ///< rounding of a distance
+  Vec2 low, high;    ///< of the outline's image
+
+  /// Neither can be wrong about something that is inside.
+  bool is_outside(const Bounds& box) const;
+  bool is_outside(const Vec3& from, const Vec3& to) const;  ///< directions of a segment's ends
+  /// The box lies wholly between the point's side and the emitter's plane, clear of the latter.
+  bool is_before_plane(const Bounds& box) const;
+  bool crosses_plane(const Bounds& box) const;
+};
+
+/// Everything about a scene that depends on the point and the emitter, found when asked for and
+/// kept until the next start.
+class PointView {
+ public:
+  explicit PointView(const OpaqueScene::Impl& scene);
+
+  /// With a positive `jitter` (a length), every corner decides as if it lay up to that far from
+  /// its true position, in a direction that depends on its rank.
+  void start(const Vec3& point, const Vec3& normal, int emitter, double jitter = 0);
+
+  const OpaqueScene::Impl& scene() const { return scene_; }
+  const PlaneFrame& emitter() const { return *emitter_; }
+  double distance() const { return distance_; }  ///< of the point from the emitter's plane
+  double slack() const { return slack_; }        ///< rounding of a distance
+  double jitter() const { return jitter_; }
+  /// How far anything may be from where it should be.
+  double blur() const { return slack_ + 2 * jitter_; }
+  const Vec3& point() const { return point_; }
+
+  std::vector<Corner> corners;
+  int corner_of_vertex(int vertex);
+  /// Where an edge that ends on different sides of the emitter's plane pierces it.
+  int corner_of_cut(int edge);
+  int add_corner(const Vec3& position, std::int64_t rank);
+  /// Ranks of corners that are neither vertices nor cuts start here.
+  std::int64_t first_free_rank() const;
+
+  int turn(int a, int b, int c) const;
+
+  /// +1 or −1 as a face's corners run counter-clockwise or clockwise seen from the point; 0 if it
+  /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane.
+  int face_sign(int triangle);
+  /// The part of a face before the emitter's plane, as up to four corners; their number.
+  int clipped(int triangle, std::array<int, 4>& polygon);
+  /// How many faces cover a germ that lies inside the pyramid.
+  int cover(const Germ& germ);
+  /// The surfaces that the last call of cover found, perhaps repeatedly.
+  std::span<const int> covering() const { return covering_; }
+  /// ±1 if triangle abc, as it runs, covers the germ; else 0.
+  int covers(int a, int b, int c, const Germ& germ) const;
+
+ private:
+  struct Kept {
+    std::uint32_t query = 0;
+    int value = 0;
+  };
+  bool is_fresh(Kept& kept) const { return kept.query == query_; }
+  bool is_edge_on(int surface);
+  bool touches(int surface) const;
+  int cover_by(int triangle, const Germ& germ);
+
+  const OpaqueScene::Impl& scene_;
+  std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
+  std::vector<int> covering_;
+  std::uint32_t query_ = 0;
+  Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
+  const PlaneFrame* emitter_ = nullptr;
+  double distance_ = 0, slack_ = 0, jitter_ = 0;
+};
+
+}  // namespace halfshade

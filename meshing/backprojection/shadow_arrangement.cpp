@@ -1,0 +1,194 @@
+#include "meshing/backprojection/shadow_arrangement.h"
+
+#include <algorithm>
+#include <cmath>
+
+// The third step of the arrangement: how many faces cover the directions beside each stretch of an
+// arc. It is found exactly in a few places and counted on from there, crossing by crossing.
+
+namespace halfshade {
+void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
+  view_ = &view;
+  outline_ = &outline;
+  pieces.clear();
+  arcs_.clear();
+  is_consistent = true;
+  for (const OutlineEdge& edge : outline.edges) {
+    Arc arc{edge.from, edge.to, 1, edge.edge};
+    arc.is_outline = true;
+    set_box(arc);
+    arcs_.push_back(arc);
+  }
+  first_cover_ = view.cover({arcs_[0].from, arcs_[0].to, 1});
+  for (const int surface : view.covering())
+    if (is_hidden_by(surface)) {
+      crossings_.clear();
+      fully_lit = false;
+      place_count = 0;
+      return;
+    }
+  collect_silhouettes();
+  meetings_.assign(view.corners.size(), {});
+  for (std::size_t i = outline.edges.size(); i < arcs_.size(); ++i) {
+    ++meetings_[at(arcs_[i].to)].in;
+    Meeting& start = meetings_[at(arcs_[i].from)];
+    ++start.out;
+    start.next = static_cast<int>(i);
+  }
+  find_crossings();
+  sort_crossings();
+  walk_outline();
+  const std::size_t lit = pieces.size();
+  walk_silhouettes();
+  fully_lit = lit == outline.edges.size() && pieces.size() == lit;
+  for (std::size_t i = 0; fully_lit && i < lit; ++i)
+    fully_lit = pieces[i].start == place_of(outline.edges[i].from) &&
+                pieces[i].end == place_of(outline.edges[i].to);
+  place_count = place_of(static_cast<int>(view.corners.size()));
+}
+
+/// Whether a surface that covers a direction in the pyramid covers all: its border stays outside.
+bool ShadowArrangement::is_hidden_by(int id) {
+  const auto& surface = view_->scene().surfaces[at(id)];
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
+    const auto ring = view_->scene().ring(r);
+    int from = view_->corner_of_vertex(ring.back().vertex);
+    for (const auto& next : ring) {
+      const int to = view_->corner_of_vertex(next.vertex);
+      if (view_->corners[at(to)].place == Place::beyond ||
+          !outline_->pyramid.is_outside(view_->corners[at(from)].direction,
+                                        view_->corners[at(to)].direction))
+        return false;
+      from = to;
+    }
+  }
+  return true;
+}
+
+Vec3 ShadowArrangement::position(const Arc& arc, double along) const {
+  const Vec3 &from = view_->corners[at(arc.from)].true_position,
+             &to = view_->corners[at(arc.to)].true_position;
+  return along <= 0 ? from : along >= 1 ? to : from + along * (to - from);
+}
+
+/// Adds a stretch of an arc, `cover` faces being on its right, if it bounds the visible part.
+void ShadowArrangement::emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> place,
+                             int cover) {
+  const bool right = cover == 0, left = cover + arc.weight == 0;
+  if (arc.is_outline ? !right : right == left) return;
+  ArrangedPiece piece{position(arc, along[0]), position(arc, along[1]), arc.edge, place[0],
+                      place[1]};
+  if (right && !arc.is_outline) {
+    std::swap(piece.from, piece.to);
+    std::swap(piece.start, piece.end);
+  }
+  pieces.push_back(piece);
+}
+
+void ShadowArrangement::walk_outline() {
+  int cover = 0, reached = -1;
+  for (std::size_t i = 0; i < outline_->edges.size(); ++i) {
+    const int id = static_cast<int>(i);
+    const Arc arc = arcs_[i];
+    const Meeting& meeting = meetings_[at(arc.from)];
+    // Just inside; the count carries over from the edge before unless silhouettes meet here.
+    if (i == 0)
+      cover = first_cover_;
+    else if (reached != arc.from || meeting.in + meeting.out > 0)
+      cover = view_->cover({arc.from, arc.to, 1});
+    double from = 0;
+    int place = place_of(arc.from);
+    for (int k = arc.first; k < arc.first + arc.count; ++k) {
+      Crossing& crossing = crossings_[at(order_[at(k)])];
+      const std::size_t side = at(side_of(crossing, id));
+      const int next = order_[at(k)];
+      emit(arc, {from, crossing.along[side]}, {place, next}, cover);
+      crossing.cover = std::min(cover, cover + crossing.step[side]);
+      cover += crossing.step[side];
+      is_consistent = is_consistent && cover >= 0;
+      from = crossing.along[side];
+      place = next;
+    }
+    emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
+    reached = arc.to;
+  }
+}
+
+bool ShadowArrangement::enters_first(const Arc& arc) const {
+  const int id = static_cast<int>(&arc - arcs_.data());
+  for (int k = arc.first; k < arc.first + arc.count; ++k) {
+    const Crossing& crossing = crossings_[at(order_[at(k)])];
+    const int side = side_of(crossing, id);
+    if (arcs_[at(crossing.arc[at(1 - side)])].is_outline) return crossing.step[at(side)] > 0;
+  }
+  return false;
+}
+
+bool ShadowArrangement::is_inside(const Germ& germ) const {
+  const int apex = outline_->edges[0].from;
+  int sum = 0;
+  for (const OutlineEdge& edge : outline_->edges)
+    if (edge.from != apex && edge.to != apex) sum += view_->covers(apex, edge.from, edge.to, germ);
+  return sum > 0;
+}
+
+void ShadowArrangement::walk_silhouettes() {
+  const int first = static_cast<int>(outline_->edges.size());
+  const int count = static_cast<int>(arcs_.size());
+  for (int i = first; i < count; ++i)
+    if (!arcs_[at(i)].is_done && enters_first(arcs_[at(i)])) walk_chain(i, false, 0);
+  for (int i = first; i < count; ++i) {
+    if (arcs_[at(i)].is_done) continue;
+    const Germ germ{arcs_[at(i)].from, arcs_[at(i)].to, -1};
+    const bool inside = is_inside(germ);
+    walk_chain(i, inside, inside ? view_->cover(germ) : 0);
+  }
+}
+
+/// Walks an arc and those that continue it, as long as the way leads on inside without a fork.
+void ShadowArrangement::walk_chain(int arc, bool inside, int cover) {
+  while (true) {
+    inside = walk_arc(arc, inside, cover);
+    if (!inside) return;
+    const int end = arcs_[at(arc)].to;
+    const Meeting& meeting = meetings_[at(end)];
+    if (meeting.in != 1 || meeting.out != 1 || view_->corners[at(end)].next_on_outline >= 0) return;
+    const Arc& next = arcs_[at(meeting.next)];
+    if (next.weight != arcs_[at(arc)].weight) return;
+    if (next.is_done) {
+      is_consistent = is_consistent && next.start_cover == cover;
+      return;
+    }
+    arc = meeting.next;
+  }
+}
+
+/// Walks one arc; `cover` is that on its right. Returns whether its end is inside the outline.
+bool ShadowArrangement::walk_arc(int id, bool inside, int& cover) {
+  Arc& arc = arcs_[at(id)];
+  arc.is_done = true;
+  arc.start_cover = cover;
+  double from = 0;
+  int place = place_of(arc.from);
+  for (int k = arc.first; k < arc.first + arc.count; ++k) {
+    const Crossing& crossing = crossings_[at(order_[at(k)])];
+    const int side = side_of(crossing, id);
+    const int next = order_[at(k)], step = crossing.step[at(side)];
+    const double to = crossing.along[at(side)];
+    if (inside) emit(arc, {from, to}, {place, next}, cover);
+    from = to;
+    place = next;
+    if (arcs_[at(crossing.arc[at(1 - side)])].is_outline) {
+      is_consistent = is_consistent && inside == (step < 0) && (!inside || cover == crossing.cover);
+      inside = step > 0;
+      cover = crossing.cover;
+    } else if (inside) {
+      cover += step;
+      is_consistent = is_consistent && cover >= 0;
+    }
+  }
+  if (inside) emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
+  return inside;
+}
+
+}  // namespace halfshade

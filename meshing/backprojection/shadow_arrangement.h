@@ -1,0 +1,90 @@
+#pragma once
+
+#include "meshing/backprojection/emitter_outline.h"
+#include "meshing/backprojection/point_view.h"
+
+#include <array>
+#include <vector>
+
+namespace halfshade {
+
+/// A piece of the visible part's boundary. `start` and `end` tell the places where pieces meet:
+/// crossings, then corners; the same number is the same direction.
+struct ArrangedPiece {
+  Vec3 from, to;
+  int edge;  ///< as in BoundaryPiece
+  int start, end;
+};
+
+/// The arrangement of the emitter's outline and the occluders' silhouettes, as far as it bounds the
+/// visible part. Keeps its buffers.
+class ShadowArrangement {
+ public:
+  std::vector<ArrangedPiece> pieces;
+  bool fully_lit = false;  ///< the pieces are exactly the outline's edges
+  /// False if rounding put three edges that nearly meet in a point in contradictory orders.
+  bool is_consistent = true;
+  int place_count = 0;  ///< places are numbered from 0
+
+  bool is_crossing(int place) const { return place < static_cast<int>(crossings_.size()); }
+
+  void build(PointView& view, const EmitterOutline& outline);
+
+ private:
+  /// An arc with `weight` more faces on its left than on its right; for the outline, the emitter is
+  /// on the left.
+  struct Arc {
+    int from, to, weight, edge;
+    bool is_outline = false, is_done = false;
+    int start_cover = 0;  // on its right, where it starts inside
+    Vec2 low = Vec2::Zero(), high = Vec2::Zero();
+    int first = 0, count = 0;  // crossings, a range of order_
+  };
+  /// Two arcs that cross, where on each, and how much more lies behind than before the crossing for
+  /// who runs along it.
+  struct Crossing {
+    std::array<int, 2> arc;
+    std::array<double, 2> along;
+    std::array<int, 2> step;
+    int cover = 0;  // right of the silhouette, just inside the outline
+  };
+
+  bool is_hidden_by(int surface);
+  void collect_silhouettes();
+  void collect_cuts();
+  void join_repeated(std::size_t first_cut);
+  void consider_edge(int edge);
+  void add_arc(int from, int to, int weight, int edge);
+  bool set_box(Arc& arc) const;
+
+  void find_crossings();
+  bool cross(int a, int b);
+  void place_crossing(Crossing& crossing) const;
+  void sort_crossings();
+  bool is_before(int arc, int a, int b) const;
+
+  void walk_outline();
+  void walk_silhouettes();
+  void walk_chain(int arc, bool inside, int cover);
+  bool walk_arc(int arc, bool inside, int& cover);
+  bool enters_first(const Arc& arc) const;
+  bool is_inside(const Germ& germ) const;
+  void emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> place, int cover);
+
+  int place_of(int corner) const { return static_cast<int>(crossings_.size()) + corner; }
+  Vec3 position(const Arc& arc, double along) const;
+  int side_of(const Crossing& crossing, int arc) const { return crossing.arc[0] == arc ? 0 : 1; }
+
+  int first_cover_ = 0;  // just inside the outline, after the start of its first edge
+  PointView* view_ = nullptr;
+  const EmitterOutline* outline_ = nullptr;
+  std::vector<Arc> arcs_;  // the outline's first
+  std::vector<Crossing> crossings_;
+  std::vector<int> order_, sweep_, active_, cursor_;
+  struct Meeting {
+    int in = 0, out = 0, next = -1;  // silhouettes that end and start here; one that starts
+  };
+  std::vector<Meeting> meetings_;  // one a corner
+};
+
+}  // namespace halfshade

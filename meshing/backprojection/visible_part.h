@@ -1,0 +1,96 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+#include "meshing/core/types.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// What a point sees of an emitter.
+enum class Region : std::uint8_t {
+  lit,       ///< all of the part above its horizon
+  penumbra,  ///< some of it
+  umbra,     ///< nothing, because of occluders
+  away       ///< nothing, because the emitter lies below the horizon or faces away
+};
+
+/// A directed straight piece of the boundary of the visible part. Seen from the point, the visible
+/// part lies on its left.
+struct BoundaryPiece {
+  Vec3 from, to;  ///< end points in the direction of the boundary, on the edge that makes it
+  /// The edge it lies on: an edge id of the opaque scene for an occluder's edge, or
+  /// OpaqueScene::edge_count() + t where its triangle t pierces the emitter's plane; −1 − k for the
+  /// k-th edge of the emitter (rings counted through), `horizon_edge` for the horizon.
+  int edge;
+};
+
+inline constexpr int horizon_edge = INT32_MIN;
+
+struct VisiblePart {
+  Region region = Region::away;
+  /// Closed chains, one after the other, each in the order of its boundary; empty in umbra and
+  /// away. Consecutive pieces meet in a direction, each with a point on its own edge.
+  std::vector<BoundaryPiece> pieces;
+  std::vector<int> chain_ends;  ///< for each chain, where the next one starts in `pieces`
+  /// The boundary of the whole part above the horizon, the same as `pieces` if lit; empty if away.
+  std::vector<BoundaryPiece> unobstructed;
+  /// Hash of which edges and vertices of emitter and occluders bound the visible part, and how they
+  /// follow each other; equal for all points of one cell of the complete discontinuity mesh.
+  std::uint64_t signature = 0;
+};
+
+/// All opaque polygons of a scene, prepared for exact visibility: welded vertices, edges with the
+/// faces at them, and a tree that finds the silhouette edges seen from a point without visiting
+/// every face.
+class OpaqueScene {
+ public:
+  explicit OpaqueScene(const SoundScene& scene);
+  ~OpaqueScene();
+  OpaqueScene(OpaqueScene&&) noexcept;
+  OpaqueScene& operator=(OpaqueScene&&) noexcept;
+
+  int edge_count() const;
+  /// Where an edge of the scene runs; `edge` is in [0, edge_count()).
+  std::array<Vec3, 2> edge_ends(int edge) const;
+
+  struct Impl;
+  const Impl& impl() const { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Finds visible parts. Keeps its buffers between calls, so that in the steady state of a batch
+/// nothing is allocated; one a thread.
+class VisiblePartFinder {
+ public:
+  /// `scene` must outlive the finder.
+  explicit VisiblePartFinder(const OpaqueScene& scene);
+  ~VisiblePartFinder();
+  VisiblePartFinder(VisiblePartFinder&&) noexcept;
+  VisiblePartFinder& operator=(VisiblePartFinder&&) noexcept;
+
+  /// The visible part of emitter `surface` (an id of SoundScene::surfaces, with holes and
+  /// non-convex if it is) from `point` above the horizon given by the unit `normal`. Every opaque
+  /// polygon blocks from both sides, except that whatever lies in the emitter's plane or only
+  /// touches the line of sight at its ends does not. Decided by exact predicates with symbolic
+  /// tie-breaking; end points are correct to rounding. Cost grows with the number of silhouette
+  /// edges between point and emitter.
+  void find(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The visible part as polygons in the emitter's plane: rings with the visible part on their left
+/// seen from the point, pieces joined and projected onto the plane.
+std::vector<std::vector<Vec3>> visible_rings(const VisiblePart& part, const Vec3& point,
+                                             const PlaneFrame& emitter);
+
+}  // namespace halfshade

@@ -1,0 +1,60 @@
+#pragma once
+
+#include "meshing/core/plane_frame.h"
+#include "meshing/core/scene.h"
+#include "meshing/core/tolerance.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+using Ring = std::vector<Vec2>;
+using Segment2 = std::array<Vec2, 2>;
+
+/// A planar polygon with holes, of one material and group, that exchanges light on the side its
+/// frame's normal points to.
+struct Surface {
+  PlaneFrame frame;         ///< all 2-D coordinates below are in it
+  std::vector<Ring> rings;  ///< the outer boundary (counter-clockwise), then the holes (clockwise)
+  std::vector<Segment2> contacts;  ///< inner D0 lines: where edges of other surfaces lie in the
+                                   ///< polygon or others cut through it
+  int material = 0;
+  int group = 0;
+  int plane = 0;           ///< surfaces in one plane, facing either way, share this id
+  bool back = false;       ///< the back of a two-sided face; its front is a surface of its own
+  std::vector<int> faces;  ///< input faces it is made of; one that was triangulated may repeat
+  std::vector<Ring> face_rings;  ///< their boundaries, one an entry of `faces`
+};
+
+/// One thing that was put right.
+struct Repair {
+  enum class Kind {
+    degenerate_dropped,  ///< no area
+    duplicate_dropped,   ///< the same corners as another face
+    non_planar_triangulated,
+    coplanar_merged,  ///< neighbours joined into one surface
+    overlap_removed   ///< coplanar faces of different materials covered each other
+  };
+  Kind kind;
+  std::vector<int> faces;  ///< the input faces concerned
+  std::string sentence;    ///< for the user, with ids and values
+};
+
+/// A scene that everything downstream may rely on.
+struct SoundScene {
+  std::vector<Surface> surfaces;
+  std::vector<Material> materials;  ///< as in the scene
+  std::vector<std::string> groups;  ///< as in the scene
+  Tolerance tolerance;
+  std::vector<Repair> repairs;
+};
+
+/// Area of a surface in squared scene units.
+double area(const Surface& surface);
+
+/// Diagonal of a surface's bounding rectangle in its frame.
+double size_of(const Surface& surface);
+
+}  // namespace halfshade

@@ -1,0 +1,176 @@
+#include "meshing/discontinuity/discontinuity.h"
+
+#include "meshing/core/parallel.h"
+#include "meshing/discontinuity/border_events.h"
+#include "meshing/discontinuity/merge_curves.h"
+#include "meshing/discontinuity/predict_jump.h"
+#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/events/events.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace halfshade {
+namespace {
+
+using Curves = std::vector<DiscontinuityCurve>;
+
+/// Lends workers that are costly to make to the threads that need one.
+template <class Worker>
+class Pool {
+ public:
+  template <class Make>
+  std::unique_ptr<Worker> take(Make&& make) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        auto worker = std::move(idle_.back());
+        idle_.pop_back();
+        return worker;
+      }
+    }
+    return make();
+  }
+  void give_back(std::unique_ptr<Worker> worker) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(worker));
+  }
+  const std::vector<std::unique_ptr<Worker>>& idle() const { return idle_; }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> idle_;
+};
+
+/// The search for one emitter's curves.
+class Search {
+ public:
+  Search(const SoundScene& scene, const OpaqueScene& opaque, const LightSource& source,
+         const DiscontinuityOptions& options, const Progress& progress, DiscontinuityReport& report)
+      : scene_(scene),
+        opaque_(opaque),
+        stage_(scene, opaque, source.surface),
+        exitance_(source.exitance),
+        options_(options),
+        progress_(progress),
+        report_(report) {}
+
+  Curves run() {
+    report_.silhouette_edges += stage_.edges.size();
+    const auto edge_count = stage_.edges.size();
+    if (options_.ev) {
+      trace(edge_count, "vertex and edge",
+            [&](int e, const SwathSink& sink) { edge_swaths(stage_, e, sink); });
+      trace(stage_.vertices.size(), "edge and vertex",
+            [&](int v, const SwathSink& sink) { vertex_swaths(stage_, v, sink); });
+    }
+    if (options_.face)
+      trace(scene_.surfaces.size(), "planes of faces", [&](int r, const SwathSink& sink) {
+        if (r != stage_.emitter && !scene_.surfaces[at(r)].back)
+          face_swaths(scene_, stage_, opaque_, r, sink);
+      });
+    if (options_.eee) find_triples();
+    for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
+      if (progress_.stopped()) break;
+      if (options_.face) emitter_plane_curves(scene_, opaque_, stage_, r, curves_);
+      if (options_.contact) contact_curves(scene_, opaque_, stage_, r, curves_);
+    }
+    for (const auto& tracer : tracers_.idle()) {
+      report_.swaths += tracer->counts().swaths;
+      report_.pieces += tracer->counts().pieces;
+    }
+    for (const DiscontinuityCurve& curve : curves_)
+      ++report_.found[static_cast<std::size_t>(curve.kind)];
+    report_.merged += merge_coincident(curves_, scene_.tolerance.length);
+    predict_jumps();
+    return std::move(curves_);
+  }
+
+ private:
+  /// Traces the swaths of `count` generators, in parallel, and keeps the curves in their order.
+  template <class Generate>
+  void trace(std::size_t count, const char* name, const Generate& generate) {
+    std::vector<Curves> found(count);
+    parallel_for(
+        count,
+        [&](std::size_t i) {
+          auto tracer = tracers_.take([&] {
+            return std::make_unique<SwathTracer>(
+                scene_, opaque_, stage_,
+                TraceLimits{options_.irradiance_tolerance / exitance_, options_.max_length});
+          });
+          generate(static_cast<int>(i),
+                   [&](const Swath& swath) { tracer->trace(swath, found[i]); });
+          tracers_.give_back(std::move(tracer));
+        },
+        progress_, name);
+    for (Curves& curves : found)
+      curves_.insert(curves_.end(), std::make_move_iterator(curves.begin()),
+                     std::make_move_iterator(curves.end()));
+  }
+
+  void find_triples() {
+    const std::size_t count = stage_.edges.size();
+    std::vector<std::vector<int>> later(count);
+    parallel_for(
+        count, [&](std::size_t e) { later[e] = later_partners(stage_, static_cast<int>(e)); },
+        progress_, "pairs of edges");
+    trace(count, "three edges", [&](int a, const SwathSink& sink) {
+      std::vector<int> common;
+      for (const int b : later[at(a)]) {
+        pair_swaths(stage_, a, b, sink);
+        common.clear();
+        std::set_intersection(later[at(a)].begin(), later[at(a)].end(), later[at(b)].begin(),
+                              later[at(b)].end(), std::back_inserter(common));
+        for (const int c : common) triple_swath(stage_, a, b, c, sink);
+      }
+    });
+  }
+
+  void predict_jumps() {
+    Pool<JumpPredictor> predictors;
+    parallel_for(
+        curves_.size(),
+        [&](std::size_t i) {
+          auto predictor = predictors.take(
+              [&] { return std::make_unique<JumpPredictor>(scene_, opaque_, stage_); });
+          predictor->predict(curves_[i]);
+          for (double& jump : curves_[i].jump) jump *= exitance_;
+          predictors.give_back(std::move(predictor));
+        },
+        progress_, "jumps");
+  }
+
+  const SoundScene& scene_;
+  const OpaqueScene& opaque_;
+  const EmitterStage stage_;
+  double exitance_;
+  const DiscontinuityOptions& options_;
+  const Progress& progress_;
+  DiscontinuityReport& report_;
+  Pool<SwathTracer> tracers_;
+  Curves curves_;
+};
+
+}  // namespace
+
+Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene& opaque,
+                                     std::span<const LightSource> sources,
+                                     const DiscontinuityOptions& options,
+                                     const Progress& progress) {
+  Discontinuities result;
+  result.sources.assign(sources.begin(), sources.end());
+  for (const LightSource& source : sources) {
+    Curves curves = Search(scene, opaque, source, options, progress, result.report).run();
+    result.curves.insert(result.curves.end(), std::make_move_iterator(curves.begin()),
+                         std::make_move_iterator(curves.end()));
+  }
+  std::stable_sort(result.curves.begin(), result.curves.end(),
+                   [](const DiscontinuityCurve& a, const DiscontinuityCurve& b) {
+                     return a.receiver < b.receiver;
+                   });
+  result.report.interrupted = progress.stopped();
+  return result;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,104 @@
+#include "meshing/discontinuity/predict_jump.h"
+
+#include "meshing/discontinuity/border_events.h"
+#include "meshing/discontinuity/event_jump.h"
+#include "meshing/discontinuity/swath_tracer.h"
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+constexpr std::array<double, 3> samples = {1. / 6, 1. / 2, 5. / 6};
+// Edges count as in the plane of sight if they are within so many times what counts as joined.
+constexpr double in_plane = 4;
+// A jump of the slope that is this small a share of what makes it is rounding.
+constexpr double least_share = 1e-6;
+
+}  // namespace
+
+JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
+                             const EmitterStage& stage)
+    : scene_(scene),
+      opaque_(opaque),
+      stage_(stage),
+      step_(side_step(scene, opaque)),
+      finder_(opaque) {}
+
+void JumpPredictor::predict(DiscontinuityCurve& curve) {
+  for (; curve.order < 3; ++curve.order) {
+    bool jumps = false;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      curve.jump[k] = jump_at(curve, samples[k]);
+      jumps = jumps || curve.jump[k] != 0;
+    }
+    if (jumps || curve.order == 2) return;
+  }
+}
+
+double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
+  const PlaneFrame& plane = scene_.surfaces[at(curve.receiver)].frame;
+  const Vec2 tangent = tangent_at(curve.arc, s);
+  const Vec3 point = plane.to_space(point_at(curve.arc, s));
+  const Vec3 left = -tangent.y() * plane.e1 + tangent.x() * plane.e2;
+  if (curve.order == 2) return curvature_jump(curve, point, left, plane.normal);
+  const auto at_step = [&](double step) {
+    finder_.find(point + step * left, plane.normal, stage_.emitter, left_);
+    finder_.find(point - step * left, plane.normal, stage_.emitter, right_);
+    return curve.order == 0 ? value_jump(point, step * left, plane.normal)
+                            : slope_jump(curve, point, step * left, plane.normal);
+  };
+  const double near = at_step(step_);
+  if (near == 0) return 0;
+  // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
+  // the whole jump is due to the step.
+  const double limit = 2 * near - at_step(2 * step_);
+  return std::abs(limit) > 0.5 * std::abs(near) ? limit : 0;
+}
+
+double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const {
+  return seen_factor(left_, point + step, normal) - seen_factor(right_, point - step, normal);
+}
+
+double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& point,
+                                 const Vec3& step, const Vec3& normal) const {
+  if (std::abs(stage_.frame.height(point)) <= step_)  // the emitter is seen edge-on
+    return (seen_factor(left_, point + step, normal) + seen_factor(right_, point - step, normal)) /
+           step.norm();
+  const ReceivingPoint receiving = {point, normal, step.normalized()};
+  double jump = 0, whole = 0;
+  const auto add = [&](const VisiblePart& part, double sign) {
+    for (const BoundaryPiece& piece : part.pieces) {
+      if (piece.edge == horizon_edge || !lies_in_sight_plane(curve, point, piece.edge)) continue;
+      const double motion = boundary_motion(receiving, stage_.frame, piece.from, piece.to);
+      jump += sign * motion;
+      whole += std::abs(motion);
+    }
+  };
+  add(left_, 1);
+  add(right_, -1);
+  return std::abs(jump) > least_share * whole ? jump : 0;
+}
+
+bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
+                                        int edge) const {
+  const Line3 line = line_of(stage_, opaque_.impl(), edge);
+  const double slack = in_plane * stage_.joined;
+  return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
+         std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
+}
+
+double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3& point,
+                                     const Vec3& left, const Vec3& normal) const {
+  double jump = 0;
+  for (const EdgeTriple& triple : curve.triples) {
+    const double size = triangle_jump({point, normal, left}, stage_.frame,
+                                      {line_of(stage_, opaque_.impl(), triple.edges[0]),
+                                       line_of(stage_, opaque_.impl(), triple.edges[1]),
+                                       line_of(stage_, opaque_.impl(), triple.edges[2])});
+    if (std::isfinite(size)) jump += triple.sign * size;
+  }
+  return jump;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+namespace halfshade {
+
+/// What makes a discontinuity.
+enum class CurveKind : std::uint8_t {
+  contact,  ///< surfaces touch or cut each other: the irradiance itself jumps
+  face,  ///< the plane of a face, or of two edges, that cuts the emitter; the emitter's own plane
+  ev,    ///< a vertex and an edge in line
+  eee    ///< three edges in line
+};
+
+/// A part of the scene that takes part in making a curve.
+struct Feature {
+  enum class Kind : std::uint8_t {
+    emitter_vertex,  ///< id: the emitter's corners, rings counted through
+    emitter_edge,    ///< id: of the corner it starts at
+    vertex,          ///< id: of the opaque scene
+    edge,            ///< id: of the opaque scene
+    face             ///< id: a receiver
+  };
+  Kind kind = Kind::vertex;
+  int id = 0;
+  auto operator<=>(const Feature&) const = default;
+};
+
+/// Three edges that line up at the curve, seen from its points: on each side of it they bound a
+/// small triangle of the emitter. `sign` is that with which the triangle's area is part of the jump
+/// of the second derivative from right to left: +1 if it is visible on the left only, or hidden on
+/// the right only.
+struct EdgeTriple {
+  std::array<int, 3> edges{};  ///< as BoundaryPiece::edge
+  int sign = 0;
+  auto operator<=>(const EdgeTriple&) const = default;
+};
+
+/// One reason for a curve.
+struct CurveSource {
+  CurveKind kind = CurveKind::ev;
+  std::array<Feature, 3> features{};
+  int feature_count = 0;
+  auto operator<=>(const CurveSource&) const = default;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,80 @@
+#pragma once
+
+#include "meshing/events/critical_event.h"
+#include "meshing/events/quadric_events.h"
+#include "meshing/geometry/line.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace halfshade {
+
+/// A one-parameter family of lines of sight that could all be critical: the lines through an apex
+/// and the points of a base, or those that meet three skew edges. The parameter t in [0,1] is that
+/// of the point on the base, or on the first of the three edges.
+struct Swath {
+  CurveSource source;
+  std::vector<int> group;  ///< edges whose images change their order here, sorted; as
+                           ///< BoundaryPiece::edge
+  /// Edges of the stage that must be silhouettes for every line, −1: none; and a vertex of the
+  /// stage with at least two edges that are, or −1.
+  std::array<int, 3> silhouettes = {-1, -1, -1};
+  int corner = -1;
+  bool ends_on_outline = false;     ///< its lines start on the emitter's border, not inside
+  bool may_be_first_order = false;  ///< two or more edges of the group lie in its plane
+  bool is_planar = true;
+  Vec3 apex = Vec3::Zero();
+  Span3 base;                    ///< of a planar swath
+  std::array<Span3, 3> edges{};  ///< of the others
+  LineFamily family;             ///< the lines that meet them
+};
+
+/// One line of a swath, directed away from the emitter.
+struct SightLine {
+  Vec3 start;      ///< on the emitter's plane
+  Vec3 last;       ///< the farthest of the points that make it
+  Vec3 direction;  ///< unit length
+};
+
+/// The line with parameter t; nothing if it does not come from the emitter's plane, or if it misses
+/// one of the edges.
+std::optional<SightLine> line_at(const Swath& swath, const PlaneFrame& emitter, double t);
+
+/// Parameters in (0,1) at which the line can meet an edge or pass its ends: all of them, and
+/// perhaps some at which it does not. `slack`: a length below which an edge lies in the plane of a
+/// planar swath.
+void critical_parameters(const Swath& swath, const Span3& edge, double slack,
+                         std::vector<double>& parameters);
+
+/// Parameters in (0,1) at which a swath of three edges begins or ends: where its line passes an end
+/// of one of them.
+void own_limits(const Swath& swath, std::vector<double>& parameters);
+
+/// Parameters in (0,1) at which the line runs along a plane with a normal.
+void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters);
+
+/// Boxes that contain the lines with parameters in a range where they leave two of the features:
+/// every line runs through both.
+struct SwathHull {
+  Eigen::AlignedBox3d near, far;  ///< in no particular order
+  Vec3 normal = Vec3::Zero();     ///< of the plane of a planar swath, unit length; else zero
+  Vec3 point = Vec3::Zero();      ///< of that plane
+
+  /// False only if no line of the hull meets the box; `slack` is added to the box.
+  bool meets(const Vec3& low, const Vec3& high, double slack) const;
+};
+/// Precondition: no own limit of the swath lies between t0 and t1.
+SwathHull hull_of(const Swath& swath, double t0, double t1);
+
+/// A swath through three edges, no two of which lie in a plane.
+void set_edges(Swath& swath, const std::array<Span3, 3>& edges);
+
+/// Where a line of the swath meets a plane, and the tangent of the curve that these points form
+/// (not of unit length; zero where it cannot be told).
+struct Trace {
+  Vec3 point, tangent;
+};
+std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, double t);
+
+}  // namespace halfshade

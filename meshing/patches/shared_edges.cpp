@@ -1,0 +1,240 @@
+#include "meshing/patches/shared_edges.h"
+
+#include "meshing/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace halfshade {
+namespace {
+
+// Neighbours mostly agree after two or three; what is left then is split plainly.
+constexpr int most_rounds = 8;
+
+Vec3 lifted(const Vec2& p) { return {p.x(), p.y(), 0}; }
+
+Box box_about(const Segment2& segment) {
+  return {lifted(segment[0].cwiseMin(segment[1])), lifted(segment[0].cwiseMax(segment[1]))};
+}
+
+double distance(const Vec2& p, const Segment2& s) {
+  const Vec2 d = s[1] - s[0];
+  const double squared = d.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
+  return (s[0] + t * d - p).norm();
+}
+
+// The point nearest to t among sorted ones.
+double gap(const std::vector<double>& sorted, double t) {
+  const auto next = std::lower_bound(sorted.begin(), sorted.end(), t);
+  double least = HUGE_VAL;
+  if (next != sorted.end()) least = *next - t;
+  if (next != sorted.begin()) least = std::min(least, t - *std::prev(next));
+  return least;
+}
+
+// Sorts, and leaves out what is near the one before.
+void thin(std::vector<double>& values, double distance) {
+  std::sort(values.begin(), values.end());
+  std::vector<double> kept;
+  for (const double t : values)
+    if (kept.empty() || t - kept.back() > distance) kept.push_back(t);
+  values = std::move(kept);
+}
+
+}  // namespace
+
+SharedEdges::SharedEdges(const SoundScene& scene)
+    : scene_(scene), lines_(find_shared_lines(scene)) {
+  for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
+    std::vector<Box> boxes;
+    for (int w = lines_.first_wall[r]; w < lines_.first_wall[r + 1]; ++w)
+      boxes.push_back(box_about(lines_.walls[at(w)].ends));
+    trees_.emplace_back(std::move(boxes));
+  }
+  for (const SharedLine& line : lines_.lines) {
+    std::vector<double>& points = agreed_.emplace_back();
+    for (const int w : line.walls) {
+      points.push_back(lines_.walls[at(w)].begin);
+      points.push_back(lines_.walls[at(w)].end);
+    }
+    thin(points, scene.tolerance.length);
+  }
+}
+
+int SharedEdges::wall_of(int surface, const Segment2& edge) const {
+  const Vec2 middle = 0.5 * (edge[0] + edge[1]);
+  Box around = box_about({middle, middle});
+  around.min().array() -= scene_.tolerance.planarity;
+  around.max().array() += scene_.tolerance.planarity;
+  std::pair<double, int> best{scene_.tolerance.planarity, -1};
+  trees_[at(surface)].query_box(around, [&](int i) {
+    const int w = lines_.first_wall[at(surface)] + i;
+    const Segment2& wall = lines_.walls[at(w)].ends;
+    const double off = std::max(distance(edge[0], wall), distance(edge[1], wall));
+    if (off < best.first || (off == best.first && w < best.second)) best = {off, w};
+  });
+  return best.second;
+}
+
+void SharedEdges::add(std::span<const End> ends) {
+  std::vector<std::vector<std::pair<double, double>>> found(lines_.lines.size());  // place, snap
+  for (const End& end : ends) {
+    Box around = box_about({end.point, end.point});
+    around.min().array() -= end.snap;
+    around.max().array() += end.snap;
+    const auto r = at(end.surface);
+    trees_[r].query_box(around, [&](int i) {
+      const Wall& wall = lines_.walls[at(lines_.first_wall[r] + i)];
+      if (wall.line < 0 || distance(end.point, wall.ends) > end.snap) return;
+      const double t = along(lines_.lines[at(wall.line)], scene_.surfaces[r].frame, end.point);
+      found[at(wall.line)].emplace_back(t, end.snap);
+    });
+  }
+  for (std::size_t l = 0; l < found.size(); ++l) {
+    std::sort(found[l].begin(), found[l].end());
+    std::vector<double> added;
+    for (const auto& [t, snap] : found[l])
+      if (gap(agreed_[l], t) > snap && (added.empty() || t - added.back() > snap))
+        added.push_back(t);
+    agreed_[l].insert(agreed_[l].end(), added.begin(), added.end());
+    std::sort(agreed_[l].begin(), agreed_[l].end());
+  }
+}
+
+// The points of a line inside a part of it, from its begin to its end, which may be the lower.
+std::vector<double> SharedEdges::inside(int line, double begin, double end) const {
+  if (line < 0) return {};
+  const std::vector<double>& points = agreed_[at(line)];
+  const double low = std::min(begin, end) + scene_.tolerance.length;
+  const double high = std::max(begin, end) - scene_.tolerance.length;
+  std::vector<double> result;
+  for (auto t = std::upper_bound(points.begin(), points.end(), low); t != points.end() && *t < high;
+       ++t)
+    result.push_back(*t);
+  if (begin > end) std::reverse(result.begin(), result.end());
+  return result;
+}
+
+std::vector<EdgePoints> SharedEdges::missing(int surface, const WallEdges& walls) const {
+  std::vector<EdgePoints> result;
+  const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
+  for (const WallEdge& edge : walls) {
+    const int w = wall_of(surface, edge.ends);
+    const int line = w < 0 ? -1 : lines_.walls[at(w)].line;
+    if (line < 0) continue;
+    const double begin = along(lines_.lines[at(line)], frame, edge.ends[0]);
+    const double end = along(lines_.lines[at(line)], frame, edge.ends[1]);
+    EdgePoints added{edge.points, {}};
+    for (const double t : inside(line, begin, end))
+      added.points.push_back(edge.ends[0] +
+                             (t - begin) / (end - begin) * (edge.ends[1] - edge.ends[0]));
+    if (!added.points.empty()) result.push_back(std::move(added));
+  }
+  return result;
+}
+
+Outline SharedEdges::outline(int surface) const {
+  Outline result;
+  int w = lines_.first_wall[at(surface)];
+  const auto points_from = [&](const Wall& wall) {
+    std::vector<Vec2> points = {wall.ends[0]};
+    for (const double t : inside(wall.line, wall.begin, wall.end))
+      points.push_back(wall.ends[0] +
+                       (t - wall.begin) / (wall.end - wall.begin) * (wall.ends[1] - wall.ends[0]));
+    return points;
+  };
+  for (const Ring& ring : scene_.surfaces[at(surface)].rings) {
+    Ring& longer = result.rings.emplace_back();
+    for (std::size_t k = 0; k < ring.size(); ++k, ++w) {
+      const std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
+      longer.insert(longer.end(), points.begin(), points.end());
+    }
+  }
+  for (; w < lines_.first_wall[at(surface) + 1]; ++w) {
+    std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
+    points.push_back(lines_.walls[at(w)].ends[1]);
+    for (std::size_t k = 1; k < points.size(); ++k)
+      result.contacts.push_back({points[k - 1], points[k]});
+  }
+  return result;
+}
+
+// Decides what the line is to have between its points, and marks surfaces that differ.
+void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
+                        std::vector<bool>& differs) {
+  const double tolerance = scene_.tolerance.length;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const std::vector<double> before = agreed_[line];
+  for (auto first = vertices.begin(); first != vertices.end();) {
+    const std::size_t interval = first->interval;
+    std::map<int, std::vector<double>> walls;
+    for (; first != vertices.end() && first->interval == interval; ++first)
+      walls[first->wall].push_back(first->t);
+    const auto finest = std::max_element(walls.begin(), walls.end(), [](auto& a, auto& b) {
+      return a.second.size() < b.second.size();
+    });
+    for (const int w : lines_.lines[line].walls) {
+      const Wall& wall = lines_.walls[at(w)];
+      if (std::min(wall.begin, wall.end) > before[interval - 1] + tolerance ||
+          std::max(wall.begin, wall.end) < before[interval] - tolerance)
+        continue;
+      const auto own = walls.find(w);
+      const bool same = own != walls.end() &&
+                        std::equal(own->second.begin(), own->second.end(), finest->second.begin(),
+                                   finest->second.end(), [&](double a, double b) {
+                                     return std::abs(a - b) <= tolerance;
+                                   });
+      if (!same) differs[at(wall.surface)] = true;
+    }
+    agreed_[line].insert(agreed_[line].end(), finest->second.begin(), finest->second.end());
+  }
+  std::sort(agreed_[line].begin(), agreed_[line].end());
+}
+
+std::vector<int> SharedEdges::compare(std::span<const WallEdges> meshes) {
+  std::vector<std::vector<Vertex>> vertices(lines_.lines.size());
+  for (std::size_t r = 0; r < meshes.size(); ++r)
+    for (const WallEdge& edge : meshes[r]) {
+      const int w = wall_of(static_cast<int>(r), edge.ends);
+      if (w < 0 || lines_.walls[at(w)].line < 0) continue;
+      const int line = lines_.walls[at(w)].line;
+      const std::vector<double>& points = agreed_[at(line)];
+      for (const Vec2& p : edge.ends) {
+        const double t = along(lines_.lines[at(line)], scene_.surfaces[r].frame, p);
+        const auto next = std::upper_bound(points.begin(), points.end(), t);
+        if (next == points.begin() || next == points.end() ||
+            gap(points, t) <= scene_.tolerance.length)
+          continue;
+        vertices[at(line)].push_back({static_cast<std::size_t>(next - points.begin()), w, t});
+      }
+    }
+  std::vector<bool> differs(meshes.size(), false);
+  for (std::size_t l = 0; l < vertices.size(); ++l) agree(l, std::move(vertices[l]), differs);
+  std::vector<int> result;
+  for (std::size_t r = 0; r < differs.size(); ++r)
+    if (differs[r]) result.push_back(static_cast<int>(r));
+  return result;
+}
+
+int mesh_alike(SharedEdges& shared, std::size_t surfaces,
+               const std::function<void(std::size_t, const Outline&)>& mesh,
+               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress) {
+  std::vector<int> open(surfaces);
+  std::iota(open.begin(), open.end(), 0);
+  for (int round = 1;; ++round) {
+    const bool complete = parallel_for(
+        open.size(), [&](std::size_t i) { mesh(at(open[i]), shared.outline(open[i])); }, progress,
+        "mesh");
+    if (!complete || round == most_rounds) return round;
+    std::vector<WallEdges> all(surfaces);
+    for (std::size_t r = 0; r < surfaces; ++r) all[r] = walls(r);
+    open = shared.compare(all);
+    if (open.empty()) return round;
+  }
+}
+
+}  // namespace halfshade

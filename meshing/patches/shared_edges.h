@@ -1,0 +1,84 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/geometry/box_tree.h"
+#include "meshing/patches/shared_lines.h"
+#include "meshing/triangulation/split_edges.h"
+
+#include <array>
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// The rings and contact lines of a surface with further points on them.
+struct Outline {
+  std::vector<Ring> rings;
+  std::vector<Segment2> contacts;
+};
+
+/// An edge of a surface's mesh on a ring or contact line.
+struct WallEdge {
+  std::array<int, 2> points{};  ///< of the mesh
+  Segment2 ends;                ///< in the surface's frame
+};
+using WallEdges = std::vector<WallEdge>;
+
+/// Brings the subdivision of walls that lie on each other into agreement: keeps, for every shared
+/// line, the points that all surfaces along it are to have.
+class SharedEdges {
+ public:
+  /// Starts with the ends of all walls. `scene` must outlive the object.
+  explicit SharedEdges(const SoundScene& scene);
+
+  const SharedLines& lines() const { return lines_; }
+
+  /// The wall of a surface that an edge of its mesh lies on, or −1.
+  int wall_of(int surface, const Segment2& edge) const;
+
+  /// A point of a surface where something ends.
+  struct End {
+    int surface = 0;
+    Vec2 point = Vec2::Zero();
+    double snap = 0;  ///< it may be moved this far along its wall
+  };
+  /// Adds those points that lie on shared lines, to within their snap, and not near points that
+  /// are there already.
+  void add(std::span<const End> ends);
+
+  /// What a surface is to be meshed with.
+  Outline outline(int surface) const;
+
+  /// The points that a surface is to have and its mesh has not.
+  std::vector<EdgePoints> missing(int surface, const WallEdges& walls) const;
+
+  /// Compares the meshes of all surfaces. Between neighbouring points of a line, the finest
+  /// subdivision becomes that of all. Returns the surfaces that do not have it, sorted.
+  std::vector<int> compare(std::span<const WallEdges> meshes);
+
+ private:
+  struct Vertex {
+    std::size_t interval;  // of the line's points, by its end
+    int wall;
+    double t;
+    auto operator<=>(const Vertex&) const = default;
+  };
+  void agree(std::size_t line, std::vector<Vertex> vertices, std::vector<bool>& differs);
+  std::vector<double> inside(int line, double begin, double end) const;
+
+  const SoundScene& scene_;
+  SharedLines lines_;
+  std::vector<BoxTree> trees_;               // of each surface's walls, in its frame
+  std::vector<std::vector<double>> agreed_;  // [line]: sorted, farther apart than the tolerance
+};
+
+/// Calls `mesh(surface, outline)` for every surface, on all threads, and again for those whose
+/// walls differ from their neighbours' with more points on them, until nothing differs or
+/// `progress` is stopped or it has been tried often enough. `walls(surface)` tells what a mesh has
+/// come to. Returns the number of rounds.
+int mesh_alike(SharedEdges& shared, std::size_t surfaces,
+               const std::function<void(std::size_t, const Outline&)>& mesh,
+               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress);
+
+}  // namespace halfshade

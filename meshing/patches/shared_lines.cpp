@@ -1,0 +1,209 @@
+#include "meshing/patches/shared_lines.h"
+
+#include "meshing/geometry/box_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+// Surfaces that share an edge lie apart there by as much as their planes do, but never by this
+// share of an edge.
+constexpr double largest_gap = 0.01;
+// Planes at less than this angle (in its square) are parallel as far as their normals can tell.
+constexpr double least_squared_sine = 1e-12;
+
+struct Stretch {
+  Vec3 from, to;
+  double reach = 0;  // how far off another may lie to be the same
+
+  double length() const { return (to - from).norm(); }
+};
+
+Stretch stretch(const Surface& surface, const Segment2& ends, double shortest,
+                const Tolerance& tolerance) {
+  return {surface.frame.to_space(ends[0]), surface.frame.to_space(ends[1]),
+          std::max(tolerance.length, std::min(2 * tolerance.planarity, largest_gap * shortest))};
+}
+
+void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& stretches) {
+  for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
+    const Surface& surface = scene.surfaces[r];
+    out.first_wall.push_back(static_cast<int>(out.walls.size()));
+    const auto add = [&](const Segment2& ends, double shortest) {
+      out.walls.push_back({static_cast<int>(r), ends});
+      stretches.push_back(stretch(surface, ends, shortest, scene.tolerance));
+    };
+    for (const Ring& ring : surface.rings) {
+      const std::size_t n = ring.size();
+      const auto length = [&](std::size_t k) { return (ring[(k + 1) % n] - ring[k % n]).norm(); };
+      for (std::size_t k = 0; k < n; ++k)
+        add({ring[k], ring[(k + 1) % n]}, std::min({length(k + n - 1), length(k), length(k + 1)}));
+    }
+    for (const Segment2& contact : surface.contacts) add(contact, (contact[1] - contact[0]).norm());
+  }
+  out.first_wall.push_back(static_cast<int>(out.walls.size()));
+}
+
+// Whether the planes of two surfaces, each off its corners by at most `planarity`, explain that an
+// edge of both lies here in one and, moved by `offset` across it, in the other. Parallel ones do
+// not: surfaces that lie in one plane to within the tolerance have the same plane.
+bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal_b,
+                    const Tolerance& tolerance) {
+  if (offset.norm() <= tolerance.length) return true;
+  // The offset as a sum of parts along the normals.
+  const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
+  const double squared_sine = normal_a.cross(normal_b).squaredNorm();
+  if (squared_sine <= least_squared_sine) return false;
+  return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
+         std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
+}
+
+struct Overlap {
+  double gap;
+  int first, second;
+  auto operator<=>(const Overlap&) const = default;
+};
+
+// Joins walls that lie on each other, the closest first.
+class WallJoiner {
+ public:
+  WallJoiner(const SoundScene& scene, const SharedLines& lines,
+             const std::vector<Stretch>& stretches)
+      : scene_(scene), lines_(lines), stretches_(stretches), group_(stretches.size()) {
+    std::iota(group_.begin(), group_.end(), 0);
+    for (int w = 0; w < static_cast<int>(stretches.size()); ++w) members_.push_back({w});
+  }
+
+  // The groups, each sorted; some are empty.
+  std::vector<std::vector<int>> run() {
+    std::vector<Overlap> overlaps = find_overlaps();
+    std::sort(overlaps.begin(), overlaps.end());
+    for (const auto& [gap, i, j] : overlaps) {
+      const auto a = at(std::min(group_[at(i)], group_[at(j)]));
+      const auto b = at(std::max(group_[at(i)], group_[at(j)]));
+      if (a == b || clash(members_[a], members_[b])) continue;
+      const auto middle = static_cast<std::ptrdiff_t>(members_[a].size());
+      members_[a].insert(members_[a].end(), members_[b].begin(), members_[b].end());
+      std::inplace_merge(members_[a].begin(), members_[a].begin() + middle, members_[a].end());
+      for (const int w : members_[b]) group_[at(w)] = static_cast<int>(a);
+      members_[b].clear();
+    }
+    return std::move(members_);
+  }
+
+ private:
+  const Vec3& normal(int wall) const {
+    return scene_.surfaces[at(lines_.walls[at(wall)].surface)].frame.normal;
+  }
+
+  std::vector<Overlap> find_overlaps() const {
+    std::vector<Box> boxes;
+    for (const Stretch& s : stretches_) {
+      boxes.emplace_back(s.from.cwiseMin(s.to), s.from.cwiseMax(s.to));
+      boxes.back().min().array() -= s.reach;
+      boxes.back().max().array() += s.reach;
+    }
+    const BoxTree tree(boxes);
+    std::vector<Overlap> overlaps;
+    for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
+      tree.query_box(boxes[at(i)], [&](int j) {
+        if (j >= i || lines_.walls[at(i)].surface == lines_.walls[at(j)].surface) return;
+        const bool j_is_longer = stretches_[at(i)].length() < stretches_[at(j)].length();
+        const double gap = j_is_longer ? gap_between(j, i) : gap_between(i, j);
+        if (gap < HUGE_VAL) overlaps.push_back({gap, j, i});
+      });
+    return overlaps;
+  }
+
+  // Where the second runs along the first, in terms of the first's length.
+  std::array<double, 2> range_along(int first, int second) const {
+    const Stretch &a = stretches_[at(first)], &b = stretches_[at(second)];
+    const Vec3 direction = (a.to - a.from) / a.length();
+    return {direction.dot(b.from - a.from), direction.dot(b.to - a.from)};
+  }
+
+  // Infinite if they do not lie on each other. The first is not shorter than the second.
+  double gap_between(int first, int second) const {
+    const Stretch &a = stretches_[at(first)], &b = stretches_[at(second)];
+    if (!(b.length() > 0)) return HUGE_VAL;
+    const auto [t0, t1] = range_along(first, second);
+    const double begin = std::max(std::min(t0, t1), 0.0);
+    const double end = std::min(std::max(t0, t1), a.length());
+    if (!(end - begin > scene_.tolerance.length)) return HUGE_VAL;
+    double gap = 0;
+    for (const double t : {begin, end}) {
+      const Vec3 offset = b.from + (t - t0) / (t1 - t0) * (b.to - b.from) -
+                          (a.from + t / a.length() * (a.to - a.from));
+      if (offset.norm() > std::min(a.reach, b.reach) ||
+          !planes_explain(offset, normal(first), normal(second), scene_.tolerance))
+        return HUGE_VAL;
+      gap = std::max(gap, offset.norm());
+    }
+    // Or they only touch at their ends, which overlap by as much as planes are off.
+    return gap <= largest_gap * (end - begin) ? gap : HUGE_VAL;
+  }
+
+  // Whether walls of one surface would come to lie on each other.
+  bool clash(const std::vector<int>& a, const std::vector<int>& b) const {
+    const auto& [fewer, more] =
+        std::minmax(a, b, [](auto& x, auto& y) { return x.size() < y.size(); });
+    for (const int w : fewer) {
+      const int r = lines_.walls[at(w)].surface;
+      auto other = std::lower_bound(more.begin(), more.end(), lines_.first_wall[at(r)]);
+      for (; other != more.end() && *other < lines_.first_wall[at(r) + 1]; ++other) {
+        const auto [t0, t1] = range_along(w, *other);
+        if (std::min(std::max(t0, t1), stretches_[at(w)].length()) -
+                std::max(std::min(t0, t1), 0.0) >
+            scene_.tolerance.length)
+          return true;
+      }
+    }
+    return false;
+  }
+
+  const SoundScene& scene_;
+  const SharedLines& lines_;
+  const std::vector<Stretch>& stretches_;
+  std::vector<int> group_;                 // of each wall
+  std::vector<std::vector<int>> members_;  // of each group, sorted
+};
+
+}  // namespace
+
+SharedLines find_shared_lines(const SoundScene& scene) {
+  SharedLines result;
+  std::vector<Stretch> stretches;
+  collect(scene, result, stretches);
+  std::vector<std::vector<int>> groups = WallJoiner(scene, result, stretches).run();
+  for (std::vector<int>& walls : groups) {
+    if (walls.size() < 2) continue;
+    const auto& longest =
+        stretches[at(*std::max_element(walls.begin(), walls.end(), [&](int a, int b) {
+          return stretches[at(a)].length() < stretches[at(b)].length();
+        }))];
+    SharedLine line{longest.from, (longest.to - longest.from) / longest.length(), {}};
+    for (const int w : walls) {
+      Wall& wall = result.walls[at(w)];
+      const PlaneFrame& frame = scene.surfaces[at(wall.surface)].frame;
+      wall.line = static_cast<int>(result.lines.size());
+      wall.begin = along(line, frame, wall.ends[0]);
+      wall.end = along(line, frame, wall.ends[1]);
+    }
+    line.walls = std::move(walls);
+    result.lines.push_back(std::move(line));
+  }
+  return result;
+}
+
+double along(const SharedLine& line, const PlaneFrame& frame, const Vec2& point) {
+  // Not by way of the point in space, which loses digits far from the origin.
+  return line.direction.dot(frame.origin - line.origin) + point.x() * line.direction.dot(frame.e1) +
+         point.y() * line.direction.dot(frame.e2);
+}
+
+}  // namespace halfshade

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// Opaque triangles, each with an owner (a surface or an element, as the maker of the soup
+/// chooses) and the id of the plane it lies in.
+struct TriangleSoup {
+  std::vector<Vec3> points;
+  std::vector<std::array<int, 3>> triangles;
+  std::vector<int> owner;
+  std::vector<int> plane;
+};
+
+/// The surfaces as coarse triangles; owner = surface. Backs of two-sided faces are left out, for
+/// their fronts already block.
+TriangleSoup occluders(const SoundScene& scene);
+
+/// A straight piece of light. Triangles in the planes of its end points (−1: none) do not block it:
+/// a segment that leaves a plane cannot cross it again.
+struct Segment {
+  Vec3 from, to;
+  int from_plane = -1;
+  int to_plane = -1;
+};
+
+struct Hit {
+  int owner = 0;
+  int triangle = 0;
+  double distance = 0;              ///< scene units
+  std::array<double, 3> weights{};  ///< barycentric coordinates at the triangle's corners
+};
+
+enum class Sides { both, front_only };
+
+/// Answers visibility queries among fixed triangles. Embree finds the triangles near a ray in
+/// single precision, on coordinates relative to the soup's centre and size; whether one is met is
+/// decided in double precision. What can go wrong is that a triangle met within about 1e-6 of the
+/// scene's size from its border, at a grazing angle, goes unseen: good for sampling and for clear
+/// cases, not for near-tangent decisions. All queries may run concurrently.
+class VisibilityIndex {
+ public:
+  explicit VisibilityIndex(TriangleSoup soup);
+  ~VisibilityIndex();
+  VisibilityIndex(VisibilityIndex&&) noexcept;
+  VisibilityIndex& operator=(VisibilityIndex&&) noexcept;
+
+  const TriangleSoup& soup() const;
+
+  /// True if a triangle lies between the end points. Triangles that an end point lies on do not
+  /// block; a segment without length, or with an end that is not finite, is not blocked.
+  bool blocked(const Segment& segment) const;
+
+  /// The same for a batch; `result[k]` is 1 or 0. Spans must be equally long. Batches of a few
+  /// thousand and more are shared among threads; small ones run in packets on the calling thread.
+  /// Segments that are close together in space should be close together in the batch.
+  void blocked(std::span<const Segment> segments, std::span<std::uint8_t> result) const;
+
+  /// The nearest triangle along a ray, other than those that the origin lies on; `direction` need
+  /// not be of unit length. With Sides::front_only, triangles seen from behind let the ray pass.
+  std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction,
+                               Sides sides = Sides::both) const;
+
+  /// Owners of all triangles that can lie between a point of polygon `a` and a point of polygon
+  /// `b`: those that reach into the interior of their convex hull (shaft; Haines and Wallace 1991).
+  /// Sorted. Conservative except that triangles reaching in by less than 1e-12 of the scene's size
+  /// may be missing: triangles that only touch the shaft, as coplanar ones do, are left out. A
+  /// polygon may also be a single point. Double precision; cost grows with the logarithm of the
+  /// scene.
+  std::vector<int> candidates(std::span<const Vec3> a, std::span<const Vec3> b) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace halfshade

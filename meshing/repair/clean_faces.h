@@ -1,0 +1,25 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+#include "meshing/repair/planes.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// A planar polygon with an area: a face or, where that is not planar, a triangle of it.
+struct FacePiece {
+  int face = 0;
+  std::vector<int> loop;  ///< points, counter-clockwise seen from the front
+};
+
+/// The faces as planar polygons of welded points, by face: without repeated corners, spikes, faces
+/// of no area and repeated faces. May add points. Says in `repairs` what it changed. Throws
+/// Error(invalid_input) for a face without a sound interior.
+std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
+                                   const Tolerance& tolerance, std::vector<Repair>& repairs);
+
+/// Throws the Error for a face that crosses itself.
+[[noreturn]] void reject_crossed_face(const Scene& scene, int face);
+
+}  // namespace halfshade

@@ -1,0 +1,183 @@
+#include "meshing/repair/contacts.h"
+
+#include "meshing/arrangement/arrangement.h"
+#include "meshing/geometry/box_tree.h"
+#include "meshing/repair/intersections.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace halfshade {
+namespace {
+
+using Link = std::array<int, 2>;
+
+Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
+
+std::vector<Link> links_of(const std::vector<std::vector<int>>& rings) {
+  std::vector<Link> links;
+  for (const auto& ring : rings)
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      links.push_back(sorted(ring[k], ring[(k + 1) % ring.size()]));
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+std::vector<Link> all_links(const std::vector<SurfaceDraft>& drafts) {
+  std::vector<Link> links;
+  for (const SurfaceDraft& draft : drafts)
+    for (const Link& link : links_of(draft.rings)) links.push_back(link);
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (a + t * (b - a) - p).norm();
+}
+
+// One surface with the edges that lie in its plane.
+class ContactFinder {
+ public:
+  ContactFinder(SurfaceDraft& draft, std::vector<Vec3>& points, const Tolerance& tolerance)
+      : draft_(draft), points_(points), tolerance_(tolerance) {}
+
+  void run(const std::vector<Link>& edges) {
+    std::vector<Link> segments;
+    for (const auto& ring : draft_.rings)
+      for (std::size_t k = 0; k < ring.size(); ++k)
+        segments.push_back({local(ring[k]), local(ring[(k + 1) % ring.size()])});
+    border_ = segments;
+    for (const Link& edge : edges) segments.push_back({local(edge[0]), local(edge[1])});
+    arrangement_ = arrange(flat_, segments, {tolerance_.length, tolerance_.planarity});
+    collect(edges.size());
+    if (inner_.empty()) return;
+    for (std::size_t k = ids_.size(); k < arrangement_.points.size(); ++k) {
+      ids_.push_back(static_cast<int>(points_.size()));
+      points_.push_back(draft_.frame.to_space(arrangement_.points[k]));
+    }
+    update_rings();
+    for (const Link& link : inner_)
+      draft_.contacts.push_back(sorted(ids_[at(link[0])], ids_[at(link[1])]));
+    std::sort(draft_.contacts.begin(), draft_.contacts.end());
+  }
+
+ private:
+  int local(int point) {
+    const auto [entry, is_new] = local_.emplace(point, static_cast<int>(flat_.size()));
+    if (is_new) {
+      flat_.push_back(draft_.frame.to_plane(points_[at(point)]));
+      ids_.push_back(point);
+    }
+    return entry->second;
+  }
+
+  void collect(std::size_t edge_count) {
+    const auto& chains = arrangement_.chains;
+    std::set<Link> on_border;
+    for (std::size_t s = 0; s + edge_count < chains.size(); ++s)
+      for (std::size_t k = 1; k < chains[s].size(); ++k)
+        on_border.insert(sorted(chains[s][k - 1], chains[s][k]));
+    for (std::size_t s = chains.size() - edge_count; s < chains.size(); ++s)
+      for (std::size_t k = 1; k < chains[s].size(); ++k) {
+        const Link link = sorted(chains[s][k - 1], chains[s][k]);
+        if (!on_border.contains(link) && inside(link)) inner_.insert(link);
+      }
+  }
+
+  // Inside, and not just the border itself as far as the planarity tolerance can tell.
+  bool inside(const Link& link) const {
+    const Vec2 a = arrangement_.points[at(link[0])], b = arrangement_.points[at(link[1])];
+    const Vec2 middle = 0.5 * (a + b);
+    bool odd = false, near_a = false, near_b = false, near_middle = false;
+    for (const Link& segment : border_) {
+      const Vec2 &p = flat_[at(segment[0])], &q = flat_[at(segment[1])];
+      near_a = near_a || distance_to(a, p, q) <= tolerance_.planarity;
+      near_b = near_b || distance_to(b, p, q) <= tolerance_.planarity;
+      near_middle = near_middle || distance_to(middle, p, q) <= tolerance_.planarity;
+      if ((p.y() > middle.y()) == (q.y() > middle.y())) continue;
+      const double x = p.x() + (middle.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
+      if (x > middle.x()) odd = !odd;
+    }
+    return odd && !(near_a && near_b && near_middle);
+  }
+
+  // Border points at which contact lines end become corners of the rings.
+  void update_rings() {
+    std::set<int> ends;
+    for (const Link& link : inner_) ends.insert(link.begin(), link.end());
+    std::size_t s = 0;
+    for (auto& ring : draft_.rings) {
+      std::vector<int> longer;
+      for (std::size_t k = 0; k < ring.size(); ++k, ++s) {
+        const auto& chain = arrangement_.chains[s];
+        longer.push_back(ring[k]);
+        for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+          if (ends.contains(chain[i])) longer.push_back(ids_[at(chain[i])]);
+      }
+      ring = std::move(longer);
+    }
+  }
+
+  SurfaceDraft& draft_;
+  std::vector<Vec3>& points_;
+  const Tolerance& tolerance_;
+  std::map<int, int> local_;
+  std::vector<Vec2> flat_;
+  std::vector<int> ids_;  // point of the arrangement → point of the scene
+  std::vector<Link> border_;
+  Arrangement arrangement_;
+  std::set<Link> inner_;
+};
+
+// Edges other than the surface's own that lie in its plane and may reach into it.
+std::vector<Link> edges_in_plane(const SurfaceDraft& draft, const std::vector<Link>& links,
+                                 const BoxTree& tree, const std::vector<Vec3>& points,
+                                 const Tolerance& tolerance) {
+  Box around;
+  for (const int p : draft.rings[0]) around.extend(points[at(p)]);
+  around.min().array() -= tolerance.planarity;
+  around.max().array() += tolerance.planarity;
+  const Vec3 normal = draft.frame.normal, spread = normal.cwiseAbs();
+  const std::vector<Link> own = links_of(draft.rings);
+  std::vector<Link> found;
+  const auto reaches = [&](const Box& box) {
+    return box.intersects(around) && std::abs(draft.frame.height(box.center())) <=
+                                         spread.dot(0.5 * box.sizes()) + tolerance.planarity;
+  };
+  tree.query(reaches, [&](int i) {
+    const Link& link = links[at(i)];
+    const bool in_plane = std::all_of(link.begin(), link.end(), [&](int p) {
+      return std::abs(draft.frame.height(points[at(p)])) <= tolerance.planarity;
+    });
+    if (in_plane && !std::binary_search(own.begin(), own.end(), link)) found.push_back(link);
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+}  // namespace
+
+void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
+                   const Tolerance& tolerance) {
+  const std::vector<Link> links = all_links(drafts);
+  std::vector<Box> boxes;
+  boxes.reserve(links.size());
+  for (const auto& [a, b] : links) {
+    boxes.emplace_back(points[at(a)]);
+    boxes.back().extend(points[at(b)]);
+  }
+  const BoxTree tree(std::move(boxes));
+  const auto cuts = find_intersections(drafts, points, tolerance);
+  for (std::size_t i = 0; i < drafts.size(); ++i) {
+    std::vector<Link> edges = edges_in_plane(drafts[i], links, tree, points, tolerance);
+    edges.insert(edges.end(), cuts[i].begin(), cuts[i].end());
+    if (!edges.empty()) ContactFinder(drafts[i], points, tolerance).run(edges);
+  }
+}
+
+}  // namespace halfshade

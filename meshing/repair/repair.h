@@ -1,0 +1,24 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+
+namespace halfshade {
+
+/// Turns a valid scene into sound surfaces:
+/// * vertices closer than the tolerance are welded; faces without area and repeated faces are
+/// dropped (of
+///   two coincident faces that look opposite ways both stay);
+/// * polygons off their plane by more than the tolerance are triangulated, so that each piece is
+/// planar;
+/// * coplanar neighbours of one material and group that look the same way are merged into polygons
+/// with
+///   holes; where coplanar faces of different materials that look the same way cover each other, an
+///   emitter keeps the common part, else the smaller face does (a lamp set flush over a ceiling);
+/// * edges of other surfaces that lie inside a surface become its contact lines, and so do the
+/// lines along which others cut through it;
+/// * two-sided faces become two surfaces.
+/// Throws Error(invalid_input) if nothing with an area is left, or if a polygon crosses itself so
+/// that it has no sound interior. Deterministic.
+SoundScene make_sound(const Scene& scene);
+
+}  // namespace halfshade

@@ -1,0 +1,218 @@
+#include "meshing/triangulation/lazy_refinement.h"
+
+#include "meshing/triangulation/narrow_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <queue>
+
+namespace halfshade {
+namespace {
+
+// Off-centres lie a little nearer than the angle asks for (as in Üngör 2004), lest the new triangle
+// is bad by rounding.
+constexpr double off_centre_share = 0.95;
+// A point encroaches on a constraint that it sees under a larger angle: cos 120° (Chew's lens).
+constexpr double lens_cosine = -0.5;
+
+struct Shape {
+  std::size_t shortest = 0, longest = 0;  // sides
+  std::array<double, 3> squared{};        // of the sides
+  double twice_area = 0;
+  double sine_squared() const {  // of the smallest angle
+    const double product = squared[(shortest + 1) % 3] * squared[(shortest + 2) % 3];
+    return twice_area * twice_area / product;
+  }
+  double altitude() const { return twice_area / std::sqrt(squared[longest]); }
+};
+
+class Refiner {
+ public:
+  Refiner(ConstrainedMesh& mesh, const RefinementLimits& limits)
+      : mesh_(mesh), limits_(limits), corners_(mesh), cavity_(mesh) {
+    const double sine = std::sin(limits.min_angle * std::numbers::pi / 180);
+    sine_squared_ = sine * sine;
+    off_centre_ = off_centre_share / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
+    added_on_.assign(mesh.points.size(), -1);
+  }
+
+  bool run() {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) push(static_cast<int>(t));
+    while (!queue_.empty()) {
+      const Entry entry = queue_.top();
+      queue_.pop();
+      if (mesh_.triangle(entry.triangle).corner != entry.corner) continue;
+      if (mesh_.triangles.size() >= limits_.max_triangles) return false;
+      improve(entry.triangle);
+    }
+    return true;
+  }
+
+ private:
+  struct Entry {
+    double badness;
+    int triangle;
+    std::array<int, 3> corner;
+    bool operator<(const Entry& other) const {
+      return std::tie(badness, other.triangle) < std::tie(other.badness, triangle);
+    }
+  };
+
+  const Vec2& point(int p) const { return mesh_.point(p); }
+
+  Shape shape(int t) const {
+    const auto& c = mesh_.triangle(t).corner;
+    Shape s;
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.squared[k] = (point(c[(k + 1) % 3]) - point(c[k])).squaredNorm();
+      if (s.squared[k] < s.squared[s.shortest]) s.shortest = k;
+      if (s.squared[k] > s.squared[s.longest]) s.longest = k;
+    }
+    const Vec2 u = point(c[1]) - point(c[0]), v = point(c[2]) - point(c[0]);
+    s.twice_area = u.x() * v.y() - u.y() * v.x();
+    return s;
+  }
+
+  bool is_long(const Shape& s) const {
+    return limits_.max_length > 0 && s.squared[s.longest] > limits_.max_length * limits_.max_length;
+  }
+
+  // The smallest angle lies between constraints, or its side between twins.
+  bool is_forced(int t, const Shape& s) const {
+    const auto& triangle = mesh_.triangle(t);
+    if (triangle.line[(s.shortest + 1) % 3] >= 0 && triangle.line[(s.shortest + 2) % 3] >= 0)
+      return true;
+    const int a = triangle.corner[s.shortest], b = triangle.corner[(s.shortest + 1) % 3];
+    return corners_.are_twins(mesh_, a, added_on_[at(a)], b, added_on_[at(b)]);
+  }
+
+  bool is_slim(int t, const Shape& s) const {
+    return s.sine_squared() < sine_squared_ && !is_forced(t, s);
+  }
+
+  // Long triangles first, longest first; then slim ones, slimmest first.
+  void push(int t) {
+    const Shape s = shape(t);
+    if (is_long(s))
+      queue_.push({1 + s.squared[s.longest], t, mesh_.triangle(t).corner});
+    else if (is_slim(t, s))
+      queue_.push({-s.sine_squared(), t, mesh_.triangle(t).corner});
+  }
+
+  void improve(int t) {
+    const Shape s = shape(t);
+    if (add_centre(t, s) || !is_long(s)) return;
+    add(0.5 * (point(mesh_.triangle(t).corner[s.longest]) +
+               point(mesh_.triangle(t).corner[(s.longest + 1) % 3])),
+        Side{t, s.longest}, 0);
+  }
+
+  // The circumcentre, or for slim triangles a point on the way there from the middle of the
+  // shortest side that is just far enough for a good triangle with it.
+  std::optional<Vec2> centre(int t, const Shape& s) const {
+    const auto& c = mesh_.triangle(t).corner;
+    const Vec2 p = point(c[s.shortest]), side = point(c[(s.shortest + 1) % 3]) - p;
+    const Vec2 other = point(c[(s.shortest + 2) % 3]) - p;
+    const Vec2 normal(-side.y(), side.x());
+    // p + side/2 + x normal is equally far from p and the third corner.
+    const double reach = (other.squaredNorm() - other.dot(side)) / (2 * s.twice_area);
+    const double length = std::sqrt(s.squared[s.shortest]);
+    const double far = reach * length;
+    const double radius = std::hypot(far, 0.5 * length);
+    if (!(radius >= limits_.shortest) && !is_long(s)) return {};
+    double distance = far;
+    if (s.sine_squared() < sine_squared_) {
+      // Not so near that the new sides are too short.
+      const double least = std::sqrt(
+          std::max(0.0, 1.0001 * limits_.shortest * limits_.shortest - 0.25 * length * length));
+      distance = std::min(far, std::max(off_centre_ * length, least));
+    }
+    return Vec2(p + 0.5 * side + distance / length * normal);
+  }
+
+  // Whether something was added.
+  bool add_centre(int t, const Shape& s) {
+    const auto target = centre(t, s);
+    if (!target) return false;
+    const auto arrival = walk(mesh_, t, *target);
+    if (!arrival) return false;
+    if (arrival->is_blocked) return split(t, s, arrival->side);
+    cavity_.find(*target, arrival->side.triangle);
+    if (const auto side = encroached(*target)) return split(t, s, *side);
+    return add(*target, {}, limits_.shortest);
+  }
+
+  // The longest constraint of the present cavity that p sees under a large angle.
+  std::optional<Side> encroached(const Vec2& p) const {
+    std::optional<Side> result;
+    double longest = 0;
+    for (const Cavity::Rim& r : cavity_.rim()) {
+      if (r.line < 0 && r.beyond >= 0) continue;
+      const Vec2 u = point(r.from) - p, v = point(r.to) - p;
+      const double length = (u - v).squaredNorm();
+      if (length > longest && u.dot(v) <= lens_cosine * u.norm() * v.norm()) {
+        longest = length;
+        result = r.side;
+      }
+    }
+    return result;
+  }
+
+  // Splits a constraint that is in the way of triangle t's improvement.
+  bool split(int t, const Shape& s, const Side& side) {
+    if (!is_long(s) && s.altitude() < limits_.shortest) return false;
+    const auto& triangle = mesh_.triangle(side.triangle);
+    const int a = triangle.corner[side.k], b = triangle.corner[(side.k + 1) % 3];
+    const double length = (point(b) - point(a)).norm();
+    Vec2 p = 0.5 * (point(a) + point(b));
+    const int line = triangle.line[side.k];
+    const bool is_narrow_at_a = corners_.is_narrow_at(line, a);
+    if (is_narrow_at_a != corners_.is_narrow_at(line, b)) {
+      // All round a narrow corner at the same distances, or splits answer each other without end.
+      const double shell = std::exp2(std::round(std::log2(0.5 * length))) / length;
+      p = is_narrow_at_a ? Vec2(point(a) + shell * (point(b) - point(a)))
+                         : Vec2(point(b) + shell * (point(a) - point(b)));
+    }
+    const auto corner = mesh_.triangle(t).corner;
+    if (std::min((p - point(a)).norm(), (p - point(b)).norm()) < limits_.shortest) return false;
+    if (!add(p, side, limits_.shortest)) return false;
+    if (mesh_.triangle(t).corner == corner) push(t);
+    return true;
+  }
+
+  // Adds a point, on a side if that is given, else into the present cavity, unless that makes an
+  // edge shorter than `shortest`.
+  bool add(const Vec2& p, const std::optional<Side>& on, double shortest) {
+    int line = -1;
+    if (on) {
+      line = mesh_.triangle(on->triangle).line[on->k];
+      cavity_.find(p, *on);
+    }
+    for (const Cavity::Rim& r : cavity_.rim())
+      if ((point(r.from) - p).squaredNorm() < shortest * shortest ||
+          (point(r.to) - p).squaredNorm() < shortest * shortest)
+        return false;
+    if (!cavity_.fill(changed_)) return false;
+    added_on_.push_back(line);
+    for (const int t : changed_) push(t);
+    return true;
+  }
+
+  ConstrainedMesh& mesh_;
+  RefinementLimits limits_;
+  NarrowCorners corners_;
+  Cavity cavity_;
+  double sine_squared_ = 0, off_centre_ = 0;
+  std::vector<int> added_on_;  // [point] line, −1: none, or an original point
+  std::vector<int> changed_;
+  std::priority_queue<Entry> queue_;
+};
+
+}  // namespace
+
+bool refine_lazily(ConstrainedMesh& mesh, const RefinementLimits& limits) {
+  return Refiner(mesh, limits).run();
+}
+
+}  // namespace halfshade

@@ -1,0 +1,147 @@
+#include "meshing/triangulation/narrow_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace halfshade {
+namespace {
+
+constexpr double narrow = std::numbers::pi / 3;
+// Constraints that turn by less than this (radians) continue each other.
+constexpr double straight = 0.01;
+// Distances of twins from their corner differ by less than this, relatively.
+constexpr double twin_tolerance = 1e-3;
+
+std::uint64_t key(int a, int b) {
+  return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+}
+
+double direction(const Vec2& from, const Vec2& to) {
+  return std::atan2(to.y() - from.y(), to.x() - from.x());
+}
+
+double turned(double a, double b) { return std::abs(std::remainder(a - b, 2 * std::numbers::pi)); }
+
+double angle(const Vec2& apex, const Vec2& a, const Vec2& b) {
+  const Vec2 u = a - apex, v = b - apex;
+  return std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
+}
+
+}  // namespace
+
+NarrowCorners::NarrowCorners(const ConstrainedMesh& mesh) {
+  unite_straight_lines(mesh);
+  find_corners(mesh);
+  std::sort(narrow_.begin(), narrow_.end());
+}
+
+std::vector<NarrowCorners::End> NarrowCorners::list_ends(const ConstrainedMesh& mesh) {
+  std::vector<End> ends;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = t.corner[k], b = t.corner[(k + 1) % 3];
+      if (t.line[k] < 0 || (t.neighbour[k] >= 0 && a > b)) continue;
+      ends.push_back({a, direction(mesh.point(a), mesh.point(b)), t.line[k]});
+      ends.push_back({b, direction(mesh.point(b), mesh.point(a)), t.line[k]});
+    }
+  std::sort(ends.begin(), ends.end());
+  first_.assign(mesh.points.size() + 1, 0);
+  int line_count = 0;
+  for (const End& end : ends) {
+    ++first_[at(end.point) + 1];
+    lines_.push_back(end.line);
+    line_count = std::max(line_count, end.line + 1);
+  }
+  std::partial_sum(first_.begin(), first_.end(), first_.begin());
+  chain_.resize(at(line_count));
+  std::iota(chain_.begin(), chain_.end(), 0);
+  return ends;
+}
+
+// The end at the same point that leaves most nearly the opposite way.
+std::size_t NarrowCorners::opposite(const std::vector<End>& ends, std::size_t i) const {
+  const auto begin = ends.begin() + first_[at(ends[i].point)];
+  const auto end = ends.begin() + first_[at(ends[i].point) + 1];
+  const double back = std::remainder(ends[i].direction + std::numbers::pi, 2 * std::numbers::pi);
+  auto next = std::lower_bound(begin, end, back,
+                               [](const End& e, double value) { return e.direction < value; });
+  if (next == end) next = begin;
+  const auto previous = next == begin ? end - 1 : next - 1;
+  const bool is_previous = turned(previous->direction, back) <= turned(next->direction, back);
+  return static_cast<std::size_t>((is_previous ? previous : next) - ends.begin());
+}
+
+void NarrowCorners::unite_straight_lines(const ConstrainedMesh& mesh) {
+  const std::vector<End> ends = list_ends(mesh);
+  const auto root = [&](int line) {
+    while (chain_[at(line)] != line) line = chain_[at(line)] = chain_[at(chain_[at(line)])];
+    return line;
+  };
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const std::size_t j = opposite(ends, i);
+    if (i < j && opposite(ends, j) == i &&
+        turned(ends[i].direction + std::numbers::pi, ends[j].direction) < straight)
+      chain_[at(root(ends[j].line))] = root(ends[i].line);
+  }
+  for (int& line : chain_) line = root(line);
+}
+
+void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
+  for (std::size_t first = 0; first < mesh.triangles.size(); ++first)
+    for (std::size_t side = 0; side < 3; ++side) {
+      const int start = mesh.triangles[first].line[side];
+      if (start < 0) continue;
+      const int apex = mesh.triangles[first].corner[side];
+      double sum = 0;
+      int t = static_cast<int>(first), end = -1;
+      std::size_t k = side;
+      while (end < 0 && t >= 0 && sum < narrow) {
+        const auto& triangle = mesh.triangle(t);
+        sum += angle(mesh.point(apex), mesh.point(triangle.corner[(k + 1) % 3]),
+                     mesh.point(triangle.corner[(k + 2) % 3]));
+        end = triangle.line[(k + 2) % 3];
+        t = triangle.neighbour[(k + 2) % 3];
+        if (end >= 0 || t < 0) break;
+        const auto& corner = mesh.triangle(t).corner;
+        k = static_cast<std::size_t>(std::find(corner.begin(), corner.end(), apex) -
+                                     corner.begin());
+      }
+      if (end < 0 || sum >= narrow) continue;
+      narrow_.push_back(key(start, apex));
+      narrow_.push_back(key(end, apex));
+      corner_.try_emplace(key(chain_[at(start)], chain_[at(end)]), apex);
+      corner_.try_emplace(key(chain_[at(end)], chain_[at(start)]), apex);
+    }
+}
+
+bool NarrowCorners::is_narrow_at(int line, int point) const {
+  return std::binary_search(narrow_.begin(), narrow_.end(), key(line, point));
+}
+
+void NarrowCorners::lines_at(int point, int line, std::vector<int>& lines) const {
+  lines.clear();
+  if (line >= 0)
+    lines.push_back(line);
+  else if (at(point) + 1 < first_.size())
+    lines.assign(lines_.begin() + first_[at(point)], lines_.begin() + first_[at(point) + 1]);
+}
+
+bool NarrowCorners::are_twins(const ConstrainedMesh& mesh, int a, int line_of_a, int b,
+                              int line_of_b) const {
+  std::vector<int> lines_a, lines_b;
+  lines_at(a, line_of_a, lines_a);
+  lines_at(b, line_of_b, lines_b);
+  for (const int m : lines_a)
+    for (const int n : lines_b) {
+      const auto found = corner_.find(key(chain_[at(m)], chain_[at(n)]));
+      if (found == corner_.end()) continue;
+      const Vec2& apex = mesh.point(found->second);
+      const double p = (mesh.point(a) - apex).norm(), q = (mesh.point(b) - apex).norm();
+      if (p > 0 && q > 0 && std::abs(p - q) < twin_tolerance * p) return true;
+    }
+  return false;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,280 @@
+#include "solver/direct/direct_light.h"
+
+#include "meshing/backprojection/edge_sum.h"
+#include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
+#include "solver/direct/edge_derivatives.h"
+#include "solver/elements/quadrature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <mutex>
+
+namespace halfshade {
+namespace {
+
+constexpr std::size_t chunk = 64;  // points of one task
+
+/// An emitter is passed over without asking the exact predicates only if it lies below the horizon,
+/// or the point behind it, by more than this times the coordinates' size.
+constexpr double clearly = 1e-12;
+
+struct Target {
+  std::vector<std::vector<Vec3>> rings;  ///< counter-clockwise seen from the front, then the holes
+  Vec3 centre, half;                     ///< of the bounding box
+  Vec3 origin, normal;                   ///< of its plane
+  Rgb exitance;
+  double strength = 0;  ///< mean of the exitance's channels
+  double scale = 0;     ///< size of its coordinates
+};
+
+Target make_target(const SoundScene& scene, const Surface& surface) {
+  Target target;
+  Eigen::AlignedBox3d box;
+  for (const Ring& ring : surface.rings) {
+    std::vector<Vec3>& corners = target.rings.emplace_back();
+    for (const Vec2& p : ring) {
+      corners.push_back(surface.frame.to_space(p));
+      box.extend(corners.back());
+    }
+  }
+  target.centre = box.center();
+  target.half = 0.5 * box.sizes();
+  target.origin = surface.frame.origin;
+  target.normal = surface.frame.normal;
+  target.exitance = scene.materials[static_cast<std::size_t>(surface.material)].exitance;
+  target.strength = target.exitance.mean();
+  target.scale = target.centre.lpNorm<1>() + target.half.lpNorm<1>();
+  return target;
+}
+
+/// True if no light can pass between the two for sure, whatever is in between.
+bool is_clearly_away(const Target& target, const SurfacePoint& point) {
+  const double margin = clearly * (target.scale + point.position.lpNorm<1>());
+  if (target.normal.dot(point.position - target.origin) < -margin) return true;
+  const double highest =
+      point.normal.dot(target.centre - point.position) + point.normal.cwiseAbs().dot(target.half);
+  return highest < -margin;
+}
+
+struct Worker {
+  VisiblePartFinder finder;
+  VisiblePart part;
+};
+
+/// Finders that are not in use. Grows to the number of threads that work at the same time.
+class WorkerPool {
+ public:
+  explicit WorkerPool(const OpaqueScene& scene) : scene_(scene) {}
+
+  std::unique_ptr<Worker> take() {
+    const std::lock_guard lock(mutex_);
+    if (free_.empty())
+      return std::make_unique<Worker>(Worker{VisiblePartFinder(scene_), VisiblePart()});
+    std::unique_ptr<Worker> worker = std::move(free_.back());
+    free_.pop_back();
+    return worker;
+  }
+
+  void give_back(std::unique_ptr<Worker> worker) {
+    const std::lock_guard lock(mutex_);
+    free_.push_back(std::move(worker));
+  }
+
+ private:
+  const OpaqueScene& scene_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Worker>> free_;
+};
+
+/// A worker on loan. One whose job has thrown is not given back.
+class Loan {
+ public:
+  explicit Loan(WorkerPool& pool)
+      : pool_(pool), worker_(pool.take()), exceptions_(std::uncaught_exceptions()) {}
+  ~Loan() {
+    if (std::uncaught_exceptions() == exceptions_) pool_.give_back(std::move(worker_));
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  Worker* operator->() const { return worker_.get(); }
+  Worker& operator*() const { return *worker_; }
+
+ private:
+  WorkerPool& pool_;
+  std::unique_ptr<Worker> worker_;
+  int exceptions_;
+};
+
+/// Leaves the boundary in worker.part.
+PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint& point, int id) {
+  PointFactor factor;
+  worker.finder.find(point.position, point.normal, id, worker.part);
+  factor.region = worker.part.region;
+  factor.signature = worker.part.signature;
+  if (factor.region == Region::away) return factor;
+  factor.unobstructed = unobstructed_factor(point.position, point.normal, target.rings);
+  if (factor.region == Region::lit) factor.visible = factor.unobstructed;
+  if (factor.region == Region::penumbra)
+    factor.visible = std::min(factor.unobstructed,
+                              enclosed_factor(point.position, point.normal, worker.part.pieces));
+  return factor;
+}
+
+}  // namespace
+
+struct DirectLightIndex::Impl {
+  OpaqueScene opaque;
+  std::vector<Target> targets;  // by surface
+  std::vector<int> emitters;
+  WorkerPool pool;
+
+  explicit Impl(const SoundScene& scene) : opaque(scene), pool(opaque) {
+    for (const Surface& surface : scene.surfaces) {
+      targets.push_back(make_target(scene, surface));
+      if (targets.back().strength > 0) emitters.push_back(static_cast<int>(targets.size()) - 1);
+    }
+  }
+
+  const Target& target(int surface) const {
+    if (surface < 0 || surface >= static_cast<int>(targets.size()))
+      throw Error(ErrorCode::contract, "DirectLightIndex",
+                  fmt::format("there is no surface {} among {}", surface, targets.size()));
+    return targets[static_cast<std::size_t>(surface)];
+  }
+
+  DirectLight gather(Worker& worker, const SurfacePoint& point) const {
+    DirectLight light;
+    double visible = 0, unobstructed = 0, strongest = 0;
+    for (const int emitter : emitters) {
+      const Target& source = targets[static_cast<std::size_t>(emitter)];
+      if (is_clearly_away(source, point)) continue;
+      const PointFactor factor = find_factor(worker, source, point, emitter);
+      light.irradiance += factor.visible * source.exitance;
+      visible += factor.visible * source.strength;
+      unobstructed += factor.unobstructed * source.strength;
+      if (factor.unobstructed * source.strength > strongest) {
+        strongest = factor.unobstructed * source.strength;
+        light.region = factor.region;
+      }
+    }
+    if (unobstructed > 0) light.visible = visible / unobstructed;
+    return light;
+  }
+};
+
+DirectLightIndex::DirectLightIndex(const SoundScene& scene)
+    : impl_(std::make_unique<Impl>(scene)) {}
+DirectLightIndex::~DirectLightIndex() = default;
+DirectLightIndex::DirectLightIndex(DirectLightIndex&&) noexcept = default;
+DirectLightIndex& DirectLightIndex::operator=(DirectLightIndex&&) noexcept = default;
+
+std::span<const int> DirectLightIndex::emitters() const { return impl_->emitters; }
+
+PointFactor DirectLightIndex::factor(const SurfacePoint& point, int emitter) const {
+  const Target& target = impl_->target(emitter);
+  if (is_clearly_away(target, point)) return {};
+  const Loan worker(impl_->pool);
+  return find_factor(*worker, target, point, emitter);
+}
+
+PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& point,
+                                                            int emitter) const {
+  const Target& target = impl_->target(emitter);
+  if (is_clearly_away(target, point)) return {};
+  const Loan worker(impl_->pool);
+  PointFactorDerivatives result;
+  result.factor = find_factor(*worker, target, point, emitter);
+  const EdgeDerivatives derivatives = edge_derivatives(point.position, point.normal, worker->part);
+  result.gradient = derivatives.gradient;
+  result.hessian = derivatives.hessian;
+  return result;
+}
+
+void DirectLightIndex::visible_part(const SurfacePoint& point, int surface,
+                                    VisiblePart& part) const {
+  impl_->target(surface);
+  const Loan worker(impl_->pool);
+  worker->finder.find(point.position, point.normal, surface, part);
+}
+
+DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
+  const Loan worker(impl_->pool);
+  return impl_->gather(*worker, point);
+}
+
+std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
+                                                      const Progress& progress) const {
+  std::vector<DirectLight> light(points.size());
+  parallel_for((points.size() + chunk - 1) / chunk,
+               [&](std::size_t c) {
+                 const Loan worker(impl_->pool);
+                 const std::size_t end = std::min(points.size(), (c + 1) * chunk);
+                 for (std::size_t k = c * chunk; k < end; ++k)
+                   light[k] = impl_->gather(*worker, points[k]);
+               },
+               progress, "direct light");
+  return light;
+}
+
+ElementDirectLight element_direct_light(const SoundScene& scene, const ElementTable& elements,
+                                        const DirectLightIndex& index, int points_per_element,
+                                        const Progress& progress) {
+  const int degree = points_per_element <= 1   ? 1
+                     : points_per_element <= 3 ? 2
+                     : points_per_element <= 6 ? 4
+                                               : 6;
+  const auto rule = triangle_rule(degree);
+  const std::size_t count = elements.corners.size();
+  ElementDirectLight light;
+  light.emitters.assign(index.emitters().begin(), index.emitters().end());
+  light.factor =
+      Eigen::ArrayXXd::Zero(elements.count(), static_cast<Eigen::Index>(light.emitters.size()));
+  light.region.assign(count, Region::away);
+  const auto element = [&](std::size_t e) {
+    const auto [a, b, c] = elements.triangle(static_cast<int>(e));
+    const int plane = scene.surfaces[static_cast<std::size_t>(elements.surface[e])].plane;
+    double strongest = 0;
+    for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+      const Surface& source = scene.surfaces[static_cast<std::size_t>(light.emitters[k])];
+      if (source.plane == plane) continue;
+      double visible = 0, unobstructed = 0;
+      for (const TriangleNode& node : rule) {
+        const SurfacePoint point{a + node.u * (b - a) + node.v * (c - a), elements.normal[e]};
+        const PointFactor factor = index.factor(point, light.emitters[k]);
+        visible += node.weight * factor.visible;
+        unobstructed += node.weight * factor.unobstructed;
+      }
+      light.factor(static_cast<Eigen::Index>(e), static_cast<Eigen::Index>(k)) = visible;
+      const double strength =
+          unobstructed * scene.materials[static_cast<std::size_t>(source.material)].exitance.mean();
+      if (strength <= strongest) continue;
+      strongest = strength;
+      light.region[e] = visible == 0              ? Region::umbra
+                        : visible == unobstructed ? Region::lit
+                                                  : Region::penumbra;
+    }
+  };
+  parallel_for((count + chunk - 1) / chunk,
+               [&](std::size_t c) {
+                 for (std::size_t e = c * chunk; e < std::min(count, (c + 1) * chunk); ++e)
+                   element(e);
+               },
+               progress, "direct light");
+  return light;
+}
+
+ChannelArray irradiance_of(const ElementDirectLight& light, const SoundScene& scene) {
+  ChannelArray irradiance = ChannelArray::Zero(light.factor.rows(), 3);
+  for (std::size_t k = 0; k < light.emitters.size(); ++k) {
+    const Surface& source = scene.surfaces[static_cast<std::size_t>(light.emitters[k])];
+    const Rgb& exitance = scene.materials[static_cast<std::size_t>(source.material)].exitance;
+    irradiance +=
+        (light.factor.col(static_cast<Eigen::Index>(k)).matrix() * exitance.matrix().transpose())
+            .array();
+  }
+  return irradiance;
+}
+
+}  // namespace halfshade

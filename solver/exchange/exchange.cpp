@@ -1,0 +1,270 @@
+#include "solver/exchange/exchange.h"
+
+#include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
+#include "solver/exchange/enclosures.h"
+#include "solver/exchange/form_factor.h"
+#include "solver/exchange/ray_factor.h"
+#include "solver/exchange/scaled_operator.h"
+#include "solver/exchange/surface_pairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <unistd.h>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+/// Rays for a pair lie between a quarter of the number asked for and four times that.
+constexpr double ray_spread = 4;
+/// The part of the machine's memory that a matrix may fill.
+constexpr double memory_share = 0.7;
+/// A non-zero of the matrix (12 bytes) and of the half of it that is held before (16 bytes).
+constexpr double bytes_per_factor = 20;
+
+struct Factor {
+  int column;
+  double value;
+};
+
+/// An element as the pair loop sees it.
+struct Shape {
+  PairEnd end;
+  Vec3 centre;
+  double radius, area;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Shape> make_shapes(const SoundScene& scene, const ElementTable& elements) {
+  std::vector<Shape> shapes(elements.corners.size());
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto k = static_cast<std::size_t>(e);
+    const auto t = elements.triangle(e);
+    Shape& shape = shapes[k];
+    const int plane = scene.surfaces[static_cast<std::size_t>(elements.surface[k])].plane;
+    shape.end = {t, elements.normal[k], plane};
+    shape.centre = (t[0] + t[1] + t[2]) / 3;
+    shape.radius = 0;
+    shape.area = elements.area[k];
+    for (const Vec3& p : t) {
+      shape.radius = std::max(shape.radius, (p - shape.centre).norm());
+      shape.box.extend(p);
+    }
+  }
+  return shapes;
+}
+
+double lowest(const std::array<Vec3, 3>& triangle, const Vec3& point, const Vec3& normal) {
+  return std::min({normal.dot(triangle[0] - point), normal.dot(triangle[1] - point),
+                   normal.dot(triangle[2] - point)});
+}
+
+double highest(const std::array<Vec3, 3>& triangle, const Vec3& point, const Vec3& normal) {
+  return std::max({normal.dot(triangle[0] - point), normal.dot(triangle[1] - point),
+                   normal.dot(triangle[2] - point)});
+}
+
+/// A F of two elements as if nothing were between them.
+double unobstructed(const Shape& a, const Shape& b, double tolerance, double margin) {
+  const Vec3 &a_point = a.end.triangle[0], &b_point = b.end.triangle[0];
+  if (highest(b.end.triangle, a_point, a.end.normal) <= margin ||
+      highest(a.end.triangle, b_point, b.end.normal) <= margin)
+    return 0;
+  const double distance = (a.centre - b.centre).norm();
+  const bool a_outside = a.radius <= b.radius;
+  const Shape &outer = a_outside ? a : b, &inner = a_outside ? b : a;
+  const int degree = sufficient_degree((distance - inner.radius) / outer.radius, tolerance);
+  if (degree > 0 && lowest(b.end.triangle, a_point, a.end.normal) >= 0 &&
+      lowest(a.end.triangle, b_point, b.end.normal) >= 0)
+    return mutual_area_by_rule(outer.end.triangle, outer.end.normal, inner.end.triangle, degree);
+  FormFactorOptions options;
+  options.tolerance = tolerance;
+  options.floor = 0.01 * tolerance * outer.radius * outer.radius;
+  return std::max(0., mutual_area(outer.end.triangle, inner.end.triangle, options).value);
+}
+
+class Assembly {
+ public:
+  Assembly(const SoundScene& scene, const ElementTable& elements, const VisibilityIndex& visibility,
+           const ExchangeOptions& options, const Progress& progress)
+      : scene_(scene),
+        elements_(elements),
+        visibility_(visibility),
+        options_(options),
+        shapes_(make_shapes(scene, elements)),
+        pairs_(scene, visibility, progress),
+        run_end_(shapes_.size()),
+        upper_(shapes_.size()) {
+    for (std::size_t e = run_end_.size(); e-- > 0;) {
+      const bool last = e + 1 == run_end_.size() || elements.surface[e] != elements.surface[e + 1];
+      run_end_[e] = last ? static_cast<int>(e) + 1 : run_end_[e + 1];
+    }
+  }
+
+  /// False if stopped.
+  bool run(const Progress& progress) {
+    return parallel_for(
+        shapes_.size(), [&](std::size_t i) { fill_row(static_cast<int>(i)); }, progress,
+        "form factors");
+  }
+
+  std::size_t rays() const { return rays_; }
+
+  ExchangeMatrix matrix() const {
+    const auto n = static_cast<Eigen::Index>(upper_.size());
+    Eigen::VectorXi entries = Eigen::VectorXi::Zero(n);
+    for (std::size_t i = 0; i < upper_.size(); ++i) {
+      entries[static_cast<Eigen::Index>(i)] += static_cast<int>(upper_[i].size());
+      for (const Factor& factor : upper_[i]) ++entries[factor.column];
+    }
+    // Rows come in ascending order, so each row receives its left half in order, then its right
+    // half.
+    ExchangeMatrix matrix(n, n);
+    matrix.reserve(entries);
+    for (std::size_t i = 0; i < upper_.size(); ++i)
+      for (const Factor& factor : upper_[i]) {
+        matrix.insert(static_cast<Eigen::Index>(i), factor.column) = factor.value;
+        matrix.insert(factor.column, static_cast<Eigen::Index>(i)) = factor.value;
+      }
+    matrix.makeCompressed();
+    return matrix;
+  }
+
+ private:
+  /// More rays where more light is at stake: pairs with the mean form factor 1/n get the number
+  /// asked for.
+  int ray_count(const Shape& a, const Shape& b, double mutual_area) const {
+    const double F = mutual_area / std::min(a.area, b.area);
+    const double stake = std::sqrt(F * static_cast<double>(shapes_.size()));
+    return std::max(1, static_cast<int>(options_.rays_per_pair *
+                                        std::clamp(stake, 1 / ray_spread, ray_spread)));
+  }
+
+  void fill_row(int i) {
+    RayVisibility sampler(visibility_);
+    const Shape& a = shapes_[static_cast<std::size_t>(i)];
+    const int r = elements_.surface[static_cast<std::size_t>(i)];
+    std::size_t rays = 0;
+    auto& row = upper_[static_cast<std::size_t>(i)];
+    for (int j = i + 1; j < elements_.count(); ++j) {
+      const int s = elements_.surface[static_cast<std::size_t>(j)];
+      const Sight sight = r == s ? Sight::none : pairs_.sight(r, s);
+      if (sight == Sight::none) {
+        j = run_end_[static_cast<std::size_t>(j)] - 1;
+        continue;
+      }
+      const Shape& b = shapes_[static_cast<std::size_t>(j)];
+      double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
+      if (!(value > 0)) continue;
+      if (sight == Sight::sampled && a.box.merged(b.box).intersects(pairs_.blockers(r, s))) {
+        const int count = ray_count(a, b, value);
+        const auto seed =
+            static_cast<std::uint64_t>(i) * shapes_.size() + static_cast<std::uint64_t>(j);
+        value *= sampler.visible_fraction(a.end, b.end, count, seed);
+        rays += static_cast<std::size_t>(count);
+      }
+      if (value > 0) row.push_back({j, value});
+    }
+    row.shrink_to_fit();
+    rays_ += rays;
+  }
+
+  const SoundScene& scene_;
+  const ElementTable& elements_;
+  const VisibilityIndex& visibility_;
+  ExchangeOptions options_;
+  std::vector<Shape> shapes_;
+  SurfacePairs pairs_;
+  std::vector<int> run_end_;  ///< element → end of the run of elements of its surface
+  std::vector<std::vector<Factor>> upper_;
+  std::atomic<std::size_t> rays_ = 0;
+};
+
+void require_memory(const ElementTable& elements) {
+  // Elements of one surface do not see each other.
+  std::vector<double> in_surface;
+  for (const int r : elements.surface) {
+    in_surface.resize(std::max(in_surface.size(), static_cast<std::size_t>(r) + 1));
+    ++in_surface[static_cast<std::size_t>(r)];
+  }
+  const double n = static_cast<double>(elements.corners.size());
+  double pairs = n * n;
+  for (const double m : in_surface) pairs -= m * m;
+  const double available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                           static_cast<double>(sysconf(_SC_PAGESIZE)) * memory_share;
+  const double needed = pairs * bytes_per_factor;
+  if (needed > available || pairs > std::numeric_limits<int>::max())
+    throw Error(
+        ErrorCode::too_large, "compute_exchange",
+        fmt::format("form factors among {} elements may take {:.1f} GB, more than {:.1f} GB that "
+                    "can be used, or too many to count; ask for fewer elements",
+                    elements.corners.size(), needed / 1e9, available / 1e9));
+}
+
+void report_closure(Exchange& exchange) {
+  const Eigen::ArrayXd missing =
+      1 - multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array() /
+              exchange.area;
+  ExchangeReport& report = exchange.report;
+  report.closed = true;
+  double closed_area = 0, lit_area = 0;
+  for (int e = 0; e < exchange.area.size(); ++e) {
+    const double area = exchange.area[e], error = missing[e];
+    if (exchange.enclosures.is_closed(e)) {
+      report.closure_error_max = std::max(report.closure_error_max, std::abs(error));
+      report.closure_error_rms += area * error * error;
+      closed_area += area;
+    }
+    if (exchange.enclosures.is_lit(e)) {
+      report.closed = report.closed && exchange.enclosures.is_closed(e);
+      report.escaping_fraction += area * std::max(error, 0.);
+      lit_area += area;
+    }
+  }
+  if (closed_area > 0) report.closure_error_rms = std::sqrt(report.closure_error_rms / closed_area);
+  if (lit_area > 0) report.escaping_fraction /= lit_area;
+}
+
+/// Which rows are to sum to one.
+std::vector<bool> closed_rows(const Exchange& exchange, Closure closure) {
+  std::vector<bool> rows(static_cast<std::size_t>(exchange.area.size()));
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    rows[e] = closure == Closure::enforce ||
+              (closure == Closure::automatic && exchange.enclosures.is_closed(static_cast<int>(e)));
+  return rows;
+}
+
+}  // namespace
+
+Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
+                          const VisibilityIndex& visibility, const ExchangeOptions& options,
+                          const Progress& progress) {
+  if (!(options.tolerance > 0 && options.tolerance < 1) || options.rays_per_pair < 1)
+    throw Error(ErrorCode::contract, "compute_exchange",
+                fmt::format("tolerance {} must lie in (0, 1) and rays per pair {} be at least 1",
+                            options.tolerance, options.rays_per_pair));
+  require_memory(elements);
+  Exchange exchange;
+  exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
+                                                   static_cast<Eigen::Index>(elements.area.size()));
+  {
+    Assembly assembly(scene, elements, visibility, options, progress);
+    exchange.report.complete = assembly.run(progress);
+    exchange.report.rays = assembly.rays();
+    exchange.matrix = assembly.matrix();
+  }
+  exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
+  exchange.enclosures = find_enclosures(scene, elements, visibility, exchange.matrix);
+  report_closure(exchange);
+  const std::vector<bool> rows = closed_rows(exchange, options.closure);
+  if (exchange.report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
+    exchange.report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
+  return exchange;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/core/scene.h"
+#include "meshing/patches/discontinuity_mesh.h"
+#include "solver/pipeline/stages.h"
+
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+struct MeshOptions {
+  DiscontinuityOptions events;
+  int secondary = 0;  ///< how many of the brightest reflecting surfaces count as light sources, too
+  /// Curves whose effect on the irradiance is below this share of its mean are left out, and
+  /// conics are flattened accordingly; see mean_direct_irradiance. 0: the mesh is complete.
+  double tolerance = 0;
+  double max_length = 0;      ///< no element edge longer than this, scene units; 0: no limit
+  bool with_elements = true;  ///< false: find the curves only
+};
+
+/// A scene cut along the lines where its light breaks, not solved.
+struct MeshResult {
+  SoundScene scene;
+  std::vector<Camera> cameras;
+  std::string unit;
+  Discontinuities found;
+  ElementTable elements;        ///< empty without elements
+  std::vector<Region> regions;  ///< row-major, one row an element, one column a source
+  std::vector<Region> region;   ///< of each element, with respect to the strongest emitter there
+  DiscontinuityMeshReport mesh;
+  double irradiance_tolerance = 0;  ///< W/m², as used
+  std::vector<StageReport> stages;
+  bool interrupted = false;  ///< stopped early: curves, elements or labels are missing
+};
+
+/// Makes the scene sound, finds its discontinuities, meshes it along them and says what each
+/// element sees of each source. Preconditions as for solve. Deterministic for any number of
+/// threads.
+MeshResult mesh_scene(const Scene& scene, const MeshOptions& options = {},
+                      const Progress& progress = {});
+
+/// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
+/// them (strongest channel), from one exact value at each of about 2000 places. What relative
+/// tolerances refer to. W/m²; 0 if nothing is reached.
+double mean_direct_irradiance(const SoundScene& scene, const Progress& progress = {});
+
+/// The `count` surfaces that reflect most power in a solution on a coarse mesh, brightest power
+/// first, emitters not among them; their exitance is what they reflect (mean of the surface,
+/// strongest channel).
+std::vector<LightSource> secondary_sources(const Scene& scene, int count,
+                                           const Progress& progress = {});
+
+/// What to find discontinuities of: emitters and secondary sources.
+std::vector<LightSource> all_sources(const Scene& scene, const SoundScene& sound, int secondary,
+                                     const Progress& progress = {});
+
+/// True if every surface lies in front of every other, as in an empty room: nothing can hide a
+/// part of anything from anywhere.
+bool is_convex(const SoundScene& scene);
+
+}  // namespace halfshade

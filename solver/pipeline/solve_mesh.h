@@ -1,0 +1,31 @@
+#pragma once
+
+#include "meshing/patches/discontinuity_mesh.h"
+#include "solver/pipeline/solve.h"
+
+namespace halfshade {
+
+/// The elements that solve computes with.
+struct SolveMesh {
+  ElementTable elements;
+  DiscontinuityMeshReport report;
+  double tolerance = 0;  ///< share of the mean irradiance, as used
+};
+
+/// The longest element edge that a mesh along curves may come to have.
+double longest_edge(const SoundScene& scene, const SolveOptions& options);
+
+/// Meshes with the length asked for, or with the one that comes nearest to the number of elements
+/// asked for: narrow surfaces need more than their area suggests. Throws Error(too_large) if it
+/// takes more than options.max_elements.
+SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
+                          const Progress& progress = {});
+
+/// The same along curves. Where they alone make more than twice the elements asked for, or more
+/// than options.max_elements, those with the smallest effect are left out by raising the tolerance.
+/// `mean_irradiance` is what options.tolerance is a share of; W/m².
+SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
+                          const SolveOptions& options, double mean_irradiance,
+                          const Progress& progress = {});
+
+}  // namespace halfshade

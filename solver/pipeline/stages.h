@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// What one stage of a pipeline did.
+struct StageReport {
+  std::string name;
+  double seconds = 0;
+  std::size_t count = 0;  ///< of what the stage makes: surfaces, elements, factors, iterations
+  std::string left_out_because;  ///< empty if it ran
+};
+
+/// Times the stages of a pipeline.
+class Stages {
+ public:
+  explicit Stages(std::vector<StageReport>& reports) : reports_(reports) {}
+
+  /// Runs `stage`, which returns how many things it made.
+  template <class Stage>
+  void run(const char* name, Stage stage) {
+    const auto start = std::chrono::steady_clock::now();
+    const std::size_t count = stage();
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    reports_.push_back({name, elapsed.count(), count, {}});
+  }
+
+  void leave_out_if(bool needless, const char* name, const std::string& because) {
+    if (needless) reports_.push_back({name, 0, 0, because});
+  }
+
+ private:
+  std::vector<StageReport>& reports_;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,292 @@
+#include "io/read/read_scene.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/temp_dir.h"
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <gmock/gmock.h>
+#include <string>
+
+namespace halfshade {
+namespace {
+
+using nlohmann::json;
+using test::expect_error;
+using test::TempDir;
+using testing::ElementsAre;
+using testing::UnorderedElementsAre;
+
+std::string base64(const std::string& bytes) {
+  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    unsigned bits = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
+    for (unsigned k = 0; k < 4; ++k)
+      text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63U] : '=';
+  }
+  return text;
+}
+
+template <typename T>
+void append(std::string& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little);
+  std::array<char, sizeof(T)> raw;
+  std::memcpy(raw.data(), &value, sizeof(T));
+  bytes.append(raw.data(), raw.size());
+}
+
+std::string triangle_buffer() {
+  std::string buffer;
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) append(buffer, x);
+  for (const int i : {0, 1, 2}) append(buffer, static_cast<std::uint16_t>(i));
+  return buffer;
+}
+
+/// A triangle (0,0,0) (1,0,0) (0,1,0) in two nodes: "plain" and the mirrored and moved "twin".
+json gltf_triangle() {
+  const std::string buffer = triangle_buffer();
+  json gltf = json::parse(R"({
+    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+    "nodes": [{"name": "plain", "mesh": 0},
+              {"name": "twin", "mesh": 0, "scale": [-2, 1, 1], "translation": [10, 20, 30]}],
+    "meshes": [{"name": "shape", "primitives": [
+      {"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+    "materials": [{"name": "glow", "doubleSided": true, "emissiveFactor": [1, 0.5, 0],
+      "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1]}}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                   "min": [0, 0, 0], "max": [1, 1, 0]},
+                  {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36},
+                    {"buffer": 0, "byteOffset": 36, "byteLength": 6}]})");
+  gltf["buffers"] = {{{"byteLength", buffer.size()},
+                      {"uri", "data:application/octet-stream;base64," + base64(buffer)}}};
+  return gltf;
+}
+
+/// The same file with its buffer in a binary chunk.
+std::string as_glb(json gltf) {
+  const auto chunk = [](const std::string& type, std::string content, char filler) {
+    content.resize((content.size() + 3) / 4 * 4, filler);
+    std::string bytes;
+    append(bytes, static_cast<std::uint32_t>(content.size()));
+    return bytes + type + content;
+  };
+  const std::string buffer = triangle_buffer();
+  gltf["buffers"] = {{{"byteLength", buffer.size()}}};
+  const std::string chunks =
+      chunk("JSON", gltf.dump(), ' ') + chunk(std::string("BIN\0", 4), buffer, '\0');
+  std::string bytes = "glTF";
+  append(bytes, std::uint32_t{2});
+  append(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
+  return bytes + chunks;
+}
+
+Vec3 normal(const Scene& scene, int face) {
+  const std::vector<Vec3> p = face_corners(scene, face);
+  return (p[1] - p[0]).cross(p[2] - p[0]);
+}
+
+int face_in_group(const Scene& scene, const std::string& group) {
+  for (std::size_t f = 0; f < scene.faces.size(); ++f)
+    if (scene.groups[static_cast<std::size_t>(scene.faces[f].group)] == group)
+      return static_cast<int>(f);
+  ADD_FAILURE() << "no face in " << group;
+  return 0;
+}
+
+TEST(ReadGltf, AppliesTransformsNamesAndMaterials) {
+  const TempDir folder;
+  for (const auto& path : {folder.write("a.gltf", gltf_triangle().dump()),
+                           folder.write("b.glb", as_glb(gltf_triangle()))}) {
+    const Scene scene = read_scene(path).scene;
+    ASSERT_EQ(scene.faces.size(), 2U);
+    EXPECT_THAT(scene.groups, ElementsAre("plain", "twin"));
+    EXPECT_THAT(face_corners(scene, face_in_group(scene, "plain")),
+                ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)));
+    EXPECT_THAT(face_corners(scene, face_in_group(scene, "twin")),
+                UnorderedElementsAre(Vec3(10, 20, 30), Vec3(8, 20, 30), Vec3(10, 21, 30)));
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.materials[0].name, "glow");
+    EXPECT_TRUE((scene.materials[0].rho == Rgb(0.25, 0.5, 0.75)).all());
+    EXPECT_TRUE((scene.materials[0].exitance == Rgb(1, 0.5, 0)).all());
+    EXPECT_TRUE(scene.materials[0].two_sided);
+  }
+}
+
+TEST(ReadGltf, KeepsTheFrontOfMirroredNodes) {
+  const TempDir folder;
+  const Scene scene = read_scene(folder.write("a.gltf", gltf_triangle().dump())).scene;
+  EXPECT_EQ(normal(scene, face_in_group(scene, "plain")), Vec3(0, 0, 1));
+  EXPECT_EQ(normal(scene, face_in_group(scene, "twin")), Vec3(0, 0, 2));
+}
+
+TEST(ReadGltf, TakesAMaterialAsOneSidedAndDarkUnlessItSaysOtherwise) {
+  json gltf = gltf_triangle();
+  gltf["materials"][0] = {{"name", "m"}};
+  const TempDir folder;
+  const Material m = read_scene(folder.write("a.gltf", gltf.dump())).scene.materials.at(0);
+  EXPECT_FALSE(m.two_sided);
+  EXPECT_TRUE((m.exitance == 0).all());
+}
+
+TEST(ReadGltf, GivesMeshesWithoutMaterialTheDefaultOne) {
+  json gltf = gltf_triangle();
+  gltf.erase("materials");
+  gltf["meshes"][0]["primitives"][0].erase("material");
+  const TempDir folder;
+  const Material m = read_scene(folder.write("a.gltf", gltf.dump())).scene.materials.at(0);
+  EXPECT_EQ(m.name, "default");
+  EXPECT_TRUE((m.rho == Material{}.rho).all());
+}
+
+TEST(ReadGltf, MultipliesTheEmissionByItsStrength) {
+  json gltf = gltf_triangle();
+  gltf["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 40;
+  const TempDir folder;
+  for (const auto& path :
+       {folder.write("a.gltf", gltf.dump()), folder.write("b.glb", as_glb(gltf))})
+    EXPECT_TRUE((read_scene(path).scene.materials.at(0).exitance == Rgb(40, 20, 0)).all());
+}
+
+TEST(ReadGltf, KeepsMaterialsOfTheSameNameOrWithoutOneApart) {
+  for (const char* name : {"paint", ""}) {
+    json gltf = gltf_triangle();
+    for (int i = 0; i < 2; ++i) {
+      gltf["materials"][i] = {
+          {"pbrMetallicRoughness", {{"baseColorFactor", {0.25 * i, 0.25 * i, 0.25 * i, 1}}}}};
+      if (*name != '\0') gltf["materials"][i]["name"] = name;
+    }
+    gltf["meshes"].push_back(gltf["meshes"][0]);
+    gltf["meshes"][1]["primitives"][0]["material"] = 1;
+    gltf["nodes"][1]["mesh"] = 1;
+    const TempDir folder;
+    const Scene scene = read_scene(folder.write("a.gltf", gltf.dump())).scene;
+    ASSERT_EQ(scene.materials.size(), 2U);
+    EXPECT_NE(scene.materials[0].name, scene.materials[1].name);
+    for (const auto& [group, rho] : {std::pair("plain", 0.0), std::pair("twin", 0.25)}) {
+      const Face& face = scene.faces[static_cast<std::size_t>(face_in_group(scene, group))];
+      EXPECT_TRUE((scene.materials[static_cast<std::size_t>(face.material)].rho == rho).all());
+    }
+  }
+}
+
+TEST(ReadGltf, TakesMaterialsFromAFileByNodeName) {
+  const TempDir folder;
+  const Scene scene = read_scene(folder.write("a.gltf", gltf_triangle().dump()),
+                                 folder.write("m.json", R"({"twin": {"exitance": 9}})"))
+                          .scene;
+  const int lit = scene.faces[static_cast<std::size_t>(face_in_group(scene, "twin"))].material;
+  const int unlit = scene.faces[static_cast<std::size_t>(face_in_group(scene, "plain"))].material;
+  EXPECT_TRUE((scene.materials[static_cast<std::size_t>(lit)].exitance == 9).all());
+  EXPECT_TRUE((scene.materials[static_cast<std::size_t>(unlit)].exitance == Rgb(1, 0.5, 0)).all());
+}
+
+TEST(ReadGltf, RefusesTruncatedFiles) {
+  const TempDir folder;
+  const std::string text = gltf_triangle().dump(), binary = as_glb(gltf_triangle());
+  for (const std::size_t size : {std::size_t{1}, text.size() / 2, text.size() - 1})
+    expect_error([&] { read_scene(folder.write("a.gltf", text.substr(0, size))); },
+                 ErrorCode::invalid_input, {"a.gltf"});
+  for (const std::size_t size : {std::size_t{3}, std::size_t{12}, binary.size() / 2})
+    expect_error([&] { read_scene(folder.write("a.glb", binary.substr(0, size))); },
+                 ErrorCode::invalid_input, {"a.glb"});
+}
+
+const std::string ascii_stl =
+    "solid box\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\n"
+    "endloop\nendfacet\nendsolid box\n";
+
+std::string binary_stl() {
+  std::string bytes(80, ' ');
+  append(bytes, std::uint32_t{1});
+  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.5F})
+    append(bytes, x);
+  append(bytes, std::uint16_t{0});
+  return bytes;
+}
+
+TEST(ReadStl, ReadsTextAndBinary) {
+  const TempDir folder;
+  for (const auto& path : {folder.write("a.stl", ascii_stl), folder.write("b.stl", binary_stl())}) {
+    const Scene scene = read_scene(path).scene;
+    ASSERT_EQ(scene.faces.size(), 1U);
+    EXPECT_THAT(face_corners(scene, 0), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0.5)));
+    ASSERT_EQ(scene.materials.size(), 1U);
+    EXPECT_EQ(scene.materials[0].name, "default");
+    EXPECT_TRUE((scene.materials[0].rho == Material{}.rho).all());
+    EXPECT_TRUE((scene.materials[0].exitance == 0).all());
+  }
+}
+
+TEST(ReadStl, NamesGroups) {
+  const TempDir folder;
+  EXPECT_THAT(read_scene(folder.write("a.stl", ascii_stl)).scene.groups, ElementsAre("box"));
+  EXPECT_THAT(read_scene(folder.write("b.stl", binary_stl())).scene.groups, ElementsAre("default"));
+}
+
+TEST(ReadStl, RefusesTruncatedFilesAndNan) {
+  const TempDir folder;
+  for (const std::size_t size : {20U, 84U, 100U})
+    expect_error([&] { read_scene(folder.write("b.stl", binary_stl().substr(0, size))); },
+                 ErrorCode::invalid_input, {"b.stl"});
+  std::string bytes = binary_stl();
+  bytes.replace(84 + 12, 4, std::string("\0\0\xC0\x7F", 4));  // a quiet NaN
+  expect_error([&] { read_scene(folder.write("b.stl", bytes)); }, ErrorCode::invalid_input,
+               {"b.stl", "vertex 1", "nan"});
+}
+
+std::string collada(const std::string& up, const std::string& meter) {
+  return fmt::format(
+      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"
+version="1.4.1"><asset><unit name="u" meter="{}"/><up_axis>{}</up_axis></asset>
+<library_effects><effect id="e"><profile_COMMON><technique sid="c"><lambert>
+<emission><color>3 2 1 1</color></emission><diffuse><color>0.25 0.5 0.75 1</color></diffuse>
+</lambert></technique></profile_COMMON></effect></library_effects>
+<library_materials><material id="m" name="paint"><instance_effect url="#e"/></material>
+</library_materials>
+<library_geometries><geometry id="g" name="plate"><mesh>
+<source id="p"><float_array id="pa" count="15">0 0 0 1 0 0 1 1 0 0.5 2 0 0 1 0</float_array>
+<technique_common><accessor source="#pa" count="5" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<polylist material="s" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
+<vcount>5</vcount><p>0 1 2 3 4</p></polylist></mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="vs"><node id="n" name="table">
+<translate>0 0 4</translate><instance_geometry url="#g"><bind_material><technique_common>
+<instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry>
+</node></visual_scene></library_visual_scenes>
+<scene><instance_visual_scene url="#vs"/></scene></COLLADA>)",
+      meter, up);
+}
+
+TEST(ReadCollada, KeepsPolygonsAndMaterials) {
+  const TempDir folder;
+  const Scene scene = read_scene(folder.write("a.dae", collada("Y_UP", "1"))).scene;
+  ASSERT_EQ(scene.faces.size(), 1U);
+  EXPECT_THAT(face_corners(scene, 0), ElementsAre(Vec3(0, 0, 4), Vec3(1, 0, 4), Vec3(1, 1, 4),
+                                                  Vec3(0.5, 2, 4), Vec3(0, 1, 4)));
+  EXPECT_THAT(scene.groups, ElementsAre("table"));
+  ASSERT_EQ(scene.materials.size(), 1U);
+  EXPECT_EQ(scene.materials[0].name, "paint");
+  EXPECT_TRUE((scene.materials[0].rho == Rgb(0.25, 0.5, 0.75)).all());
+  EXPECT_TRUE((scene.materials[0].exitance == Rgb(3, 2, 1)).all());
+}
+
+TEST(ReadCollada, RefusesTruncatedFiles) {
+  const TempDir folder;
+  const std::string text = collada("Y_UP", "1");
+  for (const std::size_t size : {std::size_t{30}, text.size() / 3, text.size() / 2})
+    expect_error([&] { read_scene(folder.write("a.dae", text.substr(0, size))); },
+                 ErrorCode::invalid_input, {"a.dae"});
+}
+
+}  // namespace
+}  // namespace halfshade

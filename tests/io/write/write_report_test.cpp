@@ -1,0 +1,108 @@
+#include "io/write/write_report.h"
+
+#include "tests/support/expect_error.h"
+#include "tests/support/process.h"
+#include "tests/support/sample_result.h"
+#include "tests/support/temp_dir.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+nlohmann::json written(const SolveResult& result, const Provenance& provenance = {"1.2", "solve"}) {
+  const test::TempDir folder;
+  write_report(result, provenance, {"a.vtu", "b c.png"}, folder.path() / "r.json");
+  return nlohmann::json::parse(test::contents(folder.path() / "r.json"));
+}
+
+TEST(WriteReport, TellsTheRun) {
+  SolveResult result = test::sample_result(2);
+  result.exchange.factors = 12;
+  result.exchange.closed = true;
+  result.exchange.closure_error_max = 0.125;
+  result.radiosity.channels = 3;
+  result.radiosity.channel[1].iterations = 7;
+  result.radiosity.channel[2].balance = 1e-12;
+  result.interrupted = true;
+  const auto json = written(result);
+  EXPECT_EQ(json.at("version"), "1.2");
+  EXPECT_EQ(json.at("command_line"), "solve");
+  EXPECT_EQ(json.at("unit"), "cm");
+  EXPECT_EQ(json.at("interrupted"), true);
+  EXPECT_EQ(json.at("outputs"), nlohmann::json({"a.vtu", "b c.png"}));
+  EXPECT_EQ(json.at("scene").at("faces"), 2);
+  EXPECT_EQ(json.at("scene").at("surfaces"), 1);
+  EXPECT_EQ(json.at("scene").at("materials"), 2);
+  EXPECT_EQ(json.at("repairs").at(0).at("kind"), "coplanar_merged");
+  EXPECT_EQ(json.at("repairs").at(0).at("faces"), nlohmann::json({0, 1}));
+  EXPECT_EQ(json.at("repairs").at(0).at("sentence"), "faces 1 and 2 were joined");
+  EXPECT_EQ(json.at("stages").at(0).at("seconds"), 0.25);
+  EXPECT_TRUE(json.at("stages").at(0).at("left_out_because").is_null());
+  EXPECT_EQ(json.at("stages").at(1).at("left_out_because"), "there is nothing to see");
+  EXPECT_EQ(json.at("exchange").at("factors"), 12);
+  EXPECT_EQ(json.at("exchange").at("closed"), true);
+  EXPECT_EQ(json.at("exchange").at("closure_error_max"), 0.125);
+  EXPECT_EQ(json.at("radiosity").at("channel").size(), 3U);
+  EXPECT_EQ(json.at("radiosity").at("channel").at(1).at("iterations"), 7);
+  EXPECT_EQ(json.at("radiosity").at("channel").at(2).at("balance"), 1e-12);
+  EXPECT_EQ(json.at("radiosity").at("converged"), true);
+}
+
+TEST(WriteReport, TheHistogramCountsEveryElement) {
+  const auto mesh = written(test::sample_result(3)).at("mesh");
+  EXPECT_EQ(mesh.at("elements"), 18);
+  EXPECT_EQ(mesh.at("points"), 16);
+  EXPECT_NEAR(mesh.at("min_angle").get<double>(), 45, 1e-9);  // halves of squares
+  int sum = 0;
+  for (const int count : mesh.at("min_angle_histogram").at("counts")) sum += count;
+  EXPECT_EQ(sum, 18);
+}
+
+TEST(WriteReport, GroupsAddUpToTheWhole) {
+  // Two elements of area 1/2 each, one a group; H = (1.1, 2.1, 3.1) and a bit more on the second.
+  SolveResult result = test::sample_result(1);
+  const auto groups = written(result).at("groups");
+  ASSERT_EQ(groups.size(), 2U);
+  EXPECT_EQ(groups.at(0).at("name"), "floor");
+  EXPECT_EQ(groups.at(0).at("area"), 0.5);
+  EXPECT_NEAR(groups.at(0).at("mean_irradiance").at(1).get<double>(), 2.1, 1e-14);
+  EXPECT_NEAR(groups.at(0).at("mean_radiosity").at(1).get<double>(), 8 + 0.1 * 2.1, 1e-14);
+  EXPECT_NEAR(groups.at(0).at("emitted_power").at(2).get<double>(), 3.5, 1e-14);
+  EXPECT_NEAR(groups.at(0).at("absorbed_power").at(0).get<double>(), 0.5 * 0.9 * 1.1, 1e-14);
+  EXPECT_NEAR(groups.at(1).at("absorbed_power").at(1).get<double>(), 0.5 * 0.6 * (2.1 + 1 / 7.0),
+              1e-14);
+  EXPECT_EQ(groups.at(1).at("emitted_power").at(0), 0);
+}
+
+TEST(WriteReport, AGroupWithoutElementsIsListedWithoutLight) {
+  SolveResult result = test::sample_result(1);
+  result.scene.groups.emplace_back("nothing");
+  const auto group = written(result).at("groups").at(2);
+  EXPECT_EQ(group.at("area"), 0);
+  EXPECT_EQ(group.at("mean_radiosity"), nlohmann::json({0.0, 0.0, 0.0}));
+}
+
+TEST(WriteReport, IsJsonWhateverIsInIt) {
+  SolveResult result = test::sample_result(1);
+  result.scene.groups[0] = "\xff\xfe \"quoted\"\n";
+  result.radiosity.channel[0].balance = std::numeric_limits<double>::quiet_NaN();
+  const auto json = written(result, {"1", "\xc3"});
+  EXPECT_TRUE(json.at("radiosity").at("channel").at(0).at("balance").is_null());
+  EXPECT_EQ(written(test::sample_result(0)).at("mesh").at("elements"), 0);
+}
+
+TEST(WriteReport, NamesAPlaceThatCannotBeWritten) {
+  const test::TempDir folder;
+  const auto file = folder.write("file", "");
+  test::expect_error([&] { write_report(test::sample_result(1), {}, {}, file / "r.json"); },
+                     ErrorCode::unwritable, {"r.json", "Not a directory"});
+  test::expect_error([&] { write_report(test::sample_result(1), {}, {}, "/dev/full"); },
+                     ErrorCode::unwritable, {"/dev/full", "No space left"});
+}
+
+}  // namespace
+}  // namespace halfshade

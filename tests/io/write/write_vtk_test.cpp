@@ -1,0 +1,209 @@
+#include "io/write/write_result.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/process.h"
+#include "tests/support/sample_result.h"
+#include "tests/support/temp_dir.h"
+#include "tests/support/vtk_reading.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <vtkCellData.h>
+#include <vtkIdList.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+
+namespace halfshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::strings;
+
+vtkSmartPointer<vtkPointSet> read(const fs::path& path) { return test::read_vtk(path); }
+
+void expect_channels(vtkFieldData* data, const char* name, const ChannelArray& values) {
+  vtkDataArray* array = data->GetArray(name);
+  ASSERT_NE(array, nullptr) << name;
+  EXPECT_EQ(array->GetDataType(), VTK_DOUBLE) << name;
+  ASSERT_EQ(array->GetNumberOfComponents(), 3) << name;
+  ASSERT_EQ(array->GetNumberOfTuples(), values.rows()) << name;
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    for (int c = 0; c < 3; ++c) ASSERT_EQ(array->GetComponent(i, c), values(i, c)) << name;
+}
+
+void expect_integers(vtkFieldData* data, const char* name, const std::vector<int>& values) {
+  vtkDataArray* array = data->GetArray(name);
+  ASSERT_NE(array, nullptr) << name;
+  ASSERT_EQ(array->GetNumberOfComponents(), 1) << name;
+  ASSERT_EQ(array->GetNumberOfTuples(), static_cast<vtkIdType>(values.size())) << name;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    ASSERT_EQ(array->GetComponent(static_cast<vtkIdType>(i), 0), values[i]) << name;
+}
+
+void expect_numbers(vtkFieldData* data, const char* name, const std::vector<double>& expected) {
+  vtkDataArray* array = data->GetArray(name);
+  ASSERT_NE(array, nullptr) << name;
+  ASSERT_EQ(array->GetNumberOfTuples(), static_cast<vtkIdType>(expected.size())) << name;
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_EQ(array->GetTuple1(static_cast<vtkIdType>(i)), expected[i]) << name << ' ' << i;
+}
+
+class WriteVtk : public testing::TestWithParam<const char*> {
+ protected:
+  fs::path write(const SolveResult& result) {
+    const fs::path path = folder_.path() / (std::string("out") + GetParam());
+    write_result(result, {"1.2.3", "halfshade solve \"a <scene> & more.obj\""}, path);
+    return path;
+  }
+
+  test::TempDir folder_;
+};
+
+TEST_P(WriteVtk, AnotherReaderFindsTheSameMeshToTheLastBit) {
+  SolveResult result = test::sample_result(3);
+  result.elements.points[4] = {1.0 / 3, -1e60, 1e-300};
+  const auto grid = read(write(result));
+  ASSERT_EQ(grid->GetNumberOfPoints(), 16);
+  ASSERT_EQ(grid->GetNumberOfCells(), 18);
+  for (vtkIdType i = 0; i < 16; ++i)
+    EXPECT_EQ(Vec3(grid->GetPoint(i)), result.elements.points[static_cast<std::size_t>(i)]);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType i = 0; i < 18; ++i) {
+    EXPECT_EQ(grid->GetCellType(i), VTK_TRIANGLE);
+    grid->GetCellPoints(i, ids);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(ids->GetId(k),
+                result.elements.corners[static_cast<std::size_t>(i)][static_cast<std::size_t>(k)]);
+  }
+}
+
+TEST_P(WriteVtk, AnotherReaderFindsTheSameLightToTheLastBit) {
+  const SolveResult result = test::sample_result(3);
+  const auto grid = read(write(result));
+  vtkFieldData* cells = grid->GetCellData();
+  expect_channels(cells, "radiosity", result.solution.radiosity);
+  expect_channels(cells, "irradiance", result.solution.irradiance);
+  expect_channels(cells, "direct_irradiance", result.solution.direct_irradiance);
+  expect_channels(cells, "exitance", result.solution.exitance);
+  expect_channels(cells, "reflectance", result.solution.rho);
+  const Eigen::ArrayXd& error = result.solution.error_estimate;
+  expect_numbers(cells, "error_estimate", {error.begin(), error.end()});
+  expect_integers(cells, "order", std::vector<int>(18, 0));
+  expect_integers(cells, "region", {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1});
+  expect_integers(cells, "face", result.elements.face);
+  expect_integers(cells, "group", result.elements.group);
+  expect_integers(cells, "material", result.elements.material);
+  expect_integers(cells, "surface", result.elements.surface);
+  expect_integers(cells, "level", result.elements.level);
+  for (vtkIdType i = 0; i < 18; ++i)  // halves of squares
+    EXPECT_NEAR(cells->GetArray("quality")->GetComponent(i, 0), 45, 1e-12);
+  // The corner (1, 0) belongs to one element, number 4; equal areas meet at the others.
+  for (const char* name : {"radiosity", "irradiance"}) {
+    const ChannelArray& values =
+        name[0] == 'r' ? result.solution.radiosity : result.solution.irradiance;
+    vtkDataArray* array = grid->GetPointData()->GetArray(name);
+    ASSERT_NE(array, nullptr);
+    ASSERT_EQ(array->GetNumberOfTuples(), 16);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_DOUBLE_EQ(array->GetComponent(3, c), values(4, c));
+      EXPECT_DOUBLE_EQ(array->GetComponent(0, c), (values(0, c) + values(1, c)) / 2);
+    }
+  }
+}
+
+TEST_P(WriteVtk, TheFileSaysHowItCameAbout) {
+  SolveResult result = test::sample_result(1);
+  result.interrupted = true;
+  vtkFieldData* data = nullptr;
+  const auto grid = read(write(result));
+  data = grid->GetFieldData();
+  EXPECT_EQ(strings(data, "version"), std::vector<std::string>{"1.2.3"});
+  EXPECT_EQ(strings(data, "command_line"),
+            std::vector<std::string>{"halfshade solve \"a <scene> & more.obj\""});
+  EXPECT_EQ(strings(data, "unit"), std::vector<std::string>{"cm"});
+  EXPECT_EQ(strings(data, "group_names"), (std::vector<std::string>{"floor", "rug"}));
+  EXPECT_EQ(strings(data, "material_names"), (std::vector<std::string>{"grey", "lamp"}));
+  EXPECT_EQ(strings(data, "stage_names"), (std::vector<std::string>{"mesh", "exchange"}));
+  EXPECT_EQ(data->GetArray("stage_seconds")->GetComponent(0, 0), 0.25);
+  EXPECT_EQ(data->GetArray("interrupted")->GetComponent(0, 0), 1);
+  const auto cameras = nlohmann::json::parse(strings(data, "cameras").at(0));
+  EXPECT_EQ(cameras.at(0).at("name"), "above");
+  EXPECT_EQ(cameras.at(0).at("position"), nlohmann::json({0.5, 0.5, 3.0}));
+  EXPECT_EQ(cameras.at(0).at("vertical_fov"), 40);
+}
+
+TEST_P(WriteVtk, NamesInAnyLanguageAndEncodingComeThrough) {
+  SolveResult result = test::sample_result(1);
+  result.scene.groups = {"küche", ""};
+  result.cameras[0].name = "\xff not UTF-8";
+  const fs::path path = write(result);
+  EXPECT_EQ(strings(read(path)->GetFieldData(), "group_names"), result.scene.groups);
+}
+
+TEST_P(WriteVtk, DataAreInlineAndCompressed) {
+  // ParaView builds with a newer expat read appended data as empty, without an error.
+  const std::string text = test::contents(write(test::sample_result(3)));
+  EXPECT_NE(text.find("format=\"binary\""), std::string::npos);
+  EXPECT_EQ(text.find("format=\"appended\""), std::string::npos);
+  EXPECT_EQ(text.find("AppendedData"), std::string::npos);
+  EXPECT_NE(text.find("vtkZLibDataCompressor"), std::string::npos);
+}
+
+TEST_P(WriteVtk, TheSameResultGivesTheSameBytes) {
+  const std::string first = test::contents(write(test::sample_result(8)));
+  EXPECT_EQ(first, test::contents(write(test::sample_result(8))));
+}
+
+TEST_P(WriteVtk, ExtremeValuesComeThroughInSilence) {
+  SolveResult result = test::sample_result(2);
+  result.solution.radiosity.setConstant(1e300);  // squares overflow
+  result.solution.irradiance.setConstant(5e-324);
+  const fs::path path = write(result);
+  testing::internal::CaptureStderr();
+  const auto grid = read(path);
+  expect_channels(grid->GetCellData(), "radiosity", result.solution.radiosity);
+  expect_channels(grid->GetCellData(), "irradiance", result.solution.irradiance);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_P(WriteVtk, AnEmptyMeshIsStillAFile) {
+  EXPECT_EQ(read(write(test::sample_result(0)))->GetNumberOfCells(), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, WriteVtk, testing::Values(".vtu", ".vtp"),
+                         [](const auto& test) { return std::string(test.param + 1); });
+
+TEST(WriteResult, KnowsItsExtensions) {
+  for (const char* name : {"a.vtu", "b.vtp", "c.ply", "D.VTU"}) EXPECT_TRUE(is_result_path(name));
+  for (const char* name : {"a.obj", "vtu", "", "a.vtu.gz"}) {
+    EXPECT_FALSE(is_result_path(name));
+    test::expect_error([&] { write_result(test::sample_result(1), {}, name); }, ErrorCode::usage,
+                       {name, ".vtu, .vtp or .ply"});
+  }
+}
+
+TEST(WriteResult, RefusesAPlaceThatCannotBeWritten) {
+  const test::TempDir folder;
+  for (const char* name : {"a.vtu", "a.vtp", "a.ply"}) {
+    const fs::path path = folder.path() / "none" / name;
+    test::expect_error([&] { write_result(test::sample_result(1), {}, path); },
+                       ErrorCode::unwritable, {path.string(), "No such file or directory"});
+  }
+}
+
+TEST(WriteResult, RefusesArraysThatDoNotFitTogether) {
+  const test::TempDir folder;
+  SolveResult shorter = test::sample_result(2);
+  shorter.solution.irradiance.conservativeResize(3, 3);
+  SolveResult dangling = test::sample_result(2);
+  dangling.elements.corners[1][2] = 9;
+  SolveResult without = test::sample_result(2);
+  without.elements.level.clear();
+  for (const SolveResult& result : {shorter, dangling, without})
+    test::expect_error([&] { write_result(result, {}, folder.path() / "a.vtu"); },
+                       ErrorCode::contract, {"write_result"});
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,239 @@
+#include "meshing/arrangement/arrangement.h"
+
+#include "meshing/arrangement/overlay.h"
+#include "meshing/core/error.h"
+#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/corner_fans.h"
+#include "meshing/patches/face_lookup.h"
+#include "meshing/repair/planes.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/mesh_invariants.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace halfshade {
+namespace {
+
+using Link = std::array<int, 2>;
+
+double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+std::vector<Link> links_of(const Arrangement& arrangement) {
+  std::vector<Link> links;
+  for (const auto& chain : arrangement.chains)
+    for (std::size_t k = 1; k < chain.size(); ++k)
+      links.push_back({std::min(chain[k - 1], chain[k]), std::max(chain[k - 1], chain[k])});
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  return links;
+}
+
+// By comparing all pairs.
+void expect_arranged(const Arrangement& arrangement, double snap) {
+  const std::vector<Link> links = links_of(arrangement);
+  const auto at = [&](int p) { return arrangement.points[static_cast<std::size_t>(p)]; };
+  for (const auto& [a, b] : links)
+    for (const auto& [c, d] : links) {
+      if (a == c || a == d || b == c || b == d) continue;
+      EXPECT_GT(test::distance_to_segment(at(c), {at(a), at(b)}), 0.7 * snap);
+      // Parts of one line are told from crossings by their boxes, not by signs of zero.
+      if ((at(a).cwiseMin(at(b)).array() > at(c).cwiseMax(at(d)).array()).any()) continue;
+      if ((at(c).cwiseMin(at(d)).array() > at(a).cwiseMax(at(b)).array()).any()) continue;
+      const bool c_left = cross(at(b) - at(a), at(c) - at(a)) > 0;
+      const bool d_left = cross(at(b) - at(a), at(d) - at(a)) > 0;
+      const bool a_left = cross(at(d) - at(c), at(a) - at(c)) > 0;
+      const bool b_left = cross(at(d) - at(c), at(b) - at(c)) > 0;
+      EXPECT_FALSE(c_left != d_left && a_left != b_left) << "links cross";
+    }
+}
+
+TEST(Arrange, LeavesSegmentsThatDoNotMeetAlone) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
+  const Arrangement result = arrange(points, std::vector<Link>{{0, 1}, {3, 2}}, {1e-9, 1e-9});
+  EXPECT_EQ(result.points, points);
+  EXPECT_EQ(result.chains, (std::vector<std::vector<int>>{{0, 1}, {3, 2}}));
+}
+
+TEST(Arrange, SplitsAtCrossingsPointsAndOverlaps) {
+  // A cross, a point on its horizontal bar and a segment along that bar.
+  const std::vector<Vec2> points = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {0.5, 1e-10}, {0.75, 2}};
+  const Arrangement result =
+      arrange(points, std::vector<Link>{{0, 1}, {2, 3}, {4, 5}, {4, 0}}, {1e-9, 1e-9});
+  ASSERT_EQ(result.points.size(), 7u);
+  EXPECT_LT(result.points[6].norm(), 1e-9);
+  EXPECT_EQ(result.chains,
+            (std::vector<std::vector<int>>{{0, 6, 4, 1}, {2, 6, 3}, {4, 5}, {4, 6, 0}}));
+}
+
+TEST(Arrange, ClosePointsBecomeTheFirstOfThem) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 0}, {1 + 1e-10, 1e-10}, {1, 1}, {0, 1e-10}};
+  const Arrangement result =
+      arrange(points, std::vector<Link>{{0, 1}, {2, 3}, {0, 4}}, {1e-9, 1e-9});
+  EXPECT_EQ(result.chains, (std::vector<std::vector<int>>{{0, 1}, {1, 3}, {0}}));
+}
+
+TEST(Arrange, RandomSegmentsMeetInCommonPointsOnly) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  for (const double snap : {1e-9, 1e-6, 1e-3}) {
+    std::vector<Vec2> points;
+    std::vector<Link> segments;
+    for (int k = 0; k < 60; ++k) {
+      points.emplace_back(uniform(random), uniform(random));
+      points.emplace_back(uniform(random), uniform(random));
+      segments.push_back({2 * k, 2 * k + 1});
+    }
+    const Arrangement result = arrange(points, segments, {snap, snap});
+    expect_arranged(result, snap);
+    for (std::size_t s = 0; s < segments.size(); ++s) {
+      EXPECT_EQ(result.chains[s].front(), segments[s][0]);
+      EXPECT_EQ(result.chains[s].back(), segments[s][1]);
+      const Segment2 segment = {points[2 * s], points[2 * s + 1]};
+      for (const int p : result.chains[s])
+        EXPECT_LT(test::distance_to_segment(result.points[static_cast<std::size_t>(p)], segment),
+                  4 * snap);
+    }
+  }
+}
+
+TEST(ConstrainedDelaunay, CoversTheHullAndKeepsLinks) {
+  const std::vector<Vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}, {9, 9}};
+  const std::vector<Link> links = {{0, 1}, {1, 2}, {2, 3}, {0, 3}, {0, 4}};
+  const HullTriangulation hull = constrained_delaunay(points, links);  // point 5 has no link
+  EXPECT_EQ(hull.triangles.size(), 4u);
+  double area = 0;
+  for (const auto& t : hull.triangles) area += 0.5 * twice_area(points, t);
+  EXPECT_DOUBLE_EQ(area, 4);
+  EXPECT_EQ(hull.neighbours, edge_neighbours(hull.triangles));
+}
+
+TEST(ConstrainedDelaunay, CrossingLinksAreAnError) {
+  const std::vector<Vec2> points = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
+  test::expect_error(
+      [&] {
+        constrained_delaunay(points, std::vector<Link>{{0, 1}, {2, 3}});
+      },
+      ErrorCode::invalid_input, {"could not be triangulated"});
+}
+
+TEST(Overlay, CountsWindings) {
+  // Two overlapping squares and a bow tie.
+  const std::vector<Vec2> points = {{0, 0}, {2, 0}, {2, 2}, {0, 2}, {1, 1}, {3, 1},
+                                    {3, 3}, {1, 3}, {5, 0}, {6, 1}, {6, 0}, {5, 1}};
+  const std::vector<std::vector<int>> loops = {{0, 1, 2, 3}, {4, 5, 6, 7}, {8, 9, 10, 11}};
+  const Overlay result = overlay(points, loops, {1e-9, 1e-9});
+  std::map<std::vector<std::pair<int, int>>, double> area;
+  for (std::size_t t = 0; t < result.winding.size(); ++t)
+    area[result.winding[t]] += 0.5 * twice_area(result.points, result.hull.triangles[t]);
+  area.erase(std::vector<std::pair<int, int>>());
+  const decltype(area) expected = {
+      {{{0, 1}}, 3}, {{{0, 1}, {1, 1}}, 1}, {{{1, 1}}, 3}, {{{2, 1}}, 0.25}, {{{2, -1}}, 0.25}};
+  ASSERT_EQ(area.size(), expected.size());
+  for (const auto& [winding, size] : expected) EXPECT_NEAR(area[winding], size, 1e-12);
+  EXPECT_EQ(crossed_loops(result, 1e-9), (std::vector<int>{2}));
+}
+
+TEST(CornerFans, SeparateWhereTrianglesMeetInAPointOnly) {
+  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {2, 1, 3}, {2, 4, 5}};
+  const CornerFans fans = corner_fans(triangles, edge_neighbours(triangles));
+  EXPECT_EQ(fans.count, 7);
+  EXPECT_EQ(fans.of_corner[0][2], fans.of_corner[1][0]);
+  EXPECT_NE(fans.of_corner[0][2], fans.of_corner[2][0]);
+}
+
+TEST(CornerFans, StayTogetherRoundTheEndOfAWall) {
+  // A full fan of four triangles round point 0 with one wall: both its sides meet behind it.
+  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  auto neighbours = edge_neighbours(triangles);
+  neighbours[0][0] = neighbours[3][2] = -1;  // the edge from 0 to 1
+  const CornerFans fans = corner_fans(triangles, neighbours);
+  EXPECT_EQ(fans.count, 6);  // point 1 twice
+  for (std::size_t t = 1; t < 4; ++t) EXPECT_EQ(fans.of_corner[t][0], fans.of_corner[0][0]);
+  neighbours[1][2] = neighbours[2][0] = -1;  // and the one from 0 to 3: the wall goes through
+  EXPECT_EQ(corner_fans(triangles, neighbours).count, 8);
+}
+
+TEST(BoxTree, FindsWhatComparingAllFinds) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto box = [&] {
+    const Vec3 low(uniform(random), uniform(random), uniform(random));
+    return Box(low, low + 0.2 * Vec3(uniform(random), uniform(random), uniform(random)));
+  };
+  std::vector<Box> boxes;
+  for (int k = 0; k < 300; ++k) boxes.push_back(box());
+  const BoxTree tree(boxes);
+  for (int k = 0; k < 50; ++k) {
+    const Box probe = box();
+    std::vector<int> expected, found;
+    for (int i = 0; i < 300; ++i)
+      if (boxes[static_cast<std::size_t>(i)].intersects(probe)) expected.push_back(i);
+    tree.query_box(probe, [&](int i) { found.push_back(i); });
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, expected);
+  }
+  BoxTree({}).query_box(boxes[0], [](int) { ADD_FAILURE(); });
+}
+
+TEST(Weld, JoinsVerticesAcrossCellsAndLeavesOutUnusedOnes) {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  Tolerance tolerance;
+  tolerance.length = 1e-3;
+  for (int k = 0; k < 50; ++k) {
+    const Vec3 p(0.1 * k, 0.0137 * k, 1 - 0.01 * k);
+    test::add_polygon(scene, {p, p + Vec3(5e-4, -4e-4, 3e-4), p + Vec3(0, 2e-3, 0)}, 0);
+  }
+  scene.vertices.emplace_back(7, 7, 7);
+  const WeldedVertices welded = weld(scene, tolerance);
+  EXPECT_EQ(welded.points.size(), 100u);
+  EXPECT_EQ(welded.of_vertex.back(), -1);
+  for (std::size_t v = 0; v + 1 < scene.vertices.size(); v += 3) {
+    EXPECT_EQ(welded.of_vertex[v], welded.of_vertex[v + 1]);
+    EXPECT_NE(welded.of_vertex[v], welded.of_vertex[v + 2]);
+  }
+}
+
+TEST(ClassifyPlanes, ParallelPlanesAndSidesAreToldApart) {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> loops;
+  const auto add = [&](double z, bool up) {
+    const int first = static_cast<int>(points.size());
+    for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) points.emplace_back(p.x(), p.y(), z);
+    loops.push_back(up ? std::vector<int>{first, first + 1, first + 2}
+                       : std::vector<int>{first, first + 2, first + 1});
+  };
+  add(0, true), add(1e-8, false), add(1e-3, true), add(1, true), add(1 - 1e-8, false);
+  Tolerance tolerance;
+  tolerance.length = 1e-9;
+  tolerance.planarity = 1e-6;
+  const PlaneClasses classes = classify_planes(points, loops, tolerance);
+  EXPECT_EQ(classes.frames.size(), 3u);
+  EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[1]);
+  EXPECT_EQ(classes.of_polygon[3], classes.of_polygon[4]);
+  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (const int p : loops[i])
+      EXPECT_LE(std::abs(classes.frames[static_cast<std::size_t>(classes.of_polygon[i])].height(
+                    points[static_cast<std::size_t>(p)])),
+                tolerance.planarity);
+}
+
+TEST(FaceLookup, FindsTheFaceThatHoldsThePointElseTheNearest) {
+  Surface surface;
+  surface.faces = {7, 3, 9};
+  surface.face_rings = {{{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+                        {{1, 0}, {2, 0}, {2, 1}, {1, 1}},
+                        {{0.5, 0}, {3, 0}, {3, 1}}};
+  const FaceLookup lookup(surface);
+  EXPECT_EQ(lookup.face_at({0.5, 0.5}), 7);
+  EXPECT_EQ(lookup.face_at({1.5, 0.1}), 3);  // the third holds it, too
+  EXPECT_EQ(lookup.face_at({2.9, 0.5}), 9);
+  EXPECT_EQ(lookup.face_at({-0.1, 0.5}), 7);
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,251 @@
+#include "meshing/core/light_source.h"
+#include "meshing/patches/discontinuity_mesh.h"
+#include "solver/direct/direct_light.h"
+#include "tests/support/degenerate_scenes.h"
+#include "tests/support/effort.h"
+#include "tests/support/mesh_invariants.h"
+#include "tests/support/signature_bisection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <iterator>
+
+// Complete meshes are sound, and their labels are right for whole elements.
+
+namespace halfshade {
+namespace {
+
+using test::NamedScene;
+
+struct Meshed {
+  Meshed(const SoundScene& scene, const OpaqueScene& opaque,
+         const DiscontinuityMeshOptions& options)
+      : sources(light_sources(scene)),
+        found(find_discontinuities(scene, opaque, sources)),
+        mesh(mesh_discontinuities(scene, found, options)),
+        elements(mesh.patches.elements()),
+        labels(label_elements(scene, opaque, elements, sources)) {}
+
+  std::vector<LightSource> sources;
+  Discontinuities found;
+  DiscontinuityMesh mesh;
+  ElementTable elements;
+  std::vector<Region> labels;
+};
+
+Vec3 random_point(const ElementTable& elements, int element, test::Random& random) {
+  double u = random(0, 1), v = random(0, 1);
+  if (u + v > 1) {
+    u = 1 - u;
+    v = 1 - v;
+  }
+  const auto t = elements.triangle(element);
+  return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+}
+
+/// How near a point is to a curve of any emitter in its receiver, or to the border.
+double distance_to_lines(const SoundScene& scene, const Discontinuities& found, int receiver,
+                         const Vec3& point) {
+  const Surface& surface = scene.surfaces[static_cast<std::size_t>(receiver)];
+  const Vec2 p = surface.frame.to_plane(point);
+  double best = HUGE_VAL;
+  for (const DiscontinuityCurve& curve : found.curves)
+    if (curve.receiver == receiver) best = std::min(best, distance(curve.arc, p));
+  for (const Segment2& s : surface.contacts) best = std::min(best, test::distance_to_segment(p, s));
+  for (const Ring& ring : surface.rings)
+    for (std::size_t k = 0; k < ring.size(); ++k)
+      best = std::min(best, test::distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
+  return best;
+}
+
+/// Whether two points see different things beside the horizon. What comes up over it changes the
+/// label, but is of the third order (see SegmentAuditor), and no curve is made of it.
+class HorizonJudge {
+ public:
+  HorizonJudge(const SoundScene& scene, const OpaqueScene& opaque)
+      : signer_(scene, opaque), finder_(opaque) {}
+
+  bool differ(const Vec3& a, const Vec3& b, const Vec3& normal, int emitter) {
+    const test::Signature p = signature(a, normal, emitter), q = signature(b, normal, emitter);
+    test::Signature difference;
+    std::set_symmetric_difference(p.begin(), p.end(), q.begin(), q.end(),
+                                  std::back_inserter(difference));
+    return std::any_of(difference.begin(), difference.end(), [](const test::Junction& j) {
+      return j.from == horizon_edge || j.to == horizon_edge;
+    });
+  }
+
+ private:
+  test::Signature signature(const Vec3& point, const Vec3& normal, int emitter) {
+    finder_.find(point, normal, emitter, part_);
+    return signer_(part_, point, normal, emitter);
+  }
+
+  test::Signer signer_;
+  VisiblePartFinder finder_;
+  VisiblePart part_;
+};
+
+struct Tally {
+  int points = 0, near_a_curve = 0, at_horizon = 0, rounding = 0;
+  std::array<int, 4> by_region{};
+};
+
+/// Next to a face's own border, rounding may lift the border over the horizon.
+bool is_lit_to_rounding(const DirectLightIndex& index, const SurfacePoint& point, int emitter) {
+  const PointFactor factor = index.factor(point, emitter);
+  return factor.visible > (1 - 1e-12) * factor.unobstructed;
+}
+
+void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m, int count,
+             Tally& tally) {
+  const SoundScene& scene = named.scene;
+  ASSERT_EQ(m.labels.size(), static_cast<std::size_t>(m.elements.count()) * m.sources.size());
+  VisiblePartFinder finder(opaque);
+  VisiblePart part;
+  test::Random random(8);
+  const double allowed = 1.01 * m.mesh.report.deviation + 1e-9 * scene.tolerance.scene_size;
+  HorizonJudge judge(scene, opaque);
+  const DirectLightIndex index(scene);
+  int wrong = 0;
+  for (int i = 0; i < count; ++i) {
+    const int element = random.integer(0, m.elements.count() - 1);
+    const auto e = static_cast<std::size_t>(element);
+    const int receiver = m.elements.surface[e];
+    const Vec3 point = random_point(m.elements, element, random);
+    const auto source =
+        static_cast<std::size_t>(random.integer(0, static_cast<int>(m.sources.size()) - 1));
+    const Vec3& normal = scene.surfaces[static_cast<std::size_t>(receiver)].frame.normal;
+    const int emitter = m.sources[source].surface;
+    finder.find(point, normal, emitter, part);
+    ++tally.points;
+    ++tally.by_region[static_cast<std::size_t>(part.region)];
+    const Region label = m.labels[e * m.sources.size() + source];
+    if (label == part.region) continue;
+    const double distance = distance_to_lines(scene, m.found, receiver, point);
+    const auto corners = m.elements.triangle(element);
+    const Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3;
+    if (distance <= allowed) {
+      ++tally.near_a_curve;
+    } else if (judge.differ(point, middle, normal, emitter)) {
+      ++tally.at_horizon;
+    } else if (label != Region::umbra && is_lit_to_rounding(index, {point, normal}, emitter)) {
+      ++tally.rounding;
+    } else if (++wrong <= 3) {
+      ADD_FAILURE() << named.name << ": element " << element << " of receiver " << receiver
+                    << ", light " << emitter << ": label " << static_cast<int>(label) << ", point ("
+                    << point.transpose() << ") sees " << static_cast<int>(part.region) << ", "
+                    << distance << " from any curve, " << allowed << " allowed";
+    }
+  }
+  EXPECT_EQ(wrong, 0) << named.name << ": of " << count;
+}
+
+TEST(DiscontinuityLabels, HoldForWholeElementsOfSoundMeshes) {
+  Tally tally;
+  for (const NamedScene& named : test::discontinuity_scenes()) {
+    if (!test::is_wanted(named.name)) continue;
+    SCOPED_TRACE(named.name);
+    const OpaqueScene opaque(named.scene);
+    const Meshed m(named.scene, opaque, {});
+    test::expect_sound(m.elements, named.scene);
+    EXPECT_EQ(m.mesh.report.unfinished_surfaces, 0u);
+    compare(named, opaque, m, 1500 * test::effort(), tally);
+  }
+  RecordProperty("points", tally.points);
+  RecordProperty("near_a_curve", tally.near_a_curve);
+  RecordProperty("at_horizon", tally.at_horizon);
+  if (std::getenv("HALFSHADE_SCENE")) return;
+  EXPECT_LT(tally.near_a_curve, tally.points / 1000);
+  EXPECT_LT(tally.at_horizon, tally.points / 1000);
+  EXPECT_LE(tally.rounding, tally.points / 10000);
+  for (const Region region : {Region::lit, Region::penumbra, Region::umbra})
+    EXPECT_GT(tally.by_region[static_cast<std::size_t>(region)], tally.points / 50);
+}
+
+/// Length of all edges on curves, by order.
+std::array<double, 3> line_lengths(const ElementTable& elements, int receiver) {
+  std::array<double, 3> twice{};
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    if (elements.surface[i] != receiver) continue;
+    const auto t = elements.triangle(e);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const int order = elements.edge_order[i][k]; order >= 0)
+        twice[static_cast<std::size_t>(order)] += (t[(k + 1) % 3] - t[k]).norm();
+  }
+  for (double& length : twice) length /= 2;
+  return twice;
+}
+
+TEST(DiscontinuityLabels, AreExactForASquareOverASquare) {
+  const SoundScene scene = test::s1();
+  const OpaqueScene opaque(scene);
+  const Meshed m(scene, opaque, {});
+  std::array<double, 4> area{};
+  for (int e = 0; e < m.elements.count(); ++e) {
+    const auto i = static_cast<std::size_t>(e);
+    if (m.elements.surface[i] != 2) continue;
+    area[static_cast<std::size_t>(m.labels[i])] += m.elements.area[i];
+    const Region label = m.labels[i];
+    const auto t = m.elements.triangle(e);
+    const Vec3 middle = (t[0] + t[1] + t[2]) / 3;
+    const double place = middle.lpNorm<Eigen::Infinity>();
+    EXPECT_EQ(label, place < 0.25   ? Region::umbra
+                     : place < 1.25 ? Region::penumbra
+                                    : Region::lit)
+        << middle.transpose();
+  }
+  EXPECT_NEAR(area[static_cast<std::size_t>(Region::umbra)], 0.25, 1e-12);
+  EXPECT_NEAR(area[static_cast<std::size_t>(Region::penumbra)], 6, 1e-11);
+  const auto lengths = line_lengths(m.elements, 2);
+  EXPECT_NEAR(lengths[1], 20, 1e-10);
+  EXPECT_EQ(lengths[2], 0);
+}
+
+/// The lines cut the floor into nine cells within the penumbra and one around it. (Prolonged over
+/// the whole floor, where nothing happens, they would make 25.)
+TEST(DiscontinuityLabels, ASquareOverASquareMakesTenCells) {
+  const SoundScene scene = test::s1();
+  const OpaqueScene opaque(scene);
+  const Meshed m(scene, opaque, {});
+  const auto count = static_cast<std::size_t>(m.elements.count());
+  std::vector<int> cell(count, -1);
+  int cells = 0;
+  for (std::size_t start = 0; start < count; ++start) {
+    if (m.elements.surface[start] != 2 || cell[start] >= 0) continue;
+    std::vector<std::size_t> stack = {start};
+    cell[start] = cells;
+    while (!stack.empty()) {
+      const std::size_t e = stack.back();
+      stack.pop_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int other = m.elements.neighbours[e][k];
+        if (other < 0 || m.elements.edge_order[e][k] >= 0) continue;
+        const auto o = static_cast<std::size_t>(other);
+        if (cell[o] >= 0) continue;
+        cell[o] = cells;
+        stack.push_back(o);
+      }
+    }
+    ++cells;
+  }
+  EXPECT_EQ(cells, 10);
+}
+
+TEST(DiscontinuityLabels, MeshesOfDegenerateScenesAreSound) {
+  for (const NamedScene& named : test::degenerate_scenes()) {
+    if (!test::is_wanted(named.name)) continue;
+    SCOPED_TRACE(named.name);
+    const OpaqueScene opaque(named.scene);
+    const Meshed m(named.scene, opaque, {});
+    test::expect_sound(m.elements, named.scene);
+    EXPECT_EQ(m.mesh.report.unfinished_surfaces, 0u);
+    Tally tally;
+    compare(named, opaque, m, 300 * test::effort(), tally);
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,177 @@
+#include "solver/pipeline/solve_mesh.h"
+
+#include "meshing/core/error.h"
+#include "meshing/core/light_source.h"
+#include "meshing/patches/quality.h"
+#include "meshing/repair/repair.h"
+#include "solver/pipeline/mesh_scene.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// S1: a light of 1 × 1 at z = 2 over an occluder of 0.75 × 0.75 at z = 1 over a floor.
+Scene s1() {
+  Scene scene;
+  const int dark = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);
+  const auto square = [](double low, double high, double z) {
+    return std::vector<Vec3>{{low, low, z}, {high, low, z}, {high, high, z}, {low, high, z}};
+  };
+  test::add_polygon(scene, {{-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2}}, light);
+  test::add_polygon(scene, square(-0.375, 0.375, 1), dark);
+  test::add_polygon(scene, square(-1.9371, 1.8613, 0), dark);
+  return scene;
+}
+
+/// Slats between light and floor, none parallel to another: many lines, of many sizes.
+Scene slats(int count) {
+  Scene scene = s1();
+  scene.faces.erase(scene.faces.begin() + 1);
+  const int dark = scene.faces.back().material;
+  for (int k = 0; k < count; ++k) {
+    const double x = -0.5 + k / (count - 1.), turn = 0.03 * std::sin(5. * k);
+    test::add_polygon(
+        scene, {{x, -.5, 1}, {x + .03, -.5, 1}, {x + turn + .03, .5, 1.1}, {x + turn, .5, 1.1}},
+        dark);
+  }
+  return scene;
+}
+
+struct Found {
+  SoundScene scene;
+  Discontinuities curves;
+  double mean = 0;
+};
+
+Found find(const Scene& scene) {
+  Found found;
+  found.scene = make_sound(scene);
+  found.curves =
+      find_discontinuities(found.scene, OpaqueScene(found.scene), light_sources(found.scene));
+  found.mean = mean_direct_irradiance(found.scene);
+  return found;
+}
+
+TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
+  const Found found = find(s1());
+  for (const int elements : {200, 700, 3000}) {
+    SolveOptions options;
+    options.elements = elements;
+    const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+    EXPECT_NEAR(mesh.elements.count(), elements, 0.2 * elements)
+        << "a square is halved again and again, so that not every number is there";
+    EXPECT_EQ(mesh.tolerance, options.tolerance);
+    EXPECT_EQ(mesh.report.kept + mesh.report.culled, found.curves.curves.size());
+  }
+}
+
+TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
+  const Found found = find(slats(8));
+  SolveOptions options;
+  options.elements = 100;
+  const SolveMesh few = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  // Ten narrow polygons take more than that without any line.
+  const int plain = make_solve_mesh(found.scene, options).elements.count();
+  EXPECT_LE(few.elements.count(), 2 * plain);
+  EXPECT_GT(few.tolerance, options.tolerance);
+  EXPECT_GT(few.report.culled, 0u);
+  options.elements = 4000;
+  const SolveMesh many = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  EXPECT_EQ(many.tolerance, options.tolerance);
+  EXPECT_GT(many.report.kept, few.report.kept);
+}
+
+TEST(SolveMesh, KeepsToTheLengthAskedFor) {
+  const Found found = find(s1());
+  SolveOptions options;
+  options.max_length = 0.2;
+  const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  EXPECT_LE(summarize_quality(mesh.elements).longest_edge, 0.2);
+  options.max_elements = 100;
+  test::expect_error([&] { make_solve_mesh(found.scene, found.curves, options, found.mean); },
+                     ErrorCode::too_large, {"100"});
+}
+
+/// Area of the floor's elements that are wholly dark, and of those that are partly so.
+std::pair<double, double> umbra_area(const SolveResult& result) {
+  double umbra = 0, cut = 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const auto k = static_cast<std::size_t>(e);
+    if (result.elements.surface[k] != 2) continue;
+    int inside = 0;
+    for (const Vec3& p : result.elements.triangle(e))
+      inside += std::max(std::abs(p.x()), std::abs(p.y())) < 0.25 + 1e-6;
+    if (result.solution.direct_irradiance(e, 0) == 0) umbra += result.elements.area[k];
+    if (inside > 0 && inside < 3) cut += result.elements.area[k];
+  }
+  return {umbra, cut};
+}
+
+TEST(SolveWithLines, TheUmbraIsItsElements) {
+  SolveOptions options;
+  options.elements = 500;
+  const SolveResult with = solve(s1(), options);
+  EXPECT_NEAR(umbra_area(with).first, 0.25, 1e-9) << "0.5 × 0.5, exactly";
+  EXPECT_GT(with.curves, 0u);
+  EXPECT_GT(with.mesh.kept, 0u);
+  options.discontinuities = false;
+  const SolveResult without = solve(s1(), options);
+  EXPECT_LT(umbra_area(without).first, 0.24);
+  EXPECT_EQ(without.curves, 0u);
+}
+
+std::string left_out(const SolveResult& result, const std::string& stage) {
+  for (const StageReport& report : result.stages)
+    if (report.name == stage) return report.left_out_because;
+  return "no such stage";
+}
+
+TEST(SolveWithLines, AreLeftOutWhereTheyAreNeedless) {
+  SolveOptions options;
+  options.elements = 100;
+  EXPECT_EQ(left_out(solve(s1(), options), "discontinuities"), "");
+  const Scene empty =
+      test::room({1, 1, 1}, {{{.5, 1}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}}});
+  EXPECT_EQ(left_out(solve(empty, options), "discontinuities"),
+            "no surface can come between two others");
+  Scene furnace = test::l_room(true);
+  for (Material& material : furnace.materials) material.exitance = Rgb::Constant(0.5);
+  EXPECT_NE(left_out(solve(furnace, options), "discontinuities").find("most surfaces emit"),
+            std::string::npos);
+  options.discontinuities = false;
+  EXPECT_EQ(left_out(solve(s1(), options), "discontinuities"), "they were not asked for");
+  options.discontinuities = true;
+  options.events = {false, false, false, false};
+  EXPECT_EQ(left_out(solve(s1(), options), "discontinuities"), "they were not asked for");
+}
+
+TEST(SolveWithLines, SecondarySourcesAddLines) {
+  Scene scene = s1();
+  for (Material& material : scene.materials) material.rho = Rgb::Constant(0.8);
+  // A wall that the floor lights.
+  test::add_polygon(scene,
+                    {{1.8613, -1.9, 0.1}, {1.8613, -1.9, 2}, {1.8613, 1.8, 2}, {1.8613, 1.8, 0.1}},
+                    scene.faces.back().material);
+  SolveOptions options;
+  options.elements = 300;
+  const std::size_t without = solve(scene, options).curves;
+  options.secondary = 1;
+  EXPECT_GT(solve(scene, options).curves, without);
+}
+
+TEST(SolveWithLines, RefusesOptionsOutOfRange) {
+  SolveOptions negative, none;
+  negative.tolerance = -0.1;
+  none.secondary = -1;
+  for (const SolveOptions& options : {negative, none})
+    test::expect_error([&] { solve(s1(), options); }, ErrorCode::contract,
+                       {"solve", "not negative"});
+}
+
+}  // namespace
+}  // namespace halfshade

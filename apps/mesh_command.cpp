@@ -6,6 +6,7 @@
 #include "io/write/write_mesh.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
+#include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
 
@@ -72,7 +73,7 @@ void print_curves(const Discontinuities& found) {
 void print_summary(const MeshResult& result, bool with_elements, bool verbose) {
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
-      fmt::print("repair       {}\n", repair.sentence);
+      fmt::print("repair       {}\n", sentence(repair, result.scene));
   fmt::print("surfaces    {}\n", result.scene.surfaces.size());
   print_curves(result.found);
   if (with_elements) {

@@ -4,6 +4,7 @@
 #include "io/read/read_scene.h"
 #include "io/write/write_report.h"
 #include "meshing/core/error.h"
+#include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +46,7 @@ std::string closure_line(const ExchangeReport& exchange) {
 void print_summary(const SolveResult& result, double asked_tolerance, bool verbose) {
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
-      fmt::print("repair       {}\n", repair.sentence);
+      fmt::print("repair       {}\n", sentence(repair, result.scene));
   fmt::print("surfaces    {}\n", result.scene.surfaces.size());
   fmt::print("elements     {}\n", result.elements.count());
   if (result.curves > 0)

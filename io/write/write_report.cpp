@@ -6,6 +6,7 @@
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
 #include "meshing/patches/quality.h"
+#include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,22 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json to_json(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
-
-const char* name_of(Repair::Kind kind) {
-  switch (kind) {
-    case Repair::Kind::degenerate_dropped:
-      return "degenerate_dropped";
-    case Repair::Kind::duplicate_dropped:
-      return "duplicate_dropped";
-    case Repair::Kind::non_planar_triangulated:
-      return "non_planar_triangulated";
-    case Repair::Kind::coplanar_merged:
-      return "coplanar_merged";
-    case Repair::Kind::overlap_removed:
-      return "overlap_removed";
-  }
-  return "other";
-}
 
 Json scene_json(const SoundScene& scene, std::size_t cameras) {
   std::set<int> faces;
@@ -51,8 +36,9 @@ Json scene_json(const SoundScene& scene, std::size_t cameras) {
 Json repairs_json(const SoundScene& scene) {
   Json json = Json::array();
   for (const Repair& repair : scene.repairs)
-    json.push_back(
-        {{"kind", name_of(repair.kind)}, {"faces", repair.faces}, {"sentence", repair.sentence}});
+    json.push_back({{"kind", name_of(repair.kind)},
+                    {"faces", repair.faces},
+                    {"sentence", sentence(repair, scene)}});
   return json;
 }
 

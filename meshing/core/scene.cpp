@@ -94,10 +94,13 @@ void check_camera(const Scene& scene, const Camera& camera) {
 
 }  // namespace
 
-std::string face_label(const Scene& scene, int face) {
-  const int line = scene.faces.at(static_cast<std::size_t>(face)).line;
+std::string face_label(int face, int line) {
   return line > 0 ? fmt::format("face {} (line {})", face + 1, line)
                   : fmt::format("face {}", face + 1);
+}
+
+std::string face_label(const Scene& scene, int face) {
+  return face_label(face, scene.faces.at(at(face)).line);
 }
 
 std::vector<Vec3> face_corners(const Scene& scene, int face) {

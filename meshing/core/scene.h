@@ -44,7 +44,9 @@ struct Scene {
   std::vector<Camera> cameras;
 };
 
-/// "face 7 (line 31)": how messages name a face. Faces count from 1, like lines.
+/// "face 7 (line 31)": how messages name a face. Faces count from 1, like lines; a line of 0 is
+/// left out.
+std::string face_label(int face, int line);
 std::string face_label(const Scene& scene, int face);
 
 /// The corners of a face, in order. `face` must be valid.

@@ -28,18 +28,19 @@ struct Surface {
   std::vector<Ring> face_rings;  ///< their boundaries, one an entry of `faces`
 };
 
-/// One thing that was put right.
+/// One thing that was put right, as data; repair_sentence.h makes a sentence of it.
 struct Repair {
   enum class Kind {
-    degenerate_dropped,  ///< no area
-    duplicate_dropped,   ///< the same corners as another face
-    non_planar_triangulated,
-    coplanar_merged,  ///< neighbours joined into one surface
-    overlap_removed   ///< coplanar faces of different materials covered each other
+    degenerate_dropped,       ///< no area; size: the width below which that is so
+    duplicate_dropped,        ///< the first face has the same corners as the second
+    non_planar_triangulated,  ///< size: how far corners are off the plane
+    coplanar_merged,          ///< neighbours joined into one surface
+    overlap_removed  ///< coplanar faces of different materials covered each other: the first keeps
+                     ///< the common part; size: its area
   };
   Kind kind;
   std::vector<int> faces;  ///< the input faces concerned
-  std::string sentence;    ///< for the user, with ids and values
+  double size = 0;         ///< a length or an area in scene units, 0 where there is none
 };
 
 /// A scene that everything downstream may rely on.
@@ -47,6 +48,7 @@ struct SoundScene {
   std::vector<Surface> surfaces;
   std::vector<Material> materials;  ///< as in the scene
   std::vector<std::string> groups;  ///< as in the scene
+  std::vector<int> face_lines;      ///< Face::line of every input face
   Tolerance tolerance;
   std::vector<Repair> repairs;
 };

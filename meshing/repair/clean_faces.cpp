@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
+#include "meshing/core/tolerance.h"
 
 #include <fmt/format.h>
 
@@ -69,7 +70,7 @@ double width_of(const std::vector<Vec3>& polygon) {
 
 // True if the face has an area worth keeping; throws if its parts cancel.
 bool has_area(const Scene& scene, int face, const std::vector<Vec3>& polygon,
-              const Tolerance& tolerance) {
+              const LocalTolerance& tolerance) {
   if (polygon.size() < 3 || width_of(polygon) <= tolerance.length) return false;
   const double area = area_vector(polygon).norm();
   if (area > 0.5 * tolerance.length * perimeter(polygon)) return true;
@@ -96,11 +97,7 @@ std::vector<FacePiece> without_duplicates(const Scene& scene, std::vector<FacePi
       std::swap(dropped, kept);
     entry->second = kept;
     drop[dropped] = true;
-    repairs.push_back(
-        {Repair::Kind::duplicate_dropped,
-         {faces[dropped].face, faces[kept].face},
-         fmt::format("{} has the same corners as {} and was dropped",
-                     face_label(scene, faces[dropped].face), face_label(scene, faces[kept].face))});
+    repairs.push_back({Repair::Kind::duplicate_dropped, {faces[dropped].face, faces[kept].face}});
   }
   std::vector<FacePiece> kept;
   for (std::size_t i = 0; i < faces.size(); ++i)
@@ -111,7 +108,7 @@ std::vector<FacePiece> without_duplicates(const Scene& scene, std::vector<FacePi
 // A face off its plane by more than the tolerance, as triangles over its projection.
 std::vector<FacePiece> triangles_of(const Scene& scene, const FacePiece& piece,
                                     const PlaneFrame& frame, WeldedVertices& vertices,
-                                    const Tolerance& tolerance) {
+                                    const LocalTolerance& tolerance) {
   std::vector<Vec2> flat;
   std::vector<int> ids = piece.loop, local(piece.loop.size());
   for (std::size_t k = 0; k < ids.size(); ++k) {
@@ -145,22 +142,21 @@ void reject_crossed_face(const Scene& scene, int face) {
 }
 
 std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
-                                   const Tolerance& tolerance, std::vector<Repair>& repairs) {
+                                   std::vector<Repair>& repairs) {
   std::vector<FacePiece> faces;
   for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f) {
+    const LocalTolerance tolerance = tolerance_of(scale_of(face_corners(scene, f)));
     std::vector<int> loop = clean_loop(scene.faces[at(f)], vertices, tolerance.length);
     if (has_area(scene, f, corners(vertices, loop), tolerance))
       faces.push_back({f, std::move(loop)});
     else
-      repairs.push_back({Repair::Kind::degenerate_dropped,
-                         {f},
-                         fmt::format("{} is thinner than {} and was dropped", face_label(scene, f),
-                                     tolerance.length)});
+      repairs.push_back({Repair::Kind::degenerate_dropped, {f}, tolerance.length});
   }
   faces = without_duplicates(scene, std::move(faces), repairs);
   std::vector<FacePiece> pieces;
   for (FacePiece& face : faces) {
     const std::vector<Vec3> polygon = corners(vertices, face.loop);
+    const LocalTolerance tolerance = tolerance_of(scale_of(polygon));
     const PlaneFrame frame = fit_plane(polygon);
     double deviation = 0;
     for (const Vec3& p : polygon) deviation = std::max(deviation, std::abs(frame.height(p)));
@@ -170,10 +166,7 @@ std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
     }
     for (FacePiece& t : triangles_of(scene, face, frame, vertices, tolerance))
       pieces.push_back(std::move(t));
-    repairs.push_back({Repair::Kind::non_planar_triangulated,
-                       {face.face},
-                       fmt::format("{} is off its plane by {:.3g} and was triangulated",
-                                   face_label(scene, face.face), deviation)});
+    repairs.push_back({Repair::Kind::non_planar_triangulated, {face.face}, deviation});
   }
   return pieces;
 }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/sound_scene.h"
-#include "meshing/repair/planes.h"
+#include "meshing/repair/weld.h"
 
 #include <vector>
 
@@ -17,7 +17,7 @@ struct FacePiece {
 /// of no area and repeated faces. May add points. Says in `repairs` what it changed. Throws
 /// Error(invalid_input) for a face without a sound interior.
 std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
-                                   const Tolerance& tolerance, std::vector<Repair>& repairs);
+                                   std::vector<Repair>& repairs);
 
 /// Throws the Error for a face that crosses itself.
 [[noreturn]] void reject_crossed_face(const Scene& scene, int face);

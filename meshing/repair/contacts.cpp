@@ -1,6 +1,7 @@
 #include "meshing/repair/contacts.h"
 
 #include "meshing/arrangement/arrangement.h"
+#include "meshing/core/planar.h"
 #include "meshing/geometry/box_tree.h"
 #include "meshing/repair/intersections.h"
 
@@ -26,33 +27,40 @@ std::vector<Link> links_of(const std::vector<std::vector<int>>& rings) {
   return links;
 }
 
-std::vector<Link> all_links(const std::vector<SurfaceDraft>& drafts) {
-  std::vector<Link> links;
-  for (const SurfaceDraft& draft : drafts)
-    for (const Link& link : links_of(draft.rings)) links.push_back(link);
-  std::sort(links.begin(), links.end());
-  links.erase(std::unique(links.begin(), links.end()), links.end());
-  return links;
-}
+/// An edge of a surface and the scale of the smallest surface that has it.
+struct SurfaceEdge {
+  Link link;
+  LocalScale scale;
+};
 
-double distance_to(const Vec2& p, const Vec2& a, const Vec2& b) {
-  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
-  return (a + t * (b - a) - p).norm();
+std::vector<SurfaceEdge> all_edges(const std::vector<SurfaceDraft>& drafts) {
+  std::map<Link, LocalScale> scales;
+  for (const SurfaceDraft& draft : drafts)
+    for (const Link& link : links_of(draft.rings)) {
+      const auto [entry, is_new] = scales.emplace(link, draft.scale);
+      if (!is_new) entry->second = joint_scale(entry->second, draft.scale);
+    }
+  std::vector<SurfaceEdge> edges;
+  for (const auto& [link, scale] : scales) edges.push_back({link, scale});
+  return edges;
 }
 
 // One surface with the edges that lie in its plane.
 class ContactFinder {
  public:
-  ContactFinder(SurfaceDraft& draft, std::vector<Vec3>& points, const Tolerance& tolerance)
-      : draft_(draft), points_(points), tolerance_(tolerance) {}
+  ContactFinder(SurfaceDraft& draft, std::vector<Vec3>& points) : draft_(draft), points_(points) {}
 
-  void run(const std::vector<Link>& edges) {
+  void run(const std::vector<SurfaceEdge>& edges) {
+    LocalScale scale = draft_.scale;
+    for (const SurfaceEdge& edge : edges) scale = joint_scale(scale, edge.scale);
+    tolerance_ = tolerance_of(scale);
     std::vector<Link> segments;
     for (const auto& ring : draft_.rings)
       for (std::size_t k = 0; k < ring.size(); ++k)
         segments.push_back({local(ring[k]), local(ring[(k + 1) % ring.size()])});
     border_ = segments;
-    for (const Link& edge : edges) segments.push_back({local(edge[0]), local(edge[1])});
+    for (const SurfaceEdge& edge : edges)
+      segments.push_back({local(edge.link[0]), local(edge.link[1])});
     arrangement_ = arrange(flat_, segments, {tolerance_.length, tolerance_.planarity});
     collect(edges.size());
     if (inner_.empty()) return;
@@ -96,9 +104,9 @@ class ContactFinder {
     bool odd = false, near_a = false, near_b = false, near_middle = false;
     for (const Link& segment : border_) {
       const Vec2 &p = flat_[at(segment[0])], &q = flat_[at(segment[1])];
-      near_a = near_a || distance_to(a, p, q) <= tolerance_.planarity;
-      near_b = near_b || distance_to(b, p, q) <= tolerance_.planarity;
-      near_middle = near_middle || distance_to(middle, p, q) <= tolerance_.planarity;
+      near_a = near_a || distance_to_segment(a, p, q) <= tolerance_.planarity;
+      near_b = near_b || distance_to_segment(b, p, q) <= tolerance_.planarity;
+      near_middle = near_middle || distance_to_segment(middle, p, q) <= tolerance_.planarity;
       if ((p.y() > middle.y()) == (q.y() > middle.y())) continue;
       const double x = p.x() + (middle.y() - p.y()) / (q.y() - p.y()) * (q.x() - p.x());
       if (x > middle.x()) odd = !odd;
@@ -125,7 +133,7 @@ class ContactFinder {
 
   SurfaceDraft& draft_;
   std::vector<Vec3>& points_;
-  const Tolerance& tolerance_;
+  LocalTolerance tolerance_;
   std::map<int, int> local_;
   std::vector<Vec2> flat_;
   std::vector<int> ids_;  // point of the arrangement → point of the scene
@@ -135,48 +143,51 @@ class ContactFinder {
 };
 
 // Edges other than the surface's own that lie in its plane and may reach into it.
-std::vector<Link> edges_in_plane(const SurfaceDraft& draft, const std::vector<Link>& links,
-                                 const BoxTree& tree, const std::vector<Vec3>& points,
-                                 const Tolerance& tolerance) {
+std::vector<SurfaceEdge> edges_in_plane(const SurfaceDraft& draft,
+                                        const std::vector<SurfaceEdge>& edges, const BoxTree& tree,
+                                        const std::vector<Vec3>& points) {
+  const double most = tolerance_of(draft.scale).planarity;
   Box around;
   for (const int p : draft.rings[0]) around.extend(points[at(p)]);
-  around.min().array() -= tolerance.planarity;
-  around.max().array() += tolerance.planarity;
+  around.min().array() -= most;
+  around.max().array() += most;
   const Vec3 normal = draft.frame.normal, spread = normal.cwiseAbs();
   const std::vector<Link> own = links_of(draft.rings);
-  std::vector<Link> found;
+  std::vector<int> found;
   const auto reaches = [&](const Box& box) {
-    return box.intersects(around) && std::abs(draft.frame.height(box.center())) <=
-                                         spread.dot(0.5 * box.sizes()) + tolerance.planarity;
+    return box.intersects(around) &&
+           std::abs(draft.frame.height(box.center())) <= spread.dot(0.5 * box.sizes()) + most;
   };
   tree.query(reaches, [&](int i) {
-    const Link& link = links[at(i)];
-    const bool in_plane = std::all_of(link.begin(), link.end(), [&](int p) {
-      return std::abs(draft.frame.height(points[at(p)])) <= tolerance.planarity;
+    const SurfaceEdge& edge = edges[at(i)];
+    const double limit = tolerance_of(joint_scale(draft.scale, edge.scale)).planarity;
+    const bool in_plane = std::all_of(edge.link.begin(), edge.link.end(), [&](int p) {
+      return std::abs(draft.frame.height(points[at(p)])) <= limit;
     });
-    if (in_plane && !std::binary_search(own.begin(), own.end(), link)) found.push_back(link);
+    if (in_plane && !std::binary_search(own.begin(), own.end(), edge.link)) found.push_back(i);
   });
   std::sort(found.begin(), found.end());
-  return found;
+  std::vector<SurfaceEdge> result;
+  for (const int i : found) result.push_back(edges[at(i)]);
+  return result;
 }
 
 }  // namespace
 
-void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
-                   const Tolerance& tolerance) {
-  const std::vector<Link> links = all_links(drafts);
+void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
+  const std::vector<SurfaceEdge> edges = all_edges(drafts);
   std::vector<Box> boxes;
-  boxes.reserve(links.size());
-  for (const auto& [a, b] : links) {
-    boxes.emplace_back(points[at(a)]);
-    boxes.back().extend(points[at(b)]);
+  boxes.reserve(edges.size());
+  for (const SurfaceEdge& edge : edges) {
+    boxes.emplace_back(points[at(edge.link[0])]);
+    boxes.back().extend(points[at(edge.link[1])]);
   }
   const BoxTree tree(std::move(boxes));
-  const auto cuts = find_intersections(drafts, points, tolerance);
+  const auto cuts = find_intersections(drafts, points);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
-    std::vector<Link> edges = edges_in_plane(drafts[i], links, tree, points, tolerance);
-    edges.insert(edges.end(), cuts[i].begin(), cuts[i].end());
-    if (!edges.empty()) ContactFinder(drafts[i], points, tolerance).run(edges);
+    std::vector<SurfaceEdge> lines = edges_in_plane(drafts[i], edges, tree, points);
+    for (const Link& cut : cuts[i]) lines.push_back({cut, drafts[i].scale});
+    if (!lines.empty()) ContactFinder(drafts[i], points).run(lines);
   }
 }
 

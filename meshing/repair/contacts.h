@@ -1,6 +1,5 @@
 #pragma once
 
-#include "meshing/core/tolerance.h"
 #include "meshing/repair/coplanar.h"
 
 #include <vector>
@@ -10,8 +9,8 @@ namespace halfshade {
 /// Finds the contact lines of every surface: the parts of other surfaces' edges that lie in its
 /// plane and inside it, and where others cut through it; each once, split where they meet. Where
 /// one ends on the surface's boundary, the boundary gets a corner there. May add points where
-/// contact lines cross.
-void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
-                   const Tolerance& tolerance);
+/// contact lines cross. What lies in a plane follows from the scale of the surface and of that
+/// which the edge belongs to.
+void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points);
 
 }  // namespace halfshade

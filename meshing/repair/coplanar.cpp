@@ -34,8 +34,8 @@ bool convex(const std::vector<Vec2>& polygon) {
 class Resolver {
  public:
   Resolver(std::vector<Vec3>& points, const PlaneFrame& frame,
-           const std::vector<CoplanarFace>& faces, const SnapRadii& snap)
-      : points_(points), frame_(frame), faces_(faces), snap_(snap) {}
+           const std::vector<CoplanarFace>& faces)
+      : points_(points), frame_(frame), faces_(faces), snap_(snap_radii(faces)) {}
 
   CoplanarResult run() {
     if (faces_.size() == 1) {
@@ -58,6 +58,13 @@ class Resolver {
   }
 
  private:
+  static SnapRadii snap_radii(const std::vector<CoplanarFace>& faces) {
+    LocalScale scale = faces[0].scale;
+    for (const CoplanarFace& face : faces) scale = joint_scale(scale, face.scale);
+    const LocalTolerance tolerance = tolerance_of(scale);
+    return {tolerance.length, tolerance.planarity};
+  }
+
   void make_overlay() {
     std::map<int, int> local;
     std::vector<Vec2> flat;
@@ -155,6 +162,9 @@ class Resolver {
     draft.group = face.group;
     draft.back = face.back;
     draft.rings = std::move(rings);
+    std::vector<Vec3> corners;
+    for (const int p : draft.rings[0]) corners.push_back(points_[at(p)]);
+    draft.scale = scale_of(corners);
     for (const int m : members) {
       draft.faces.push_back(faces_[at(m)].face);
       draft.face_rings.push_back(faces_[at(m)].loop);
@@ -175,8 +185,8 @@ class Resolver {
 }  // namespace
 
 CoplanarResult resolve_coplanar(std::vector<Vec3>& points, const PlaneFrame& frame,
-                                const std::vector<CoplanarFace>& faces, const SnapRadii& snap) {
-  return Resolver(points, frame, faces, snap).run();
+                                const std::vector<CoplanarFace>& faces) {
+  return Resolver(points, frame, faces).run();
 }
 
 }  // namespace halfshade

@@ -3,6 +3,7 @@
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/core/plane_frame.h"
 #include "meshing/core/sound_scene.h"
+#include "meshing/core/tolerance.h"
 
 #include <array>
 #include <vector>
@@ -17,6 +18,7 @@ struct CoplanarFace {
   bool back = false;   ///< the back of a two-sided face
   bool emits = false;  ///< has exitance
   double area = 0;
+  LocalScale scale;
   std::vector<int> loop;
 };
 
@@ -27,6 +29,7 @@ struct SurfaceDraft {
   int material = 0;
   int group = 0;
   bool back = false;
+  LocalScale scale;                     ///< of its outer ring
   std::vector<std::vector<int>> rings;  ///< as in Surface
   std::vector<int> faces;
   std::vector<std::vector<int>> face_rings;
@@ -48,8 +51,8 @@ struct CoplanarResult {
 
 /// Joins faces that lie in one plane and look the same way into surfaces, and gives what several
 /// cover to one of them: to an emitter before others, to a smaller face before a larger. May add
-/// points where boundaries cross.
+/// points where boundaries cross. What counts as touching follows from the scale of the faces.
 CoplanarResult resolve_coplanar(std::vector<Vec3>& points, const PlaneFrame& frame,
-                                const std::vector<CoplanarFace>& faces, const SnapRadii& snap);
+                                const std::vector<CoplanarFace>& faces);
 
 }  // namespace halfshade

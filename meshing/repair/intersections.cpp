@@ -50,8 +50,7 @@ Box box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
 }  // namespace
 
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
-    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
-    const Tolerance& tolerance) {
+    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
   std::vector<Box> boxes;
   for (const SurfaceDraft& draft : drafts) boxes.push_back(box_of(draft, points));
   const BoxTree tree(boxes);
@@ -65,6 +64,7 @@ std::vector<std::vector<std::array<int, 2>>> find_intersections(
     for (const int j : near) {
       const SurfaceDraft &a = drafts[i], &b = drafts[at(j)];
       const Vec3 line = a.frame.normal.cross(b.frame.normal);
+      const LocalTolerance tolerance = tolerance_of(joint_scale(a.scale, b.scale));
       if (a.plane == b.plane || !(line.norm() > parallel) ||
           !lies_on_both_sides(a, b.frame, points, tolerance.planarity) ||
           !lies_on_both_sides(b, a.frame, points, tolerance.planarity))

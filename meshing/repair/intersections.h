@@ -1,6 +1,5 @@
 #pragma once
 
-#include "meshing/core/tolerance.h"
 #include "meshing/repair/coplanar.h"
 
 #include <array>
@@ -9,8 +8,8 @@
 namespace halfshade {
 
 /// For each surface the straight pieces along which others cut through it, as pairs of points,
-/// which are added. What only touches, within the planarity tolerance, does not cut.
+/// which are added. What only touches, within the planarity tolerance of the two, does not cut.
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
-    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points, const Tolerance& tolerance);
+    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points);
 
 }  // namespace halfshade

@@ -1,21 +1,11 @@
 #pragma once
 
 #include "meshing/core/plane_frame.h"
-#include "meshing/core/tolerance.h"
 
 #include <span>
 #include <vector>
 
 namespace halfshade {
-
-/// Vertices that are the same point, found once.
-struct WeldedVertices {
-  std::vector<Vec3> points;
-  std::vector<int> of_vertex;  ///< vertex → point; −1 for vertices no face uses
-};
-
-/// Welds vertices closer together than the tolerance: each becomes the first one near it.
-WeldedVertices weld(const Scene& scene, const Tolerance& tolerance);
 
 /// The distinct planes of polygons.
 struct PlaneClasses {
@@ -23,9 +13,11 @@ struct PlaneClasses {
   std::vector<int> of_polygon;     ///< polygon → plane
 };
 
-/// Sorts planar polygons (loops of points, with an area) into planes, whichever way they look.
-/// Deterministic; each polygon is compared with few planes only.
-PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
-                             const Tolerance& tolerance);
+/// Sorts planar polygons (loops of points, with an area) into planes. Two come into one plane if
+/// they are near each other, directly or through others, and look the same way, to within what the
+/// rounding of a file can have moved their corners (see tolerance_of); if they look opposite ways,
+/// only if arithmetic cannot tell their planes apart, for light passes through the narrowest gap.
+/// Deterministic; each polygon is compared with those near it only.
+PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops);
 
 }  // namespace halfshade

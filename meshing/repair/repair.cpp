@@ -5,9 +5,9 @@
 #include "meshing/repair/clean_faces.h"
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
+#include "meshing/repair/planes.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,16 +17,14 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t labels_in_a_sentence = 6;
-
 // The same plane seen from its other side: coordinates are mirrored exactly.
 PlaneFrame turned(const PlaneFrame& frame) {
   return {frame.origin, frame.e1, -frame.e2, -frame.normal};
 }
 
 // A piece, or its back, as one of the faces that look to one side of a plane.
-CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece, const Vec3& area,
-                           bool back) {
+CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece,
+                           const std::vector<Vec3>& polygon, bool back) {
   const Face& face = scene.faces[at(piece.face)];
   CoplanarFace result;
   result.face = piece.face;
@@ -34,7 +32,8 @@ CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece, const Vec
   result.group = face.group;
   result.back = back;
   result.emits = (scene.materials[at(face.material)].exitance > 0).any();
-  result.area = area.norm();
+  result.area = area_vector(polygon).norm();
+  result.scale = scale_of(polygon);
   result.loop = piece.loop;
   if (back) std::reverse(result.loop.begin(), result.loop.end());
   return result;
@@ -48,44 +47,30 @@ PlaneSides sort_into_sides(const Scene& scene, const std::vector<FacePiece>& pie
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     std::vector<Vec3> polygon;
     for (const int p : pieces[i].loop) polygon.push_back(points[at(p)]);
-    const Vec3 area = area_vector(polygon);
     const int plane = classes.of_polygon[i];
-    const std::size_t side = area.dot(classes.frames[at(plane)].normal) > 0 ? 0 : 1;
-    sides[at(plane)][side].push_back(coplanar_face(scene, pieces[i], area, false));
+    const std::size_t side = area_vector(polygon).dot(classes.frames[at(plane)].normal) > 0 ? 0 : 1;
+    sides[at(plane)][side].push_back(coplanar_face(scene, pieces[i], polygon, false));
     if (scene.materials[at(scene.faces[at(pieces[i].face)].material)].two_sided)
-      sides[at(plane)][1 - side].push_back(coplanar_face(scene, pieces[i], area, true));
+      sides[at(plane)][1 - side].push_back(coplanar_face(scene, pieces[i], polygon, true));
   }
   return sides;
 }
 
-void report_merge(const Scene& scene, const SurfaceDraft& draft, std::vector<Repair>& repairs) {
+void report_merge(const SurfaceDraft& draft, std::vector<Repair>& repairs) {
   std::vector<int> faces = draft.faces;
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
   if (faces.size() < 2 || draft.back) return;
-  std::vector<std::string> labels;
-  for (std::size_t i = 0; i < std::min(faces.size(), labels_in_a_sentence); ++i)
-    labels.push_back(face_label(scene, faces[i]));
-  if (faces.size() > labels_in_a_sentence)
-    labels.push_back(fmt::format("{} more", faces.size() - labels_in_a_sentence));
-  repairs.push_back({Repair::Kind::coplanar_merged, faces,
-                     fmt::format("{} lie in one plane and were joined", fmt::join(labels, ", "))});
+  repairs.push_back({Repair::Kind::coplanar_merged, std::move(faces)});
 }
 
-void report_overlap(const Scene& scene, const CoveredPair& pair, std::vector<Repair>& repairs) {
-  if (pair.backs) return;
-  repairs.push_back(
-      {Repair::Kind::overlap_removed,
-       {pair.keeper, pair.loser},
-       fmt::format("{} and {} lie in one plane and cover each other over an area of {:.6g}, which "
-                   "{} keeps",
-                   face_label(scene, pair.keeper), face_label(scene, pair.loser), pair.area,
-                   face_label(scene, pair.keeper))});
+void report_overlap(const CoveredPair& pair, std::vector<Repair>& repairs) {
+  if (!pair.backs)
+    repairs.push_back({Repair::Kind::overlap_removed, {pair.keeper, pair.loser}, pair.area});
 }
 
 // Faces that snapping left nothing of, though nothing covers them.
-void report_lost(const Scene& scene, const PlaneSides& sides,
-                 const std::vector<SurfaceDraft>& drafts, const Tolerance& tolerance,
+void report_lost(const PlaneSides& sides, const std::vector<SurfaceDraft>& drafts,
                  std::vector<Repair>& repairs) {
   std::set<int> kept;
   for (const SurfaceDraft& draft : drafts) kept.insert(draft.faces.begin(), draft.faces.end());
@@ -94,18 +79,15 @@ void report_lost(const Scene& scene, const PlaneSides& sides,
     for (const auto& side : plane)
       for (const CoplanarFace& face : side)
         if (kept.insert(face.face).second)
-          repairs.push_back({Repair::Kind::degenerate_dropped,
-                             {face.face},
-                             fmt::format("{} is thinner than {} and was dropped",
-                                         face_label(scene, face.face), tolerance.planarity)});
+          repairs.push_back(
+              {Repair::Kind::degenerate_dropped, {face.face}, tolerance_of(face.scale).planarity});
 }
 
 std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
-                                      std::vector<Vec3>& points, const Tolerance& tolerance,
-                                      std::vector<Repair>& repairs) {
+                                      std::vector<Vec3>& points, std::vector<Repair>& repairs) {
   std::vector<std::vector<int>> loops;
   for (const FacePiece& piece : pieces) loops.push_back(piece.loop);
-  const PlaneClasses classes = classify_planes(points, loops, tolerance);
+  const PlaneClasses classes = classify_planes(points, loops);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
   for (std::size_t plane = 0; plane < sides.size(); ++plane)
@@ -113,10 +95,9 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
       if (sides[plane][side].empty()) continue;
       const PlaneFrame& front = classes.frames[plane];
       CoplanarResult result =
-          resolve_coplanar(points, side == 0 ? front : turned(front), sides[plane][side],
-                           {tolerance.length, tolerance.planarity});
+          resolve_coplanar(points, side == 0 ? front : turned(front), sides[plane][side]);
       if (!result.crossed.empty()) reject_crossed_face(scene, result.crossed.front());
-      for (const CoveredPair& pair : result.covered) report_overlap(scene, pair, repairs);
+      for (const CoveredPair& pair : result.covered) report_overlap(pair, repairs);
       for (SurfaceDraft& draft : result.drafts) {
         draft.plane = static_cast<int>(plane);
         drafts.push_back(std::move(draft));
@@ -126,8 +107,8 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
   std::stable_sort(drafts.begin(), drafts.end(), [](const auto& a, const auto& b) {
     return std::tuple(a.faces.front(), a.back) < std::tuple(b.faces.front(), b.back);
   });
-  for (const SurfaceDraft& draft : drafts) report_merge(scene, draft, repairs);
-  report_lost(scene, sides, drafts, tolerance, repairs);
+  for (const SurfaceDraft& draft : drafts) report_merge(draft, repairs);
+  report_lost(sides, drafts, repairs);
   return drafts;
 }
 
@@ -157,16 +138,15 @@ SoundScene make_sound(const Scene& scene) {
   SoundScene sound;
   sound.materials = scene.materials;
   sound.groups = scene.groups;
+  for (const Face& face : scene.faces) sound.face_lines.push_back(face.line);
   sound.tolerance = make_tolerance(scene);
-  WeldedVertices vertices = weld(scene, sound.tolerance);
-  const std::vector<FacePiece> pieces =
-      clean_faces(scene, vertices, sound.tolerance, sound.repairs);
-  std::vector<SurfaceDraft> drafts =
-      make_drafts(scene, pieces, vertices.points, sound.tolerance, sound.repairs);
+  WeldedVertices vertices = weld(scene);
+  const std::vector<FacePiece> pieces = clean_faces(scene, vertices, sound.repairs);
+  std::vector<SurfaceDraft> drafts = make_drafts(scene, pieces, vertices.points, sound.repairs);
   if (drafts.empty())
     throw Error(ErrorCode::invalid_input, scene.source,
                 fmt::format("none of its {} faces has an area", scene.faces.size()));
-  find_contacts(drafts, vertices.points, sound.tolerance);
+  find_contacts(drafts, vertices.points);
   for (SurfaceDraft& draft : drafts)
     sound.surfaces.push_back(finish(std::move(draft), vertices.points));
   return sound;

@@ -16,7 +16,8 @@ inline SolveResult sample_result(int n) {
                             {"lamp", Rgb(0.1, 0.1, 0.1), Rgb(9, 8, 7), false}};
   result.scene.surfaces.resize(1);
   result.scene.surfaces[0].faces = {0, 1};
-  result.scene.repairs = {{Repair::Kind::coplanar_merged, {0, 1}, "faces 1 and 2 were joined"}};
+  result.scene.repairs = {{Repair::Kind::coplanar_merged, {0, 1}}};
+  result.scene.face_lines = {0, 7};
   result.scene.tolerance.scene_size = std::sqrt(2.0);
   Camera camera;
   camera.name = "above";

@@ -39,7 +39,8 @@ TEST(WriteReport, TellsTheRun) {
   EXPECT_EQ(json.at("scene").at("materials"), 2);
   EXPECT_EQ(json.at("repairs").at(0).at("kind"), "coplanar_merged");
   EXPECT_EQ(json.at("repairs").at(0).at("faces"), nlohmann::json({0, 1}));
-  EXPECT_EQ(json.at("repairs").at(0).at("sentence"), "faces 1 and 2 were joined");
+  EXPECT_EQ(json.at("repairs").at(0).at("sentence"),
+            "face 1, face 2 (line 7) lie in one plane and were joined");
   EXPECT_EQ(json.at("stages").at(0).at("seconds"), 0.25);
   EXPECT_TRUE(json.at("stages").at(0).at("left_out_because").is_null());
   EXPECT_EQ(json.at("stages").at(1).at("left_out_because"), "there is nothing to see");

@@ -178,50 +178,6 @@ TEST(BoxTree, FindsWhatComparingAllFinds) {
   BoxTree({}).query_box(boxes[0], [](int) { ADD_FAILURE(); });
 }
 
-TEST(Weld, JoinsVerticesAcrossCellsAndLeavesOutUnusedOnes) {
-  Scene scene;
-  test::add_material(scene, 0.5, 0);
-  Tolerance tolerance;
-  tolerance.length = 1e-3;
-  for (int k = 0; k < 50; ++k) {
-    const Vec3 p(0.1 * k, 0.0137 * k, 1 - 0.01 * k);
-    test::add_polygon(scene, {p, p + Vec3(5e-4, -4e-4, 3e-4), p + Vec3(0, 2e-3, 0)}, 0);
-  }
-  scene.vertices.emplace_back(7, 7, 7);
-  const WeldedVertices welded = weld(scene, tolerance);
-  EXPECT_EQ(welded.points.size(), 100u);
-  EXPECT_EQ(welded.of_vertex.back(), -1);
-  for (std::size_t v = 0; v + 1 < scene.vertices.size(); v += 3) {
-    EXPECT_EQ(welded.of_vertex[v], welded.of_vertex[v + 1]);
-    EXPECT_NE(welded.of_vertex[v], welded.of_vertex[v + 2]);
-  }
-}
-
-TEST(ClassifyPlanes, ParallelPlanesAndSidesAreToldApart) {
-  std::vector<Vec3> points;
-  std::vector<std::vector<int>> loops;
-  const auto add = [&](double z, bool up) {
-    const int first = static_cast<int>(points.size());
-    for (const Vec2& p : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) points.emplace_back(p.x(), p.y(), z);
-    loops.push_back(up ? std::vector<int>{first, first + 1, first + 2}
-                       : std::vector<int>{first, first + 2, first + 1});
-  };
-  add(0, true), add(1e-8, false), add(1e-3, true), add(1, true), add(1 - 1e-8, false);
-  Tolerance tolerance;
-  tolerance.length = 1e-9;
-  tolerance.planarity = 1e-6;
-  const PlaneClasses classes = classify_planes(points, loops, tolerance);
-  EXPECT_EQ(classes.frames.size(), 3u);
-  EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[1]);
-  EXPECT_EQ(classes.of_polygon[3], classes.of_polygon[4]);
-  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
-  for (std::size_t i = 0; i < loops.size(); ++i)
-    for (const int p : loops[i])
-      EXPECT_LE(std::abs(classes.frames[static_cast<std::size_t>(classes.of_polygon[i])].height(
-                    points[static_cast<std::size_t>(p)])),
-                tolerance.planarity);
-}
-
 TEST(FaceLookup, FindsTheFaceThatHoldsThePointElseTheNearest) {
   Surface surface;
   surface.faces = {7, 3, 9};

@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/patches/quality.h"
+#include "meshing/repair/repair_sentence.h"
 #include "tests/support/cornell.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/mesh_invariants.h"
@@ -56,7 +57,8 @@ TEST(MakeSound, CornellBox) {
   expect_surfaces_sound(sound);
   EXPECT_EQ(sound.surfaces.size(), 17u);  // the red wall is 3.2 mm off plane: two triangles
   EXPECT_THAT(only(sound, Repair::Kind::non_planar_triangulated).faces, ElementsAre(5));
-  EXPECT_THAT(only(sound, Repair::Kind::non_planar_triangulated).sentence, HasSubstr("face 6"));
+  EXPECT_THAT(sentence(only(sound, Repair::Kind::non_planar_triangulated), sound),
+              HasSubstr("face 6"));
   EXPECT_THAT(only(sound, Repair::Kind::overlap_removed).faces, ElementsAre(1, 2));
   const Surface &light = sound.surfaces[1], &ceiling = sound.surfaces[2];
   EXPECT_DOUBLE_EQ(area(light), 130 * 105);
@@ -213,7 +215,7 @@ TEST(MakeSound, DropsFacesWithoutAreaAndRepeatedOnes) {
   EXPECT_EQ(sound.surfaces[0].material, 0);
   EXPECT_EQ(count(sound, Repair::Kind::degenerate_dropped), 3);
   EXPECT_THAT(only(sound, Repair::Kind::duplicate_dropped).faces, ElementsAre(3, 0));
-  EXPECT_THAT(only(sound, Repair::Kind::duplicate_dropped).sentence,
+  EXPECT_THAT(sentence(only(sound, Repair::Kind::duplicate_dropped), sound),
               testing::AllOf(HasSubstr("face 4 (line 31)"), HasSubstr("face 1")));
 }
 

@@ -1,0 +1,96 @@
+#include "meshing/repair/planes.h"
+
+#include "meshing/repair/weld.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+TEST(Weld, JoinsVerticesAsCloseAsTheirRoundingAndLeavesOutUnusedOnes) {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  for (int k = 0; k < 50; ++k) {
+    const Vec3 p(0.1 * k, 0.0137 * k, 1 - 0.01 * k);
+    test::add_polygon(scene, {p, p + Vec3(5e-10, -4e-10, 3e-10), p + Vec3(0, 2e-3, 0)}, 0);
+  }
+  scene.vertices.emplace_back(7, 7, 7);
+  const WeldedVertices welded = weld(scene);
+  EXPECT_EQ(welded.points.size(), 100u);
+  EXPECT_EQ(welded.of_vertex.back(), -1);
+  for (std::size_t v = 0; v + 1 < scene.vertices.size(); v += 3) {
+    EXPECT_EQ(welded.of_vertex[v], welded.of_vertex[v + 1]);
+    EXPECT_NE(welded.of_vertex[v], welded.of_vertex[v + 2]);
+  }
+}
+
+TEST(Weld, KeepsCornersOfTinyFacesApart) {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  const double w = 1e-9;
+  test::add_polygon(scene, {{0, 0, 1}, {w, 0, 1}, {w, w, 1}, {0, w, 1}}, 0);
+  EXPECT_EQ(weld(scene).points.size(), 4u);
+}
+
+/// Triangles over one place, at heights and facing up or down.
+struct Sheets {
+  std::vector<Vec3> points;
+  std::vector<std::vector<int>> loops;
+
+  void add(double z, bool up, double x = 0, double size = 1) {
+    const int first = static_cast<int>(points.size());
+    for (const Vec2& p : {Vec2(0, 0), Vec2(size, 0), Vec2(0, size)})
+      points.emplace_back(x + p.x(), p.y(), z);
+    loops.push_back(up ? std::vector<int>{first, first + 1, first + 2}
+                       : std::vector<int>{first, first + 2, first + 1});
+  }
+  PlaneClasses classes() const { return classify_planes(points, loops); }
+};
+
+TEST(ClassifyPlanes, ThatLookTheSameWayAreOneToWithinTheRoundingOfAFile) {
+  Sheets sheets;
+  sheets.add(0, true), sheets.add(3e-7, true), sheets.add(1e-3, true);
+  const PlaneClasses classes = sheets.classes();
+  EXPECT_EQ(classes.frames.size(), 2u);
+  EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[1]);
+  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
+  for (std::size_t i = 0; i < sheets.loops.size(); ++i)
+    for (const int p : sheets.loops[i])
+      EXPECT_LE(std::abs(classes.frames[at(classes.of_polygon[i])].height(sheets.points[at(p)])),
+                1e-6);
+}
+
+TEST(ClassifyPlanes, ThatFaceEachOtherAreTwoHoweverNarrowTheGap) {
+  for (const double gap : {1e-3, 1e-6, 1e-7, 1e-8}) {
+    Sheets sheets;
+    sheets.add(0, true), sheets.add(gap, false);
+    EXPECT_EQ(sheets.classes().frames.size(), 2u) << gap;
+  }
+  Sheets coincident;
+  coincident.add(1, true), coincident.add(1, false);
+  EXPECT_EQ(coincident.classes().frames.size(), 1u);
+}
+
+TEST(ClassifyPlanes, AreNotJoinedAcrossADistance) {
+  Sheets sheets;
+  sheets.add(0, true), sheets.add(0, true, 0.5), sheets.add(0, true, 3);
+  const PlaneClasses classes = sheets.classes();
+  EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[1]);
+  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
+}
+
+TEST(ClassifyPlanes, DoNotDependOnWhatIsElsewhere) {
+  for (const double far : {1e3, 1e6, 1e9}) {
+    Sheets sheets;
+    sheets.add(0, true), sheets.add(1e-4, true);
+    sheets.add(far, false, far, far);
+    const PlaneClasses classes = sheets.classes();
+    EXPECT_EQ(classes.frames.size(), 3u) << far;
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

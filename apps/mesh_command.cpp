@@ -5,7 +5,7 @@
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
 #include "meshing/core/error.h"
-#include "meshing/repair/repair.h"
+#include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
 
@@ -38,7 +38,8 @@ void check(const MeshCommand& command, const std::filesystem::path& json) {
 }
 
 /// Draws the part of the scene asked for; up as in the scene's first camera.
-void draw(const MeshCommand& command, const MeshResult& result, const Context& context) {
+void draw(const MeshCommand& command, const PreparedScene& prepared, const MeshResult& result,
+          const Context& context) {
   CurvePictureOptions options = command.picture_options;
   const std::vector<int> surfaces =
       picture_surfaces(result.scene, result.found, command.picture_of);
@@ -51,7 +52,8 @@ void draw(const MeshCommand& command, const MeshResult& result, const Context& c
     options.up = std::abs(up.dot(normal)) < std::abs(ahead.dot(normal)) ? up : ahead;
     if (std::abs(up.dot(normal)) < 0.7) options.up = up;
   }
-  write_png(draw_curves(result.scene, result.found, surfaces, options, context.progress),
+  write_png(draw_curves(result.scene, prepared.direct_light(), result.found, surfaces, options,
+                        context.progress),
             command.picture);
 }
 
@@ -95,10 +97,11 @@ int run(const MeshCommand& given, const Context& context) {
   check(command, context.common.json);
   command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
   const SceneFile file = read_scene(command.scene, command.materials);
+  const PreparedScene prepared(file.scene, context.progress);
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
-    picture_surfaces(make_sound(file.scene), {}, command.picture_of);
-  const MeshResult result = mesh_scene(file.scene, command.options, context.progress);
+    picture_surfaces(prepared.scene(), {}, command.picture_of);
+  const MeshResult result = mesh_scene(prepared, command.options, context.progress);
   context.progress_ends();
   if (!context.common.quiet)
     for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -109,7 +112,7 @@ int run(const MeshCommand& given, const Context& context) {
     written.push_back(command.curves);
   }
   if (!command.picture.empty()) {
-    draw(command, result, context);
+    draw(command, prepared, result, context);
     context.progress_ends();
     written.push_back(command.picture);
   }

@@ -5,8 +5,8 @@
 #include "io/read/read_scene.h"
 #include "io/write/write_points.h"
 #include "meshing/core/error.h"
-#include "meshing/repair/repair.h"
 #include "solver/exchange/gather.h"
+#include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
 
 #include <fmt/format.h>
@@ -54,9 +54,9 @@ std::size_t in_blocks(std::span<const SurfacePoint> points, const Progress& prog
 }
 
 /// Exact direct light at the points that were reached before the user stopped.
-std::vector<DirectLight> direct_light(const SoundScene& scene, std::span<const SurfacePoint> points,
+std::vector<DirectLight> direct_light(const DirectLightIndex& index,
+                                      std::span<const SurfacePoint> points,
                                       const Progress& progress) {
-  const DirectLightIndex index(scene);
   std::vector<DirectLight> light;
   light.reserve(points.size());
   const std::size_t done = in_blocks(
@@ -69,20 +69,18 @@ std::vector<DirectLight> direct_light(const SoundScene& scene, std::span<const S
 }
 
 /// Adds the light that was reflected to the points that were reached; drops the others.
-void add_reflected(const Scene& scene, const SolveOptions& options,
+void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
                    std::span<const SurfacePoint> points, const Progress& progress,
                    std::vector<DirectLight>& light) {
-  const SolveResult solved = solve(scene, options, progress);
+  const SolveResult solved = solve(prepared, options, progress);
   if (solved.interrupted) return light.clear();
-  const VisibilityIndex visibility(occluders(solved.scene));
-  const std::size_t done =
-      in_blocks(points.first(light.size()), progress,
-                [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
-                  const std::vector<Rgb> reflected = reflected_irradiance(
-                      {solved.scene, solved.elements, solved.solution}, visibility, some, p);
-                  for (std::size_t k = 0; k < some.size(); ++k)
-                    light[first + k].irradiance += reflected[k];
-                });
+  const std::size_t done = in_blocks(
+      points.first(light.size()), progress,
+      [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+        const std::vector<Rgb> reflected = reflected_irradiance(
+            {prepared.scene(), solved.elements, solved.solution}, prepared.visibility(), some, p);
+        for (std::size_t k = 0; k < some.size(); ++k) light[first + k].irradiance += reflected[k];
+      });
   light.resize(done);
 }
 
@@ -105,14 +103,15 @@ int run(const ProbeCommand& command, const Context& context) {
   check_output(command.output);
   const auto start = std::chrono::steady_clock::now();
   const SceneFile file = read_scene(command.scene, command.materials);
-  require_emitter(file.scene);
-  const SoundScene sound = make_sound(file.scene);
-  const PointTable table = command.points.empty()
-                               ? point_table(surface_grid(sound, command.group, command.spacing))
-                               : read_points(command.points);
-  std::vector<DirectLight> light = direct_light(sound, table.points, context.progress);
+  const PreparedScene prepared(file.scene, context.progress);
+  const PointTable table =
+      command.points.empty()
+          ? point_table(surface_grid(prepared.scene(), command.group, command.spacing))
+          : read_points(command.points);
+  std::vector<DirectLight> light =
+      direct_light(prepared.direct_light(), table.points, context.progress);
   if (!command.direct_only)
-    add_reflected(file.scene, command.options, table.points, context.progress, light);
+    add_reflected(prepared, command.options, table.points, context.progress, light);
   context.progress_ends();
   if (!context.common.quiet)
     for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);

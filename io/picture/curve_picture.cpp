@@ -2,8 +2,7 @@
 
 #include "io/picture/line_canvas.h"
 #include "meshing/core/error.h"
-#include "solver/direct/direct_light.h"
-#include "solver/pipeline/surface_grid.h"
+#include "meshing/core/planar.h"
 
 #include <fmt/format.h>
 
@@ -80,8 +79,9 @@ Map make_map(const SoundScene& scene, std::span<const int> surfaces,
 }
 
 /// Paints the exact direct light at pixel centres; returns the exposure.
-double paint_light(const SoundScene& scene, std::span<const int> surfaces, const Map& map,
-                   const Progress& progress, detail::LineCanvas& canvas) {
+double paint_light(const SoundScene& scene, const DirectLightIndex& index,
+                   std::span<const int> surfaces, const Map& map, const Progress& progress,
+                   detail::LineCanvas& canvas) {
   std::vector<std::size_t> pixels;
   std::vector<SurfacePoint> points;
   for (int y = 0; y < map.height; ++y)
@@ -90,13 +90,12 @@ double paint_light(const SoundScene& scene, std::span<const int> surfaces, const
       for (const int r : surfaces) {
         const Surface& surface = scene.surfaces[at(r)];
         const Vec2 q = surface.frame.to_plane(p);
-        if (!contains(surface, q)) continue;
+        if (!is_inside(surface.rings, q)) continue;
         pixels.push_back(at(y) * at(map.width) + at(x));
         points.push_back({surface.frame.to_space(q), surface.frame.normal});
         break;
       }
     }
-  const DirectLightIndex index(scene);
   const std::vector<DirectLight> light = index.irradiance(points, progress);
   std::vector<double> values;
   for (const DirectLight& value : light) values.push_back(value.irradiance.mean());
@@ -213,16 +212,16 @@ std::vector<int> picture_surfaces(const SoundScene& scene, const Discontinuities
   return group != scene.groups.end() ? neighbours_of(scene, first) : std::vector<int>{first};
 }
 
-Picture draw_curves(const SoundScene& scene, const Discontinuities& found,
-                    std::span<const int> surfaces, const CurvePictureOptions& options,
-                    const Progress& progress) {
+Picture draw_curves(const SoundScene& scene, const DirectLightIndex& light,
+                    const Discontinuities& found, std::span<const int> surfaces,
+                    const CurvePictureOptions& options, const Progress& progress) {
   check(scene, surfaces, options);
   const Map map = make_map(scene, surfaces, options);
   detail::LineCanvas canvas(map.width, map.height, detail::decode_srgb(page));
   Picture picture;
   picture.width = map.width;
   picture.height = map.height;
-  picture.exposure = paint_light(scene, surfaces, map, progress, canvas);
+  picture.exposure = paint_light(scene, light, surfaces, map, progress, canvas);
   draw_outlines(scene, surfaces, map, canvas);
   std::vector<const DiscontinuityCurve*> curves;
   for (const DiscontinuityCurve& curve : found.curves)

@@ -21,8 +21,12 @@ using Bytes = std::array<std::uint8_t, 3>;
 constexpr Bytes red = {235, 60, 50}, blue = {70, 130, 255}, pink = {255, 105, 190},
                 yellow = {250, 215, 50}, green = {80, 200, 110};
 constexpr Bytes page = {24, 24, 27}, outline = {150, 150, 155};
-/// Light is drawn between these greys, so that lines of any colour stand out.
+/// Light is drawn between these greys, so that curves of any colour stand out.
 constexpr double darkest = 40, brightest = 205;
+/// An axis this nearly along the normal (its cosine above 0.87) shows no up.
+constexpr double least_upright = 0.5;
+/// The share of pixels, in percent, that are not saturated.
+constexpr std::size_t white_percentile = 99;
 /// Empty border round the surfaces, as a share of their size.
 constexpr double margin = 0.02;
 
@@ -46,7 +50,7 @@ Vec3 upwards(const Vec3& normal, const Vec3& up) {
     for (const double sign : {1., -1.}) {
       const Vec3 candidate = sign * Vec3::Unit(axis);
       const Vec3 projected = candidate - candidate.dot(normal) * normal;
-      if (projected.norm() < 0.5) continue;
+      if (projected.norm() < least_upright) continue;
       if (best.isZero() || flat.dot(projected) > flat.dot(best) + least_better) best = projected;
     }
   return best.normalized();
@@ -101,7 +105,7 @@ double paint_light(const SoundScene& scene, const DirectLightIndex& index,
   for (const DirectLight& value : light) values.push_back(value.irradiance.mean());
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  const double white = sorted.empty() ? 0 : sorted[(sorted.size() - 1) * 99 / 100];
+  const double white = sorted.empty() ? 0 : sorted[(sorted.size() - 1) * white_percentile / 100];
   const double exposure = white > 0 ? 1 / white : 1;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     // A root, as the eye judges brightness.
@@ -130,8 +134,9 @@ void check(const SoundScene& scene, std::span<const int> surfaces,
   const auto fail = [](const std::string& sentence) {
     throw Error(ErrorCode::contract, "draw_curves", sentence);
   };
-  if (options.pixels < 16 || options.pixels > 16384)
-    fail(fmt::format("{} pixels; they must be in 16 to 16384", options.pixels));
+  if (options.pixels < least_curve_pixels || options.pixels > most_pixels)
+    fail(fmt::format("{} pixels; they must be in {} to {}", options.pixels, least_curve_pixels,
+                     most_pixels));
   if (!(options.line_width > 0 && std::isfinite(options.line_width)))
     fail(fmt::format("a line width of {}; it must be positive", options.line_width));
   if (surfaces.empty()) fail("there are no surfaces to draw");

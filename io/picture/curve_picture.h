@@ -14,8 +14,10 @@ namespace halfshade {
 /// the literature draws them. Kind: contact red, face green, ev pink, eee yellow.
 enum class CurveColour { order, kind };
 
+inline constexpr int least_curve_pixels = 16;
+
 struct CurvePictureOptions {
-  int pixels = 500;         ///< of the longer side, 16…16384
+  int pixels = 500;         ///< of the longer side, least_curve_pixels…most_pixels
   double line_width = 1.5;  ///< pixels, > 0
   CurveColour colour = CurveColour::order;
   Vec3 up = Vec3::Zero();  ///< roughly upwards in the picture; zero: chosen from the plane

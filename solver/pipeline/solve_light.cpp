@@ -1,22 +1,12 @@
 #include "solver/pipeline/solve_light.h"
 
 #include "solver/direct/direct_light.h"
+#include "solver/elements/material_arrays.h"
 
 #include <algorithm>
 
 namespace halfshade {
 namespace {
-
-void material_arrays(const SoundScene& scene, const ElementTable& elements, ChannelArray& rho,
-                     ChannelArray& exitance) {
-  rho.resize(elements.count(), 3);
-  exitance.resize(elements.count(), 3);
-  for (int e = 0; e < elements.count(); ++e) {
-    const Material& material = scene.materials[at(elements.material[at(e)])];
-    rho.row(e) = material.rho.transpose();
-    exitance.row(e) = material.exitance.transpose();
-  }
-}
 
 /// In a closed enclosure everything an emitter sends arrives somewhere. Averaging over elements
 /// loses or gains a little where shadows cut them; one factor for each emitter puts that right.
@@ -73,18 +63,18 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
   if (is_exact)
     direct = find_direct_light(prepared, elements, options.direct_points, progress, stages);
   const Exchange exchange = find_exchange(prepared, elements, options.exchange, progress, stages);
-  ChannelArray rho, exitance, direct_irradiance;
+  ChannelArray direct_irradiance;
   if (is_exact) {
     if (exchange.report.closure_enforced)
       conserve_power(direct, scene, elements, exchange.enclosures);
     direct_irradiance = irradiance_of(direct, scene);
   }
-  material_arrays(scene, elements, rho, exitance);
+  const MaterialArrays materials = material_arrays(scene, elements);
   SolvedLight light;
   light.exchange = exchange.report;
   stages.run("radiosity", [&] {
-    light.solution = solve_radiosity(exchange, rho, exitance, direct_irradiance, options.radiosity,
-                                     light.radiosity, progress);
+    light.solution = solve_radiosity(exchange, materials.rho, materials.exitance, direct_irradiance,
+                                     options.radiosity, light.radiosity, progress);
     light.solution.region = std::move(direct.region);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });

@@ -8,6 +8,7 @@
 #include "solver/pipeline/solve.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ enum ExitCode {
   exit_done = 0,
   exit_usage = 2,
   exit_invalid_input = 3,
-  exit_not_accurate = 4,  ///< results are written and marked
+  exit_not_accurate = 4,  ///< the radiosity iteration stopped short; results are written and marked
   exit_unwritable = 5,
   exit_interrupted = 130  ///< what was solved so far is written and marked
 };

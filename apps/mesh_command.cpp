@@ -1,12 +1,11 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/files/extension.h"
 #include "io/read/read_scene.h"
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
-#include "meshing/core/error.h"
-#include "meshing/repair/repair.h"
+#include "io/write/write_report.h"
 #include "meshing/repair/repair_sentence.h"
+#include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
 
@@ -17,29 +16,19 @@
 namespace halfshade {
 namespace {
 
+/// A camera's up counts for a surface if the cosine of its angle with the normal is smaller.
+constexpr double clearly_across = 0.7;
+
 void check(const MeshCommand& command, const std::filesystem::path& json) {
   require_folder(json);
-  for (const auto& path : command.outputs) {
-    if (!is_result_path(path))
-      throw Error(ErrorCode::usage, path.string(),
-                  fmt::format("the extension '{}' is none of .vtu, .vtp and .ply",
-                              path.extension().string()));
-    require_folder(path);
-  }
-  if (!command.curves.empty() && !is_curves_path(command.curves))
-    throw Error(ErrorCode::usage, command.curves.string(),
-                fmt::format("curves are written as .vtp, not as '{}'",
-                            command.curves.extension().string()));
-  if (!command.picture.empty() && extension_of(command.picture) != ".png")
-    throw Error(
-        ErrorCode::usage, command.picture.string(),
-        fmt::format("the extension '{}' is not .png", command.picture.extension().string()));
-  require_folder(command.curves);
-  require_folder(command.picture);
+  for (const auto& path : command.outputs) check_output(path, mesh_formats);
+  check_output(command.curves, curve_formats);
+  check_output(command.picture, picture_formats);
 }
 
 /// Draws the part of the scene asked for; up as in the scene's first camera.
-void draw(const MeshCommand& command, const MeshResult& result, const Context& context) {
+void draw(const MeshCommand& command, const PreparedScene& prepared, const MeshResult& result,
+          const Context& context) {
   CurvePictureOptions options = command.picture_options;
   const std::vector<int> surfaces =
       picture_surfaces(result.scene, result.found, command.picture_of);
@@ -50,9 +39,10 @@ void draw(const MeshCommand& command, const MeshResult& result, const Context& c
         result.scene.surfaces[static_cast<std::size_t>(surfaces.front())].frame.normal;
     const Vec3 up = camera.up.stableNormalized(), ahead = camera.direction.stableNormalized();
     options.up = std::abs(up.dot(normal)) < std::abs(ahead.dot(normal)) ? up : ahead;
-    if (std::abs(up.dot(normal)) < 0.7) options.up = up;
+    if (std::abs(up.dot(normal)) < clearly_across) options.up = up;
   }
-  write_png(draw_curves(result.scene, result.found, surfaces, options, context.progress),
+  write_png(draw_curves(result.scene, prepared.direct_light(), result.found, surfaces, options,
+                        context.progress),
             command.picture);
 }
 
@@ -74,7 +64,7 @@ void print_summary(const MeshResult& result, bool with_elements, bool verbose) {
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
       fmt::print("repair       {}\n", sentence(repair, result.scene));
-  fmt::print("surfaces    {}\n", result.scene.surfaces.size());
+  fmt::print("surfaces     {}\n", result.scene.surfaces.size());
   print_curves(result.found);
   if (with_elements) {
     fmt::print("elements     {}\n", result.elements.count());
@@ -96,10 +86,11 @@ int run(const MeshCommand& given, const Context& context) {
   check(command, context.common.json);
   command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
   const SceneFile file = read_scene(command.scene, command.materials);
+  const PreparedScene prepared(file.scene, context.progress);
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
-    picture_surfaces(make_sound(file.scene), {}, command.picture_of);
-  const MeshResult result = mesh_scene(file.scene, command.options, context.progress);
+    picture_surfaces(prepared.scene(), {}, command.picture_of);
+  const MeshResult result = mesh_scene(prepared, command.options, context.progress);
   context.progress_ends();
   if (!context.common.quiet)
     for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -110,7 +101,7 @@ int run(const MeshCommand& given, const Context& context) {
     written.push_back(command.curves);
   }
   if (!command.picture.empty()) {
-    draw(command, result, context);
+    draw(command, prepared, result, context);
     context.progress_ends();
     written.push_back(command.picture);
   }

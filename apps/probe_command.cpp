@@ -1,16 +1,14 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/files/atomic_file.h"
 #include "io/read/read_points.h"
 #include "io/read/read_scene.h"
 #include "io/write/write_points.h"
-#include "meshing/core/error.h"
-#include "meshing/repair/repair.h"
+#include "io/write/write_report.h"
 #include "solver/exchange/gather.h"
+#include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -21,14 +19,6 @@ namespace {
 
 /// Points computed at a time: what is lost of finished work when the user interrupts.
 constexpr std::size_t block = 4096;
-
-void check_output(const std::filesystem::path& path) {
-  if (!is_points_path(path))
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("the extension '{}' is none of .csv and .vtp", path.extension().string()));
-  require_folder(path);
-}
 
 /// The same progress as a part of a larger whole that begins at `done` and takes `share` of it.
 Progress part_of(const Progress& progress, double done, double share) {
@@ -54,9 +44,9 @@ std::size_t in_blocks(std::span<const SurfacePoint> points, const Progress& prog
 }
 
 /// Exact direct light at the points that were reached before the user stopped.
-std::vector<DirectLight> direct_light(const SoundScene& scene, std::span<const SurfacePoint> points,
+std::vector<DirectLight> direct_light(const DirectLightIndex& index,
+                                      std::span<const SurfacePoint> points,
                                       const Progress& progress) {
-  const DirectLightIndex index(scene);
   std::vector<DirectLight> light;
   light.reserve(points.size());
   const std::size_t done = in_blocks(
@@ -69,50 +59,36 @@ std::vector<DirectLight> direct_light(const SoundScene& scene, std::span<const S
 }
 
 /// Adds the light that was reflected to the points that were reached; drops the others.
-void add_reflected(const Scene& scene, const SolveOptions& options,
+void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
                    std::span<const SurfacePoint> points, const Progress& progress,
                    std::vector<DirectLight>& light) {
-  const SolveResult solved = solve(scene, options, progress);
+  const SolveResult solved = solve(prepared, options, progress);
   if (solved.interrupted) return light.clear();
-  const VisibilityIndex visibility(occluders(solved.scene));
-  const std::size_t done =
-      in_blocks(points.first(light.size()), progress,
-                [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
-                  const std::vector<Rgb> reflected = reflected_irradiance(
-                      {solved.scene, solved.elements, solved.solution}, visibility, some, p);
-                  for (std::size_t k = 0; k < some.size(); ++k)
-                    light[first + k].irradiance += reflected[k];
-                });
+  const std::size_t done = in_blocks(
+      points.first(light.size()), progress,
+      [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+        const std::vector<Rgb> reflected = reflected_irradiance(
+            {prepared.scene(), solved.elements, solved.solution}, prepared.visibility(), some, p);
+        for (std::size_t k = 0; k < some.size(); ++k) light[first + k].irradiance += reflected[k];
+      });
   light.resize(done);
-}
-
-void write_report(const ProbeCommand& command, const Context& context, std::size_t points,
-                  std::size_t done, double seconds) {
-  const nlohmann::ordered_json report = {{"version", context.provenance.version},
-                                         {"command_line", context.provenance.command_line},
-                                         {"points", points},
-                                         {"points_done", done},
-                                         {"direct_only", command.direct_only},
-                                         {"seconds", seconds},
-                                         {"interrupted", done < points},
-                                         {"outputs", {command.output.string()}}};
-  write_atomically(context.common.json, report.dump(2) + "\n");
 }
 
 }  // namespace
 
 int run(const ProbeCommand& command, const Context& context) {
-  check_output(command.output);
+  check_output(command.output, point_formats);
   const auto start = std::chrono::steady_clock::now();
   const SceneFile file = read_scene(command.scene, command.materials);
-  require_emitter(file.scene);
-  const SoundScene sound = make_sound(file.scene);
-  const PointTable table = command.points.empty()
-                               ? point_table(surface_grid(sound, command.group, command.spacing))
-                               : read_points(command.points);
-  std::vector<DirectLight> light = direct_light(sound, table.points, context.progress);
+  const PreparedScene prepared(file.scene, context.progress);
+  const PointTable table =
+      command.points.empty()
+          ? point_table(surface_grid(prepared.scene(), command.group, command.spacing))
+          : read_points(command.points);
+  std::vector<DirectLight> light =
+      direct_light(prepared.direct_light(), table.points, context.progress);
   if (!command.direct_only)
-    add_reflected(file.scene, command.options, table.points, context.progress, light);
+    add_reflected(prepared, command.options, table.points, context.progress, light);
   context.progress_ends();
   if (!context.common.quiet)
     for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
@@ -120,7 +96,8 @@ int run(const ProbeCommand& command, const Context& context) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const std::size_t points = table.points.size();
   if (!context.common.json.empty())
-    write_report(command, context, points, light.size(), seconds.count());
+    write_report(ProbeReport{points, light.size(), command.direct_only, seconds.count()},
+                 context.provenance, {command.output}, context.common.json);
   if (!context.common.quiet) {
     fmt::print("points       {}\n", light.size());
     if (context.common.verbose) fmt::print("{:<12} {:.2f} s\n", "probe", seconds.count());

@@ -1,5 +1,5 @@
+#include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/files/extension.h"
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
@@ -11,12 +11,8 @@
 namespace halfshade {
 namespace {
 
-bool is_result(const std::filesystem::path& path) {
-  return extension_of(path) == ".vtu" || extension_of(path) == ".vtp";
-}
-
 ShadedMesh load(const RenderCommand& command) {
-  if (is_result(command.input)) return read_shaded(command.input);
+  if (has_format(command.input, shaded_formats)) return read_shaded(command.input);
   const SceneFile file = read_scene(command.input, command.materials);
   return shaded(make_sound(file.scene), file.scene.cameras);
 }
@@ -43,7 +39,7 @@ Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
   if (command.target) camera.direction = *command.target - camera.position;
   if (command.up) camera.up = *command.up;
   if (!(camera.direction.cross(camera.up).norm() >
-        1e-9 * camera.direction.norm() * camera.up.norm()))
+        least_sine * camera.direction.norm() * camera.up.norm()))
     throw Error(ErrorCode::usage, "render",
                 "the camera looks along its up vector or nowhere; give another --up or --target");
   return camera;
@@ -52,9 +48,7 @@ Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
 }  // namespace
 
 int run(const RenderCommand& command, const Context& context) {
-  if (extension_of(command.output) != ".png")
-    throw Error(ErrorCode::usage, command.output.string(),
-                fmt::format("the extension '{}' is not .png", command.output.extension().string()));
+  check_output(command.output, picture_formats);
   const ShadedMesh mesh = load(command);
   const Picture picture =
       draw(mesh, choose_camera(mesh, command), command.options, context.progress);

@@ -1,9 +1,7 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/files/extension.h"
 #include "io/read/read_scene.h"
 #include "io/write/write_report.h"
-#include "meshing/core/error.h"
 #include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
@@ -13,23 +11,10 @@
 namespace halfshade {
 namespace {
 
-bool is_picture(const std::filesystem::path& path) { return extension_of(path) == ".png"; }
-
-/// Wrong names are worth telling before an hour of computing.
-void check_outputs(const std::vector<std::filesystem::path>& outputs,
-                   const std::filesystem::path& json) {
-  require_folder(json);
-  for (const auto& path : outputs) {
-    if (!is_picture(path) && !is_result_path(path))
-      throw Error(ErrorCode::usage, path.string(),
-                  fmt::format("the extension '{}' is none of .vtu, .vtp, .ply and .png",
-                              path.extension().string()));
-    require_folder(path);
-  }
-}
+constexpr FileFormats solve_formats = {"results", {".vtu", ".vtp", ".ply", ".png"}};
 
 void write(const SolveResult& result, const Context& context, const std::filesystem::path& path) {
-  if (!is_picture(path)) return write_result(result, context.provenance, path);
+  if (!has_format(path, picture_formats)) return write_result(result, context.provenance, path);
   const ShadedMesh mesh = shaded(result);
   const Camera camera = mesh.cameras.empty() ? fitting_camera(mesh) : mesh.cameras.front();
   write_png(draw(mesh, camera), path);
@@ -47,10 +32,10 @@ void print_summary(const SolveResult& result, double asked_tolerance, bool verbo
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
       fmt::print("repair       {}\n", sentence(repair, result.scene));
-  fmt::print("surfaces    {}\n", result.scene.surfaces.size());
+  fmt::print("surfaces     {}\n", result.scene.surfaces.size());
   fmt::print("elements     {}\n", result.elements.count());
   if (result.curves > 0)
-    fmt::print("lines        {} of {} discontinuities{}\n", result.mesh.kept, result.curves,
+    fmt::print("curves       {} of {}{}\n", result.mesh.kept, result.curves,
                result.discontinuity_tolerance > asked_tolerance
                    ? "; more would take more elements than asked for"
                    : "");
@@ -74,7 +59,8 @@ void print_summary(const SolveResult& result, double asked_tolerance, bool verbo
 int run(const SolveCommand& command, const Context& context) {
   std::vector<std::filesystem::path> outputs = command.outputs;
   if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
-  check_outputs(outputs, context.common.json);
+  require_folder(context.common.json);
+  for (const auto& path : outputs) check_output(path, solve_formats);
   const SceneFile file = read_scene(command.scene, command.materials);
   const SolveResult result = solve(file.scene, command.options, context.progress);
   context.progress_ends();

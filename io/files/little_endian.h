@@ -17,11 +17,4 @@ void put(std::string& bytes, T value) {
   bytes.append(raw, sizeof(T));
 }
 
-/// The text with blanks for line ends: a comment ends with its line.
-inline std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
-
 }  // namespace halfshade::detail

@@ -1,8 +1,15 @@
 #include "io/files/vtk_messages.h"
 
+#include <vtkCommand.h>
+
 #include <string_view>
 
 namespace halfshade::detail {
+
+void VtkMessages::listen_to(vtkObject* object) {
+  for (const unsigned long event : {vtkCommand::ErrorEvent, vtkCommand::WarningEvent})
+    object->AddObserver(event, this, &VtkMessages::record);
+}
 
 void VtkMessages::record(vtkObject*, unsigned long, void* text) {
   if (!first.empty() || text == nullptr) return;

@@ -2,8 +2,7 @@
 
 #include "io/picture/line_canvas.h"
 #include "meshing/core/error.h"
-#include "solver/direct/direct_light.h"
-#include "solver/pipeline/surface_grid.h"
+#include "meshing/core/planar.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +21,12 @@ using Bytes = std::array<std::uint8_t, 3>;
 constexpr Bytes red = {235, 60, 50}, blue = {70, 130, 255}, pink = {255, 105, 190},
                 yellow = {250, 215, 50}, green = {80, 200, 110};
 constexpr Bytes page = {24, 24, 27}, outline = {150, 150, 155};
-/// Light is drawn between these greys, so that lines of any colour stand out.
+/// Light is drawn between these greys, so that curves of any colour stand out.
 constexpr double darkest = 40, brightest = 205;
+/// An axis this nearly along the normal (its cosine above 0.87) shows no up.
+constexpr double least_upright = 0.5;
+/// The share of pixels, in percent, that are not saturated.
+constexpr std::size_t white_percentile = 99;
 /// Empty border round the surfaces, as a share of their size.
 constexpr double margin = 0.02;
 
@@ -47,7 +50,7 @@ Vec3 upwards(const Vec3& normal, const Vec3& up) {
     for (const double sign : {1., -1.}) {
       const Vec3 candidate = sign * Vec3::Unit(axis);
       const Vec3 projected = candidate - candidate.dot(normal) * normal;
-      if (projected.norm() < 0.5) continue;
+      if (projected.norm() < least_upright) continue;
       if (best.isZero() || flat.dot(projected) > flat.dot(best) + least_better) best = projected;
     }
   return best.normalized();
@@ -80,8 +83,9 @@ Map make_map(const SoundScene& scene, std::span<const int> surfaces,
 }
 
 /// Paints the exact direct light at pixel centres; returns the exposure.
-double paint_light(const SoundScene& scene, std::span<const int> surfaces, const Map& map,
-                   const Progress& progress, detail::LineCanvas& canvas) {
+double paint_light(const SoundScene& scene, const DirectLightIndex& index,
+                   std::span<const int> surfaces, const Map& map, const Progress& progress,
+                   detail::LineCanvas& canvas) {
   std::vector<std::size_t> pixels;
   std::vector<SurfacePoint> points;
   for (int y = 0; y < map.height; ++y)
@@ -90,19 +94,18 @@ double paint_light(const SoundScene& scene, std::span<const int> surfaces, const
       for (const int r : surfaces) {
         const Surface& surface = scene.surfaces[at(r)];
         const Vec2 q = surface.frame.to_plane(p);
-        if (!contains(surface, q)) continue;
+        if (!is_inside(surface.rings, q)) continue;
         pixels.push_back(at(y) * at(map.width) + at(x));
         points.push_back({surface.frame.to_space(q), surface.frame.normal});
         break;
       }
     }
-  const DirectLightIndex index(scene);
   const std::vector<DirectLight> light = index.irradiance(points, progress);
   std::vector<double> values;
   for (const DirectLight& value : light) values.push_back(value.irradiance.mean());
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
-  const double white = sorted.empty() ? 0 : sorted[(sorted.size() - 1) * 99 / 100];
+  const double white = sorted.empty() ? 0 : sorted[(sorted.size() - 1) * white_percentile / 100];
   const double exposure = white > 0 ? 1 / white : 1;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     // A root, as the eye judges brightness.
@@ -131,8 +134,9 @@ void check(const SoundScene& scene, std::span<const int> surfaces,
   const auto fail = [](const std::string& sentence) {
     throw Error(ErrorCode::contract, "draw_curves", sentence);
   };
-  if (options.pixels < 16 || options.pixels > 16384)
-    fail(fmt::format("{} pixels; they must be in 16 to 16384", options.pixels));
+  if (options.pixels < least_curve_pixels || options.pixels > most_pixels)
+    fail(fmt::format("{} pixels; they must be in {} to {}", options.pixels, least_curve_pixels,
+                     most_pixels));
   if (!(options.line_width > 0 && std::isfinite(options.line_width)))
     fail(fmt::format("a line width of {}; it must be positive", options.line_width));
   if (surfaces.empty()) fail("there are no surfaces to draw");
@@ -213,16 +217,16 @@ std::vector<int> picture_surfaces(const SoundScene& scene, const Discontinuities
   return group != scene.groups.end() ? neighbours_of(scene, first) : std::vector<int>{first};
 }
 
-Picture draw_curves(const SoundScene& scene, const Discontinuities& found,
-                    std::span<const int> surfaces, const CurvePictureOptions& options,
-                    const Progress& progress) {
+Picture draw_curves(const SoundScene& scene, const DirectLightIndex& light,
+                    const Discontinuities& found, std::span<const int> surfaces,
+                    const CurvePictureOptions& options, const Progress& progress) {
   check(scene, surfaces, options);
   const Map map = make_map(scene, surfaces, options);
   detail::LineCanvas canvas(map.width, map.height, detail::decode_srgb(page));
   Picture picture;
   picture.width = map.width;
   picture.height = map.height;
-  picture.exposure = paint_light(scene, surfaces, map, progress, canvas);
+  picture.exposure = paint_light(scene, light, surfaces, map, progress, canvas);
   draw_outlines(scene, surfaces, map, canvas);
   std::vector<const DiscontinuityCurve*> curves;
   for (const DiscontinuityCurve& curve : found.curves)

@@ -2,6 +2,7 @@
 
 #include "io/picture/picture.h"
 #include "meshing/discontinuity/discontinuity.h"
+#include "solver/direct/direct_light.h"
 
 #include <span>
 #include <string_view>
@@ -13,8 +14,10 @@ namespace halfshade {
 /// the literature draws them. Kind: contact red, face green, ev pink, eee yellow.
 enum class CurveColour { order, kind };
 
+inline constexpr int least_curve_pixels = 16;
+
 struct CurvePictureOptions {
-  int pixels = 500;         ///< of the longer side, 16…16384
+  int pixels = 500;         ///< of the longer side, least_curve_pixels…most_pixels
   double line_width = 1.5;  ///< pixels, > 0
   CurveColour colour = CurveColour::order;
   Vec3 up = Vec3::Zero();  ///< roughly upwards in the picture; zero: chosen from the plane
@@ -30,11 +33,11 @@ std::vector<int> picture_surfaces(const SoundScene& scene, const Discontinuities
 /// A map of surfaces in one plane, seen square from their front: in grey the exact direct light at
 /// the centre of each pixel, over it the discontinuity curves of all emitters, the lowest order on
 /// top. If stopped, pixels not reached are dark. `exposure` of the result is what makes W/m² linear
-/// display values. Throws Error(contract) for options out of range, no surfaces, or surfaces in
-/// different planes.
-Picture draw_curves(const SoundScene& scene, const Discontinuities& found,
-                    std::span<const int> surfaces, const CurvePictureOptions& options = {},
-                    const Progress& progress = {});
+/// display values. `light` must be of `scene`. Throws Error(contract) for options out of range, no
+/// surfaces, or surfaces in different planes.
+Picture draw_curves(const SoundScene& scene, const DirectLightIndex& light,
+                    const Discontinuities& found, std::span<const int> surfaces,
+                    const CurvePictureOptions& options = {}, const Progress& progress = {});
 
 /// Colours as bytes of sRGB.
 std::array<std::uint8_t, 3> curve_colour(const DiscontinuityCurve& curve, CurveColour by);

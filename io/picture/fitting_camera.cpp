@@ -10,6 +10,15 @@
 namespace halfshade {
 namespace {
 
+/// Sides that differ by less are not meant to differ.
+constexpr double same_side = 0.99;
+/// How much more a later direction must show to be taken: more than rounding does.
+constexpr double clearly_more = 1.01;
+/// The camera stands this much higher, and to the side, than straight in front.
+constexpr double rise = 0.4, aside = 0.25;
+/// Free space round the scene in the picture.
+constexpr double margin = 1.05;
+
 struct Box {
   Vec3 low, high;
 };
@@ -26,8 +35,8 @@ Box bounds(const ShadedMesh& mesh) {
 int up_axis(const Vec3& size) {
   int axis = 1;
   for (const int other : {2, 0})
-    // Sides that differ by less are not meant to differ: y wins, the habit of OBJ files.
-    if (size[other] < 0.99 * size[axis]) axis = other;
+    // Of equal sides y wins, the habit of OBJ files.
+    if (size[other] < same_side * size[axis]) axis = other;
   return axis;
 }
 
@@ -56,13 +65,12 @@ Vec3 choose_side(const ShadedMesh& mesh, const Vec3& up, double length) {
   const Vec3 side = up.cross(front);
   Vec3 best = Vec3::Zero();
   double most = -1;
-  for (const double height : {0.4, -0.4})
+  for (const double height : {rise, -rise})
     for (const Vec3& along : {front, side, Vec3(-side), Vec3(-front)}) {
       const Vec3 across = up.cross(along);
-      const Vec3 towards = (along + 0.25 * across + height * up).normalized();
+      const Vec3 towards = (along + aside * across + height * up).normalized();
       const double area = front_area(unit, towards);
-      // A later one must be clearly better, not by rounding.
-      if (area > 1.01 * most || most < 0) {
+      if (area > clearly_more * most || most < 0) {
         most = area;
         best = towards;
       }
@@ -84,7 +92,6 @@ Camera fitting_camera(const ShadedMesh& mesh) {
   const Vec3 towards = choose_side(mesh, camera.up, length);
   const Vec3 right = camera.up.cross(towards).normalized();
   const Vec3 top = towards.cross(right);
-  constexpr double margin = 1.05;
   const double slope = std::tan(camera.vertical_fov / 2 * std::numbers::pi / 180) / margin;
   const Vec3 centre = (box.low + box.high) / 2;
   double distance = 0;

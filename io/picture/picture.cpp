@@ -18,6 +18,12 @@ namespace {
 
 const Rgb background = Rgb::Constant(0.015);  // linear: a dark grey that is not black
 constexpr double line_opacity = 0.7;
+/// On elements that come out darker than this, edges are drawn light.
+constexpr double dark = 0.02, light_line = 0.1;
+/// The part of the headlight that comes from everywhere: surfaces seen edge-on do not turn black.
+constexpr double from_everywhere = 0.25;
+/// Rays along each side of the picture that the exposure is chosen from.
+constexpr int most_exposure_rays = 128;
 
 /// Directions of rays: forward + x·right + y·down at pixel coordinates (x, y), top left (0, 0).
 struct View {
@@ -40,24 +46,21 @@ View make_view(const Camera& camera, const PictureOptions& options) {
   return view;
 }
 
-/// A sine below which two directions count as parallel.
-constexpr double parallel = 1e-9;
-
 void check(const Camera& camera, const PictureOptions& options) {
   const auto fail = [](const std::string& sentence) {
     throw Error(ErrorCode::contract, "draw", sentence);
   };
-  constexpr int largest = 16384;
-  if (options.width < 1 || options.height < 1 || options.width > largest ||
-      options.height > largest)
+  if (options.width < 1 || options.height < 1 || options.width > most_pixels ||
+      options.height > most_pixels)
     fail(fmt::format("a picture of {} x {} pixels; each must be in 1 to {}", options.width,
-                     options.height, largest));
-  if (options.samples < 1 || options.samples > 1024)
-    fail(fmt::format("{} samples per pixel; they must be in 1 to 1024", options.samples));
+                     options.height, most_pixels));
+  if (options.samples < 1 || options.samples > most_samples)
+    fail(fmt::format("{} samples per pixel; they must be in 1 to {}", options.samples,
+                     most_samples));
   if (!(options.exposure >= 0 && std::isfinite(options.exposure)))
     fail(fmt::format("an exposure of {}; it must be finite and not negative", options.exposure));
   const Vec3 right = camera.direction.stableNormalized().cross(camera.up.stableNormalized());
-  if (!camera.position.allFinite() || !(right.norm() > parallel) ||
+  if (!camera.position.allFinite() || !(right.norm() > least_sine) ||
       !(camera.vertical_fov > 0 && camera.vertical_fov < 180))
     fail(fmt::format("camera '{}' has no use for its vectors or its field of view of {} degrees",
                      camera.name, camera.vertical_fov));
@@ -85,8 +88,8 @@ class Painter {
   double expose(const Progress& progress) {
     exposure_ = options_.exposure;
     if (exposure_ > 0) return exposure_;
-    constexpr int most = 128;
-    const int columns = std::min(options_.width, most), rows = std::min(options_.height, most);
+    const int columns = std::min(options_.width, most_exposure_rays);
+    const int rows = std::min(options_.height, most_exposure_rays);
     const auto count = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
     std::vector<Rgb> values(count, Rgb::Zero());
     std::vector<double> weights(count, 0);
@@ -142,8 +145,8 @@ class Painter {
     const auto [a, b, c] = corners(hit);
     const Vec3 normal =
         (b - a).stableNormalized().cross((c - a).stableNormalized()).stableNormalized();
-    // A part from everywhere keeps surfaces seen edge-on from turning black.
-    return value * (0.25 + 0.75 * std::abs(normal.dot(ray.stableNormalized())));
+    return value *
+           (from_everywhere + (1 - from_everywhere) * std::abs(normal.dot(ray.stableNormalized())));
   }
 
   /// Distance in pixels from where the ray hits to the nearest edge of the triangle, on the screen.
@@ -171,7 +174,7 @@ class Painter {
     if (options_.mesh_lines && pixels_to_edge(*hit, ray) < 0.5) {
       // Light on dark elements; one colour an element, lest it changes along an edge.
       const Rgb element = mesh_.triangle_radiosity[static_cast<std::size_t>(hit->triangle)];
-      const double line = tone_map(element, exposure_).maxCoeff() > 0.02 ? 0.0 : 0.1;
+      const double line = tone_map(element, exposure_).maxCoeff() > dark ? 0.0 : light_line;
       value = (1 - line_opacity) * value + line_opacity * line;
     }
     return value;

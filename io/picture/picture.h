@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/files/extension.h"
 #include "meshing/core/progress.h"
 #include "meshing/core/scene.h"
 #include "solver/pipeline/solve.h"
@@ -30,15 +31,24 @@ ShadedMesh shaded(const SolveResult& result);
 /// of their exitance.
 ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras);
 
+inline constexpr FileFormats shaded_formats = {"results to draw", {".vtu", ".vtp"}};
+
 /// Reads a .vtu or .vtp that write_result has written. Throws Error(invalid_input) for anything
 /// else, whatever is in the file.
 ShadedMesh read_shaded(const std::filesystem::path& path);
 
+/// Limits of what is drawn.
+inline constexpr int most_pixels = 16384;  ///< along either side
+inline constexpr int most_samples = 1024;  ///< a pixel
+/// Directions with a smaller sine between them count as parallel: a camera has no use for such a
+/// pair.
+inline constexpr double least_sine = 1e-9;
+
 enum class Shading { smooth, flat };
 
 struct PictureOptions {
-  int width = 800, height = 800;  ///< pixels, 1…16384
-  int samples = 16;               ///< rays per pixel, 1…1024; rounded up to a square
+  int width = 800, height = 800;  ///< pixels, 1…most_pixels
+  int samples = 16;               ///< rays per pixel, 1…most_samples; rounded up to a square
   double exposure = 0;  ///< factor from W/m² to [0,1] display values; 0: from the picture
   Shading shading = Shading::smooth;
   bool mesh_lines = false;  ///< draw the element edges
@@ -63,6 +73,8 @@ Camera fitting_camera(const ShadedMesh& mesh);
 /// black. Throws Error(contract) for options out of range or a camera that cannot be used.
 Picture draw(const ShadedMesh& mesh, const Camera& camera, const PictureOptions& options = {},
              const Progress& progress = {});
+
+inline constexpr FileFormats picture_formats = {"pictures", {".png"}};
 
 /// Throws Error(unwritable), or Error(usage) if the extension is not .png.
 void write_png(const Picture& picture, const std::filesystem::path& path);

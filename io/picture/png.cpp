@@ -1,11 +1,9 @@
 #include "io/files/atomic_file.h"
-#include "io/files/extension.h"
 #include "io/files/vtk_messages.h"
 #include "io/picture/picture.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>
-#include <vtkCommand.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -16,10 +14,7 @@
 namespace halfshade {
 
 void write_png(const Picture& picture, const std::filesystem::path& path) {
-  if (extension_of(path) != ".png")
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("pictures are written as .png, not as '{}'", path.extension().string()));
+  require_format(path, picture_formats);
   const auto row = static_cast<std::ptrdiff_t>(picture.width) * 3;
   if (picture.width < 1 || picture.height < 1 ||
       static_cast<std::ptrdiff_t>(picture.pixels.size()) != row * picture.height)
@@ -35,8 +30,7 @@ void write_png(const Picture& picture, const std::filesystem::path& path) {
 
   detail::VtkMessages messages;
   vtkNew<vtkPNGWriter> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, &messages, &detail::VtkMessages::record);
-  writer->AddObserver(vtkCommand::WarningEvent, &messages, &detail::VtkMessages::record);
+  messages.listen_to(writer);
   writer->SetInputData(image);
   writer->WriteToMemoryOn();
   writer->Write();

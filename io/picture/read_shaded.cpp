@@ -134,7 +134,7 @@ ShadedMesh read_shaded(const path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) reject(file, "this is a folder, not a file");
   const bool is_grid = extension_of(file) == ".vtu";
-  if (!is_grid && extension_of(file) != ".vtp")
+  if (!has_format(file, shaded_formats))
     reject(file, "only results written as .vtu or .vtp can be read");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) reject(file, "the file cannot be opened");

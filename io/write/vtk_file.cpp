@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 #include <vtkCellArray.h>
-#include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
@@ -56,8 +55,7 @@ template <class Writer, class Grid>
 std::string encode(Grid* grid, const char* caller) {
   VtkMessages messages;
   vtkNew<Writer> writer;
-  writer->AddObserver(vtkCommand::ErrorEvent, &messages, &VtkMessages::record);
-  writer->AddObserver(vtkCommand::WarningEvent, &messages, &VtkMessages::record);
+  messages.listen_to(writer);
   // Appended data, the default, comes out empty in ParaView builds with expat 2.5 and later.
   writer->SetDataModeToBinary();
   writer->SetCompressorTypeToZLib();
@@ -94,7 +92,6 @@ void add_strings(vtkFieldData* data, const char* name, const std::vector<std::st
   data->AddArray(array);
 }
 
-/// 0 lit, 1 penumbra, 2 umbra, 3 where no emitter lies above the horizon.
 std::vector<int> region_codes(const std::vector<Region>& regions) {
   std::vector<int> codes;
   codes.reserve(regions.size());
@@ -111,13 +108,25 @@ void add_element_data(const ElementTable& elements, vtkFieldData* data) {
   add_numbers(data, "quality", min_angles(elements));
 }
 
-vtkSmartPointer<vtkCellArray> triangles_of(const ElementTable& elements) {
-  const auto triangles = vtkSmartPointer<vtkCellArray>::New();
+vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements,
+                                          std::string_view extension) {
+  vtkNew<vtkCellArray> triangles;
   for (const auto& corners : elements.corners) {
     triangles->InsertNextCell(3);
     for (const int p : corners) triangles->InsertCellPoint(p);
   }
-  return triangles;
+  vtkSmartPointer<vtkPointSet> grid;
+  if (extension == ".vtu") {
+    vtkNew<vtkUnstructuredGrid> cells;
+    cells->SetCells(VTK_TRIANGLE, triangles);
+    grid = cells;
+  } else {
+    vtkNew<vtkPolyData> polygons;
+    polygons->SetPolys(triangles);
+    grid = polygons;
+  }
+  set_points(grid, elements.points);
+  return grid;
 }
 
 void add_run(vtkFieldData* data, const RunData& run, const Provenance& provenance) {

@@ -6,9 +6,9 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-class vtkCellArray;
 class vtkFieldData;
 class vtkPointSet;
 
@@ -29,7 +29,8 @@ std::vector<int> region_codes(const std::vector<Region>& regions);
 /// Cell data face, group, material, surface, level and quality.
 void add_element_data(const ElementTable& elements, vtkFieldData* data);
 
-vtkSmartPointer<vtkCellArray> triangles_of(const ElementTable& elements);
+/// Points and triangles, without data: an unstructured grid for ".vtu", poly data for ".vtp".
+vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements, std::string_view extension);
 
 /// What every run leaves in the field data.
 struct RunData {

@@ -1,7 +1,6 @@
 #include "io/write/write_curves.h"
 
 #include "io/files/atomic_file.h"
-#include "io/files/extension.h"
 #include "io/write/vtk_file.h"
 #include "meshing/core/error.h"
 
@@ -129,14 +128,10 @@ double jump_at(const DiscontinuityCurve& curve, double s) {
   return finite(low >= 0 ? std::max(value, 0.) : high <= 0 ? std::min(value, 0.) : value);
 }
 
-bool is_curves_path(const std::filesystem::path& path) { return extension_of(path) == ".vtp"; }
-
 void write_curves(const SoundScene& scene, const Discontinuities& found, const std::string& unit,
                   const Provenance& provenance, const std::filesystem::path& path,
                   const CurveFileOptions& options) {
-  if (!is_curves_path(path))
-    throw Error(ErrorCode::usage, path.string(),
-                fmt::format("curves are written as .vtp, not as '{}'", path.extension().string()));
+  require_format(path, curve_formats);
   if (!(options.deviation > 0))
     throw Error(ErrorCode::contract, "write_curves",
                 fmt::format("the deviation ({}) must be positive", options.deviation));

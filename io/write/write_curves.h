@@ -8,6 +8,8 @@
 
 namespace halfshade {
 
+inline constexpr FileFormats curve_formats = {"curves", {".vtp"}};
+
 struct CurveFileOptions {
   /// Largest distance of a polyline from its conic, as a share of the surface's size; > 0.
   double deviation = 1e-4;
@@ -15,9 +17,9 @@ struct CurveFileOptions {
 
 /// Writes discontinuity curves as polylines in space (.vtp: VTK XML, inline binary, compressed),
 /// one cell a curve, in the order of `found`, each seen from the front of its surface.
-/// Cell data: kind (0 contact, 1 face, 2 ev, 3 eee), order, emitter and surface (ids as in the
-/// result files), emitter_group and group, jump (in the middle, of the order-th derivative from
-/// right to left, W/m² per length^order), length, source_count, and of the first source
+/// Cell data: kind (0 contact, 1 face, 2 ev, 3 eee), order, emitter and receiver (surfaces' ids as
+/// in the result files), emitter_group and group, jump (in the middle, of the order-th derivative
+/// from right to left, W/m² per length^order), length, source_count, and of the first source
 /// feature_kinds (0 emitter vertex, 1 emitter edge, 2 vertex, 3 edge, 4 face; 3 components, −1
 /// where there is none) and feature_ids. Point data: jump. Field data: version, command_line, unit,
 /// kind_names, feature_kind_names, group_names, interrupted. Jumps beyond the range of floats are
@@ -26,9 +28,6 @@ struct CurveFileOptions {
 void write_curves(const SoundScene& scene, const Discontinuities& found, const std::string& unit,
                   const Provenance& provenance, const std::filesystem::path& path,
                   const CurveFileOptions& options = {});
-
-/// True if write_curves knows the extension of `path`.
-bool is_curves_path(const std::filesystem::path& path);
 
 /// "contact", "face", "ev" or "eee".
 const char* name_of(CurveKind kind);

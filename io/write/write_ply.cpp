@@ -1,6 +1,6 @@
-#include "io/files/little_endian.h"
 #include "io/picture/tone_map.h"
-#include "io/write/result_formats.h"
+#include "io/write/ply_file.h"
+#include "io/write/result_bytes.h"
 #include "meshing/core/error.h"
 #include "solver/elements/vertex_values.h"
 
@@ -31,11 +31,7 @@ double exposure_for(const SolveResult& result) {
 
 std::string header(const SolveResult& result, const Provenance& provenance, double exposure) {
   return fmt::format(
-      "ply\n"
-      "format binary_little_endian 1.0\n"
-      "comment halfshade {}\n"
-      "comment command line: {}\n"
-      "comment unit: {}\n"
+      "{}"
       "comment exposure: {} (colours are the tone-mapped radiosity_r, _g, _b times this)\n"
       "{}"
       "element vertex {}\n"
@@ -45,8 +41,8 @@ std::string header(const SolveResult& result, const Provenance& provenance, doub
       "element face {}\n"
       "property list uchar int vertex_indices\n"
       "end_header\n",
-      one_line(provenance.version), one_line(provenance.command_line), one_line(result.unit),
-      exposure, result.interrupted ? "comment interrupted: the solution is not complete\n" : "",
+      ply_head(provenance, result.unit), exposure,
+      result.interrupted ? "comment interrupted: the solution is not complete\n" : "",
       result.elements.points.size(), result.elements.count());
 }
 
@@ -68,10 +64,7 @@ std::string ply_bytes(const SolveResult& result, const Provenance& provenance) {
     for (const std::uint8_t c : encode_srgb(tone_map(value, exposure))) put(bytes, c);
     for (const double v : value) put(bytes, to_float(v));
   }
-  for (const auto& corners : result.elements.corners) {
-    put(bytes, std::uint8_t{3});
-    for (const int p : corners) put(bytes, static_cast<std::int32_t>(p));
-  }
+  for (const auto& corners : result.elements.corners) put_triangle(bytes, corners);
   return bytes;
 }
 

@@ -1,7 +1,6 @@
 #include "io/write/write_points.h"
 
 #include "io/files/atomic_file.h"
-#include "io/files/extension.h"
 #include "io/write/vtk_file.h"
 #include "meshing/core/error.h"
 
@@ -62,20 +61,13 @@ std::string vtp_bytes(const PointTable& table, std::span<const DirectLight> ligh
 
 }  // namespace
 
-bool is_points_path(const fs::path& path) {
-  return extension_of(path) == ".csv" || extension_of(path) == ".vtp";
-}
-
 void write_points(const PointTable& table, std::span<const DirectLight> light,
                   const Provenance& provenance, const fs::path& path) {
   if (light.size() > table.points.size())
     throw Error(
         ErrorCode::contract, "write_points",
         fmt::format("there are {} points but {} results", table.points.size(), light.size()));
-  if (!is_points_path(path))
-    throw Error(
-        ErrorCode::usage, path.string(),
-        fmt::format("the extension '{}' is none of .csv and .vtp", path.extension().string()));
+  require_format(path, point_formats);
   write_atomically(path, extension_of(path) == ".csv" ? csv_bytes(table, light)
                                                       : vtp_bytes(table, light, provenance));
 }

@@ -8,6 +8,8 @@
 
 namespace halfshade {
 
+inline constexpr FileFormats point_formats = {"points", {".csv", ".vtp"}};
+
 /// Writes points with the light at each, by extension. `light` may be shorter than the table: what
 /// comes after was not computed and is left out.
 /// * .csv: the rows of the table followed by H_r, H_g, H_b (irradiance in W/m²) and visible, with
@@ -17,8 +19,5 @@ namespace halfshade {
 /// Throws Error(usage) for another extension, Error(unwritable) if it cannot be written.
 void write_points(const PointTable& table, std::span<const DirectLight> light,
                   const Provenance& provenance, const std::filesystem::path& path);
-
-/// True if write_points knows the extension of `path`.
-bool is_points_path(const std::filesystem::path& path);
 
 }  // namespace halfshade

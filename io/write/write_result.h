@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/files/extension.h"
 #include "solver/pipeline/solve.h"
 
 #include <filesystem>
@@ -14,6 +15,8 @@ struct Provenance {
   std::string command_line;
 };
 
+inline constexpr FileFormats result_formats = {"results", {".vtu", ".vtp", ".ply"}};
+
 /// Writes a solved scene by extension: .vtu, .vtp (VTK XML, inline binary, compressed) or .ply.
 /// VTK cell data: radiosity, irradiance, direct_irradiance, exitance, reflectance (3 components);
 /// error_estimate, order, region (0 lit, 1 penumbra, 2 umbra, 3 no emitter above the horizon; left
@@ -25,8 +28,5 @@ struct Provenance {
 /// Error(unwritable) if it cannot be written.
 void write_result(const SolveResult& result, const Provenance& provenance,
                   const std::filesystem::path& path);
-
-/// True if write_result knows the extension of `path`.
-bool is_result_path(const std::filesystem::path& path);
 
 }  // namespace halfshade

@@ -1,14 +1,11 @@
-#include "io/write/result_formats.h"
+#include "io/write/result_bytes.h"
 #include "io/write/vtk_file.h"
 #include "solver/elements/vertex_values.h"
 
-#include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
-#include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkUnstructuredGrid.h>
+#include <vtkPointSet.h>
 
 namespace halfshade::detail {
 namespace {
@@ -34,30 +31,17 @@ void add_field_data(const SolveResult& result, const Provenance& provenance, vtk
   add_numbers(data, "achieved_error", {result.relative_error});
 }
 
-void fill(vtkPointSet* grid, const SolveResult& result, const Provenance& provenance) {
-  set_points(grid, result.elements.points);
-  add_cell_data(result, grid->GetCellData());
-  const Solution& solution = result.solution;
-  add_channels(grid->GetPointData(), "radiosity",
-               values_at_points(result.elements, solution.radiosity));
-  add_channels(grid->GetPointData(), "irradiance",
-               values_at_points(result.elements, solution.irradiance));
-  add_field_data(result, provenance, grid->GetFieldData());
-}
-
 }  // namespace
 
-std::string vtu_bytes(const SolveResult& result, const Provenance& provenance) {
-  vtkNew<vtkUnstructuredGrid> grid;
-  grid->SetCells(VTK_TRIANGLE, triangles_of(result.elements));
-  fill(grid, result, provenance);
-  return vtk_bytes(grid, "write_result");
-}
-
-std::string vtp_bytes(const SolveResult& result, const Provenance& provenance) {
-  vtkNew<vtkPolyData> grid;
-  grid->SetPolys(triangles_of(result.elements));
-  fill(grid, result, provenance);
+std::string vtk_bytes(const SolveResult& result, const Provenance& provenance,
+                      std::string_view extension) {
+  const auto grid = element_grid(result.elements, extension);
+  add_cell_data(result, grid->GetCellData());
+  const Solution& solution = result.solution;
+  vtkFieldData* points = grid->GetPointData();
+  add_channels(points, "radiosity", values_at_points(result.elements, solution.radiosity));
+  add_channels(points, "irradiance", values_at_points(result.elements, solution.irradiance));
+  add_field_data(result, provenance, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
 }
 

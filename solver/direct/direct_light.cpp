@@ -125,12 +125,13 @@ PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint
 }  // namespace
 
 struct DirectLightIndex::Impl {
-  OpaqueScene opaque;
+  std::shared_ptr<const OpaqueScene> opaque;
   std::vector<Target> targets;  // by surface
   std::vector<int> emitters;
   WorkerPool pool;
 
-  explicit Impl(const SoundScene& scene) : opaque(scene), pool(opaque) {
+  Impl(const SoundScene& scene, std::shared_ptr<const OpaqueScene> shared)
+      : opaque(std::move(shared)), pool(*opaque) {
     for (const Surface& surface : scene.surfaces) {
       targets.push_back(make_target(scene, surface));
       if (targets.back().strength > 0) emitters.push_back(static_cast<int>(targets.size()) - 1);
@@ -165,7 +166,10 @@ struct DirectLightIndex::Impl {
 };
 
 DirectLightIndex::DirectLightIndex(const SoundScene& scene)
-    : impl_(std::make_unique<Impl>(scene)) {}
+    : DirectLightIndex(scene, std::make_shared<const OpaqueScene>(scene)) {}
+DirectLightIndex::DirectLightIndex(const SoundScene& scene,
+                                   std::shared_ptr<const OpaqueScene> opaque)
+    : impl_(std::make_unique<Impl>(scene, std::move(opaque))) {}
 DirectLightIndex::~DirectLightIndex() = default;
 DirectLightIndex::DirectLightIndex(DirectLightIndex&&) noexcept = default;
 DirectLightIndex& DirectLightIndex::operator=(DirectLightIndex&&) noexcept = default;
@@ -216,6 +220,16 @@ std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoi
                },
                progress, "direct light");
   return light;
+}
+
+std::vector<SurfacePoint> element_centres(const ElementTable& elements) {
+  std::vector<SurfacePoint> centres;
+  centres.reserve(elements.corners.size());
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto [a, b, c] = elements.triangle(e);
+    centres.push_back({(a + b + c) / 3, elements.normal[at(e)]});
+  }
+  return centres;
 }
 
 ElementDirectLight element_direct_light(const SoundScene& scene, const ElementTable& elements,

@@ -48,6 +48,8 @@ struct DirectLight {
 class DirectLightIndex {
  public:
   explicit DirectLightIndex(const SoundScene& scene);
+  /// On an opaque scene that others use, too; `opaque` must be made of `scene`.
+  DirectLightIndex(const SoundScene& scene, std::shared_ptr<const OpaqueScene> opaque);
   ~DirectLightIndex();
   DirectLightIndex(DirectLightIndex&&) noexcept;
   DirectLightIndex& operator=(DirectLightIndex&&) noexcept;
@@ -77,6 +79,9 @@ class DirectLightIndex {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// The centroid of each element, for exact light there.
+std::vector<SurfacePoint> element_centres(const ElementTable& elements);
 
 /// Direct light on the elements of a mesh, per unit of exitance.
 struct ElementDirectLight {

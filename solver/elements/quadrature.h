@@ -4,15 +4,6 @@
 
 namespace halfshade {
 
-/// A node in [0,1] and its weight; weights of a rule sum to 1.
-struct LineNode {
-  double x, weight;
-};
-
-/// Gauss–Legendre rule with n nodes on [0,1], 1 ≤ n ≤ 16: exact for polynomials of degree 2n − 1.
-/// Throws Error(contract) for other n.
-std::span<const LineNode> gauss_rule(int n);
-
 /// Barycentric coordinates u, v (and 1 − u − v) of a node and its weight; weights sum to 1.
 struct TriangleNode {
   double u, v, weight;

@@ -10,6 +10,11 @@ namespace {
 constexpr int max_newton_steps = 50;
 /// Row sums this close to their areas are as good as rounding lets them be.
 constexpr double closed_enough = 1e-13;
+/// Once rounding keeps the error from falling, up to this many times that is closed, too.
+constexpr double patience = 10;
+/// Of a Newton step; Newton's own convergence makes up for the rest.
+constexpr double step_tolerance = 1e-6;
+constexpr int max_step_iterations = 500;
 /// Beyond this the scaling would no longer be a correction.
 constexpr double largest_step = 1;
 
@@ -37,7 +42,7 @@ bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area,
     const Eigen::VectorXd sums = s.cwiseProduct(multiply(matrix, s));
     const Eigen::VectorXd residual = free * (sums.array() - area);
     const double error = (residual.array() / area).abs().maxCoeff();
-    if (error <= closed_enough || (error <= 10 * closed_enough && error >= previous_error)) {
+    if (error <= closed_enough || (error <= patience * closed_enough && error >= previous_error)) {
       scale_both_sides(matrix, s);
       return true;
     }
@@ -47,8 +52,8 @@ bool enforce_closure(ExchangeMatrix& matrix, const Eigen::ArrayXd& area,
     const Eigen::VectorXd root = sums.array().sqrt() + (1 - free);
     const ScaledOperator jacobian(matrix, free * s.array() / root.array(), 1);
     ConjugateGradients cg(jacobian);
-    cg.setTolerance(1e-6);  // Newton's own convergence makes up for the rest
-    cg.setMaxIterations(500);
+    cg.setTolerance(step_tolerance);
+    cg.setMaxIterations(max_step_iterations);
     Eigen::VectorXd du = -cg.solve(residual.cwiseQuotient(root)).cwiseQuotient(root);
     const double size = du.cwiseAbs().maxCoeff();
     if (!std::isfinite(size)) return false;

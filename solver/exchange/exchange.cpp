@@ -22,9 +22,11 @@ namespace {
 
 /// Rays for a pair lie between a quarter of the number asked for and four times that.
 constexpr double ray_spread = 4;
+/// Errors below this share of the tolerance times the smaller element's squared size do not matter.
+constexpr double negligible = 0.01;
 /// The part of the machine's memory that a matrix may fill.
 constexpr double memory_share = 0.7;
-/// A non-zero of the matrix (12 bytes) and of the half of it that is held before (16 bytes).
+/// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
 constexpr double bytes_per_factor = 20;
 
 struct Factor {
@@ -84,7 +86,7 @@ double unobstructed(const Shape& a, const Shape& b, double tolerance, double mar
     return mutual_area_by_rule(outer.end.triangle, outer.end.normal, inner.end.triangle, degree);
   FormFactorOptions options;
   options.tolerance = tolerance;
-  options.floor = 0.01 * tolerance * outer.radius * outer.radius;
+  options.floor = negligible * tolerance * outer.radius * outer.radius;
   return std::max(0., mutual_area(outer.end.triangle, inner.end.triangle, options).value);
 }
 

@@ -12,6 +12,9 @@
 namespace halfshade {
 namespace {
 
+/// The residual is computed anew in the end; rounding may make it this many times the iteration's.
+constexpr double residual_slack = 10;
+
 /// One channel of the problem.
 struct Channel {
   Eigen::VectorXd rho, exitance, direct_irradiance;
@@ -138,7 +141,8 @@ Solution solve_radiosity(const Exchange& exchange, const ChannelArray& rho,
     } else {
       require_somewhere_to_go(exchange, channel);
       part = solve_channel(exchange, channel, options, channel_report);
-      report.converged = report.converged && channel_report.residual <= 10 * options.tolerance;
+      report.converged =
+          report.converged && channel_report.residual <= residual_slack * options.tolerance;
     }
     balance_power(exchange, channel, part, channel_report);
     solution.radiosity.col(c) = part.radiosity.array();

@@ -10,6 +10,8 @@
 
 namespace halfshade {
 
+class PreparedScene;
+
 struct MeshOptions {
   DiscontinuityOptions events;
   int secondary = 0;  ///< how many of the brightest reflecting surfaces count as light sources, too
@@ -20,7 +22,7 @@ struct MeshOptions {
   bool with_elements = true;  ///< false: find the curves only
 };
 
-/// A scene cut along the lines where its light breaks, not solved.
+/// A scene cut along the curves where its light breaks, not solved.
 struct MeshResult {
   SoundScene scene;
   std::vector<Camera> cameras;
@@ -41,23 +43,8 @@ struct MeshResult {
 MeshResult mesh_scene(const Scene& scene, const MeshOptions& options = {},
                       const Progress& progress = {});
 
-/// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
-/// them (strongest channel), from one exact value at each of about 2000 places. What relative
-/// tolerances refer to. W/m²; 0 if nothing is reached.
-double mean_direct_irradiance(const SoundScene& scene, const Progress& progress = {});
-
-/// The `count` surfaces that reflect most power in a solution on a coarse mesh, brightest power
-/// first, emitters not among them; their exitance is what they reflect (mean of the surface,
-/// strongest channel).
-std::vector<LightSource> secondary_sources(const Scene& scene, int count,
-                                           const Progress& progress = {});
-
-/// What to find discontinuities of: emitters and secondary sources.
-std::vector<LightSource> all_sources(const Scene& scene, const SoundScene& sound, int secondary,
-                                     const Progress& progress = {});
-
-/// True if every surface lies in front of every other, as in an empty room: nothing can hide a
-/// part of anything from anywhere.
-bool is_convex(const SoundScene& scene);
+/// The same for a scene that others use, too.
+MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options = {},
+                      const Progress& progress = {});
 
 }  // namespace halfshade

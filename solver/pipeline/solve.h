@@ -6,8 +6,7 @@
 #include "meshing/patches/discontinuity_mesh.h"
 #include "meshing/patches/element_table.h"
 #include "solver/elements/solution.h"
-#include "solver/exchange/exchange.h"
-#include "solver/linear/radiosity.h"
+#include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
 
 #include <cstddef>
@@ -16,27 +15,7 @@
 
 namespace halfshade {
 
-enum class DirectLightBy {
-  automatic,  ///< exact, unless emitters are most of the scene, as in a furnace
-  exact,      ///< closed forms on exactly visible parts at points of each element
-  matrix      ///< the same form factors as reflected light
-};
-
-struct SolveOptions {
-  int elements =
-      8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
-  double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
-  int max_elements = 40000;     ///< refuse to make more; memory grows with the square
-  bool discontinuities = true;  ///< mesh along the lines where the light breaks
-  DiscontinuityOptions events;  ///< which lines to look for
-  int secondary = 0;  ///< look for those of this many of the brightest reflecting surfaces, too
-  /// Lines whose effect on the irradiance is below this share of its mean are left out.
-  double tolerance = 0.01;
-  DirectLightBy direct_light = DirectLightBy::automatic;
-  int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
-  ExchangeOptions exchange;
-  RadiosityOptions radiosity;
-};
+class PreparedScene;
 
 /// A solved scene and how it came about.
 struct SolveResult {
@@ -60,6 +39,10 @@ struct SolveResult {
 /// solves for radiosity. Preconditions: the scene is valid and has an emitter. Throws
 /// Error(invalid_input) and Error(too_large). Deterministic for any number of threads.
 SolveResult solve(const Scene& scene, const SolveOptions& options = {},
+                  const Progress& progress = {});
+
+/// The same for a scene that others use, too.
+SolveResult solve(const PreparedScene& prepared, const SolveOptions& options = {},
                   const Progress& progress = {});
 
 }  // namespace halfshade

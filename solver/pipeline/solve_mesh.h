@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/patches/discontinuity_mesh.h"
-#include "solver/pipeline/solve.h"
+#include "solver/pipeline/solve_options.h"
 
 namespace halfshade {
 

@@ -23,13 +23,11 @@ void add_grid(const Surface& surface, double spacing, std::vector<SurfacePoint>&
   const Vec2 first = box.center() - 0.5 * spacing * (cells - 1).matrix();
   for (int j = 0; j < static_cast<int>(cells.y()); ++j)
     for (int i = 0; i < static_cast<int>(cells.x()); ++i)
-      if (const Vec2 p = first + spacing * Vec2(i, j); contains(surface, p))
+      if (const Vec2 p = first + spacing * Vec2(i, j); is_inside(surface.rings, p))
         points.push_back({surface.frame.to_space(p), surface.frame.normal});
 }
 
 }  // namespace
-
-bool contains(const Surface& surface, const Vec2& p) { return is_inside(surface.rings, p); }
 
 std::vector<SurfacePoint> surface_grid(const SoundScene& scene, std::string_view name,
                                        double spacing) {

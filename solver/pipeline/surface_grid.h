@@ -15,8 +15,4 @@ namespace halfshade {
 std::vector<SurfacePoint> surface_grid(const SoundScene& scene, std::string_view name,
                                        double spacing);
 
-/// True if a point in the surface's frame lies in the polygon and in none of its holes (even–odd
-/// rule); on the border either answer may come out.
-bool contains(const Surface& surface, const Vec2& p);
-
 }  // namespace halfshade

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "tests/support/files.h"
+
 #include <array>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
@@ -20,13 +20,6 @@ struct Outcome {
   int exit_code = -1;  ///< −1 if a signal ended it
   std::string out, err;
 };
-
-inline std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 /// Runs `arguments` (the program first) in `folder`, which must exist, and collects what it prints.
 /// Sends SIGINT after `interrupt_after` if that is positive.

@@ -82,4 +82,21 @@ inline Scene l_room(bool with_obstruction) {
   return scene;
 }
 
+/// A unit cube whose ceiling (face 5) emits; reflectances by face.
+inline Scene lit_cube(const std::array<double, 6>& rho) {
+  std::array<std::pair<double, double>, 6> faces;
+  for (std::size_t f = 0; f < 6; ++f) faces[f] = {rho[f], f == 5 ? 1. : 0.};
+  return room({1, 1, 1}, faces);
+}
+
+/// A floor of 2 × 2 at z = 0, below it nothing; a light of 1 × 1 at z = 2; a table at z = 1.
+inline Scene table_scene() {
+  Scene scene;
+  const int dark = add_material(scene, 0.5, 0), light = add_material(scene, 0, 1);
+  add_polygon(scene, {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, dark);
+  add_polygon(scene, {{-.5, -.5, 2}, {-.5, .5, 2}, {.5, .5, 2}, {.5, -.5, 2}}, light);
+  add_polygon(scene, {{-.25, -.25, 1}, {.25, -.25, 1}, {.25, .25, 1}, {-.25, .25, 1}}, dark);
+  return scene;
+}
+
 }  // namespace halfshade::test

@@ -1,8 +1,6 @@
 #include "io/files/atomic_file.h"
 
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 

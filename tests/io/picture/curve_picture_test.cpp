@@ -41,7 +41,7 @@ class CurvePicture : public testing::Test {
     CurvePictureOptions options = given;
     options.pixels = pixels;
     const std::vector<int> floor = {2};
-    return draw_curves(scene_, found_, floor, options);
+    return draw_curves(scene_, DirectLightIndex(scene_), found_, floor, options);
   }
   /// The pixel where a point of the floor in its frame's coordinates is.
   static Bytes at(const Picture& picture, const SoundScene& scene, const Vec2& q) {
@@ -101,7 +101,7 @@ TEST_F(CurvePicture, OnlyLinesAreColoured) {
 TEST_F(CurvePicture, TheGroundIsTheExactLight) {
   Discontinuities none;
   const std::vector<int> floor = {2};
-  const Picture picture = draw_curves(scene_, none, floor, {});
+  const Picture picture = draw_curves(scene_, DirectLightIndex(scene_), none, floor, {});
   const auto grey = [&](double x, double y) {
     const double scale = 500 / (1.04 * side);
     return int{pixel(picture, static_cast<int>(250 + (x - centre) * scale),
@@ -142,7 +142,7 @@ TEST_F(CurvePicture, ALongSurfaceMakesALongPicture) {
   test::add_surface(scene, {{{0, 0, 0}, {4, 0, 0}, {4, 1, 0}, {0, 1, 0}}}, 0);
   test::add_surface(scene, {{{1, 0, 1}, {1, 1, 1}, {2, 1, 1}}}, 1);
   const std::vector<int> floor = {0};
-  const Picture picture = draw_curves(scene, {}, floor, {.pixels = 208});
+  const Picture picture = draw_curves(scene, DirectLightIndex(scene), {}, floor, {.pixels = 208});
   EXPECT_EQ(picture.width, 208);
   EXPECT_EQ(picture.height, 58);  // 200 pixels are 4 units; 50 + 2 × 4
 }
@@ -165,13 +165,14 @@ TEST(PictureSurfaces, AreFoundByNameNumberOrCurves) {
 
 TEST(DrawCurves, RefusesWhatItCannotDraw) {
   const SoundScene scene = test::s1();
+  const DirectLightIndex light(scene);
   const std::vector<int> none, floor = {2}, two = {1, 2}, wrong = {3};
   for (const auto& [surfaces, options] : {std::pair(none, CurvePictureOptions{}),
                                           {two, CurvePictureOptions{}},
                                           {wrong, CurvePictureOptions{}},
                                           {floor, CurvePictureOptions{.pixels = 15}},
                                           {floor, CurvePictureOptions{.line_width = 0}}})
-    test::expect_error([&, &r = surfaces, &o = options] { draw_curves(scene, {}, r, o); },
+    test::expect_error([&, &r = surfaces, &o = options] { draw_curves(scene, light, {}, r, o); },
                        ErrorCode::contract, {"draw_curves"});
 }
 
@@ -179,7 +180,9 @@ TEST(DrawCurves, StopsWithAPictureOfTheRightSize) {
   std::stop_source stop;
   stop.request_stop();
   const std::vector<int> floor = {2};
-  const Picture picture = draw_curves(test::s1(), {}, floor, {}, {stop.get_token(), {}});
+  const SoundScene scene = test::s1();
+  const Picture picture =
+      draw_curves(scene, DirectLightIndex(scene), {}, floor, {}, {stop.get_token(), {}});
   EXPECT_EQ(picture.pixels.size(), static_cast<std::size_t>(3 * picture.width * picture.height));
 }
 

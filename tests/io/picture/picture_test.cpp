@@ -3,11 +3,9 @@
 #include "io/files/atomic_file.h"
 #include "io/write/write_result.h"
 #include "meshing/repair/repair.h"
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
+#include "tests/support/files.h"
 #include "tests/support/sample_result.h"
 #include "tests/support/scenes.h"
-#include "tests/support/temp_dir.h"
 
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>

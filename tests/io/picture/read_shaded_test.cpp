@@ -1,11 +1,8 @@
 #include "io/files/seal.h"
 #include "io/picture/picture.h"
-#include "io/write/result_formats.h"
 #include "io/write/write_result.h"
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
+#include "tests/support/files.h"
 #include "tests/support/sample_result.h"
-#include "tests/support/temp_dir.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 #include "io/read/read_scene.h"
-#include "tests/support/expect_error.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/files.h"
 
 #include <gmock/gmock.h>
 #include <string>

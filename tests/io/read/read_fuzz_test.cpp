@@ -3,7 +3,7 @@
 
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 

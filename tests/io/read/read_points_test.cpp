@@ -1,16 +1,8 @@
 #include "io/read/read_points.h"
 
-#include "io/write/write_points.h"
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
-#include "tests/support/temp_dir.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
-#include <vtkDataArray.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPolyData.h>
-#include <vtkXMLPolyDataReader.h>
 
 #include <fstream>
 
@@ -82,58 +74,6 @@ TEST_F(Points, RefuseTablesThatMakeNoSense) {
   refuse("x,y,z,nx,ny,nz\n1,2,3,0,0,1\n1,2,3,0,0,0\n", {"p.csv:3", "point 2", "length zero"});
   test::expect_error([&] { read_points(folder() / "none.csv"); }, ErrorCode::invalid_input,
                      {"none.csv"});
-}
-
-std::vector<DirectLight> some_light() {
-  DirectLight a, b;
-  a.irradiance = {1. / 3, 0, 2e-7};
-  a.visible = 0.1;
-  a.region = Region::penumbra;
-  b.irradiance = {1, 2, 3};
-  return {a, b};
-}
-
-TEST_F(Points, AreWrittenWithAllDigitsBesideTheirRows) {
-  const PointTable table = read("id;x;y;z;nx;ny;nz\na b;1;2;3;0;0;2\nc;1;2;4;0;0;2\n");
-  write_points(table, some_light(), {"1", "probe"}, folder() / "o.csv");
-  EXPECT_EQ(test::contents(folder() / "o.csv"),
-            "id;x;y;z;nx;ny;nz;H_r;H_g;H_b;visible\n"
-            "a b;1;2;3;0;0;2;0.3333333333333333;0;2e-07;0.1\n"
-            "c;1;2;4;0;0;2;1;2;3;1\n");
-}
-
-TEST_F(Points, NotReachedAreLeftOut) {
-  const PointTable table = point_table({{{1, 2, 3}, Vec3::UnitZ()}, {{4, 5, 6}, Vec3::UnitZ()}});
-  const std::vector<DirectLight> light = some_light();
-  write_points(table, std::span(light).first(1), {}, folder() / "o.csv");
-  const std::string text = test::contents(folder() / "o.csv");
-  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
-}
-
-TEST_F(Points, AreWrittenForParaView) {
-  const PointTable table = point_table({{{1, 2, 0.1}, Vec3::UnitZ()}, {{4, 5, 6}, Vec3::UnitX()}});
-  write_points(table, some_light(), {"1", "probe"}, folder() / "o.vtp");
-  vtkNew<vtkXMLPolyDataReader> reader;
-  reader->SetFileName((folder() / "o.vtp").c_str());
-  reader->Update();
-  vtkPolyData* grid = reader->GetOutput();
-  ASSERT_EQ(grid->GetNumberOfPoints(), 2);
-  EXPECT_EQ(grid->GetNumberOfVerts(), 2);
-  EXPECT_EQ(grid->GetPoint(0)[2], 0.1);
-  EXPECT_EQ(grid->GetPointData()->GetArray("irradiance")->GetComponent(0, 0), 1. / 3);
-  EXPECT_EQ(grid->GetPointData()->GetArray("visible")->GetComponent(0, 0), 0.1);
-  EXPECT_EQ(grid->GetPointData()->GetArray("region")->GetComponent(0, 0), 1);
-  EXPECT_EQ(grid->GetPointData()->GetArray("normal")->GetComponent(1, 0), 1);
-}
-
-TEST_F(Points, AreNotWrittenToUnknownPlaces) {
-  const PointTable table = point_table({{{1, 2, 3}, Vec3::UnitZ()}, {{4, 5, 6}, Vec3::UnitZ()}});
-  test::expect_error([&] { write_points(table, some_light(), {}, folder() / "o.txt"); },
-                     ErrorCode::usage, {"o.txt", ".csv"});
-  test::expect_error([&] { write_points(table, some_light(), {}, folder() / "none" / "o.csv"); },
-                     ErrorCode::unwritable, {"o.csv"});
-  EXPECT_TRUE(is_points_path("a.vtp"));
-  EXPECT_FALSE(is_points_path("a.vtu"));
 }
 
 }  // namespace

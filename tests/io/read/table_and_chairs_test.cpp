@@ -3,16 +3,14 @@
 #include "solver/direct/direct_light.h"
 #include "tests/support/analytic.h"
 #include "tests/support/discontinuity_scenes.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
 namespace halfshade {
 namespace {
 
-SoundScene load() {
-  return make_sound(
-      read_scene(std::filesystem::path(HALFSHADE_DATA) / "table_and_chairs.obj").scene);
-}
+SoundScene load() { return make_sound(read_scene(test::data_file("table_and_chairs.obj")).scene); }
 
 TEST(TableAndChairs, FileHasTheSceneOfTheTests) {
   const SoundScene read = load(), built = test::table_and_chairs_maker().sound();

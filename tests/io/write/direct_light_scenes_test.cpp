@@ -2,6 +2,7 @@
 #include "meshing/repair/repair.h"
 #include "solver/direct/direct_light.h"
 #include "tests/support/analytic.h"
+#include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 const Vec3 up = Vec3::UnitZ();
 
 SoundScene load(const std::string& name) {
-  return make_sound(read_scene(std::filesystem::path(HALFSHADE_DATA) / (name + ".obj")).scene);
+  return make_sound(read_scene(test::data_file(name + ".obj")).scene);
 }
 
 /// Form factor from a point below, looking up, to [x0,x1] × [y0,y1] at height c, all relative to

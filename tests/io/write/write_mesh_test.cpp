@@ -1,11 +1,10 @@
 #include "io/write/write_mesh.h"
 
 #include "io/write/write_curves.h"
-#include "tests/support/expect_error.h"
+#include "io/write/write_report.h"
+#include "tests/support/files.h"
 #include "tests/support/hand_made_curves.h"
-#include "tests/support/process.h"
 #include "tests/support/sample_result.h"
-#include "tests/support/temp_dir.h"
 #include "tests/support/vtk_reading.h"
 
 #include <gtest/gtest.h>

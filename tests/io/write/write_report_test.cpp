@@ -1,9 +1,7 @@
 #include "io/write/write_report.h"
 
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
+#include "tests/support/files.h"
 #include "tests/support/sample_result.h"
-#include "tests/support/temp_dir.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

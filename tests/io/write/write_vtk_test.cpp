@@ -1,8 +1,6 @@
 #include "io/write/write_result.h"
-#include "tests/support/expect_error.h"
-#include "tests/support/process.h"
+#include "tests/support/files.h"
 #include "tests/support/sample_result.h"
-#include "tests/support/temp_dir.h"
 #include "tests/support/vtk_reading.h"
 
 #include <gtest/gtest.h>
@@ -174,9 +172,10 @@ INSTANTIATE_TEST_SUITE_P(Formats, WriteVtk, testing::Values(".vtu", ".vtp"),
                          [](const auto& test) { return std::string(test.param + 1); });
 
 TEST(WriteResult, KnowsItsExtensions) {
-  for (const char* name : {"a.vtu", "b.vtp", "c.ply", "D.VTU"}) EXPECT_TRUE(is_result_path(name));
+  for (const char* name : {"a.vtu", "b.vtp", "c.ply", "D.VTU"})
+    EXPECT_TRUE(has_format(name, result_formats));
   for (const char* name : {"a.obj", "vtu", "", "a.vtu.gz"}) {
-    EXPECT_FALSE(is_result_path(name));
+    EXPECT_FALSE(has_format(name, result_formats));
     test::expect_error([&] { write_result(test::sample_result(1), {}, name); }, ErrorCode::usage,
                        {name, ".vtu, .vtp or .ply"});
   }

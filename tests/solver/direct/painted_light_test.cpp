@@ -1,6 +1,6 @@
 #include "solver/direct/painted_light.h"
 
-#include "solver/elements/quadrature.h"
+#include "tests/support/gauss_rule.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
@@ -19,8 +19,8 @@ template <class Paint>
 double by_tensor_rule(Paint paint) {
   double sum = 0;
   for (const auto& r : visible_rectangles)
-    for (const LineNode& u : gauss_rule(16))
-      for (const LineNode& v : gauss_rule(16)) {
+    for (const test::LineNode& u : test::gauss_rule(16))
+      for (const test::LineNode& v : test::gauss_rule(16)) {
         const double x = r[0] + u.x * (r[1] - r[0]), y = r[2] + v.x * (r[3] - r[2]);
         const double dx = x - 0.8, dy = y - 0.3, r2 = dx * dx + dy * dy + 4;
         sum += u.weight * v.weight * (r[1] - r[0]) * (r[3] - r[2]) * paint(x, y) * 4 /
@@ -59,8 +59,8 @@ TEST(PaintedLight, OfStripesApproachesTheSumOfTheStripes) {
   // Light where x > 0.2, dark elsewhere: a break that triangles have to close in on.
   const double bright = [] {
     double sum = 0;
-    for (const LineNode& u : gauss_rule(16))
-      for (const LineNode& v : gauss_rule(16)) {
+    for (const test::LineNode& u : test::gauss_rule(16))
+      for (const test::LineNode& v : test::gauss_rule(16)) {
         const double x = 0.2 + 0.3 * u.x, y = -0.5 + v.x;
         const double dx = x - 0.8, dy = y - 0.3, r2 = dx * dx + dy * dy + 4;
         sum += u.weight * v.weight * 0.3 * 4 / (M_PI * r2 * r2);

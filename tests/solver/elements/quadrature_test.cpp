@@ -1,6 +1,7 @@
 #include "solver/elements/quadrature.h"
 
 #include "meshing/core/error.h"
+#include "tests/support/gauss_rule.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,8 @@ TEST(GaussRule, IsExactForItsDegreeAndNotBeyond) {
   for (int n = 1; n <= 16; ++n) {
     for (int degree = 0; degree <= 2 * n; ++degree) {
       double sum = 0;
-      for (const LineNode& node : gauss_rule(n)) sum += node.weight * std::pow(node.x, degree);
+      for (const test::LineNode& node : test::gauss_rule(n))
+        sum += node.weight * std::pow(node.x, degree);
       const double error = std::abs(sum - 1. / (degree + 1));
       if (degree < 2 * n) {
         EXPECT_LE(error, 1e-15) << n << " nodes, degree " << degree;
@@ -22,8 +24,8 @@ TEST(GaussRule, IsExactForItsDegreeAndNotBeyond) {
       }
     }
   }
-  EXPECT_THROW(gauss_rule(0), Error);
-  EXPECT_THROW(gauss_rule(17), Error);
+  EXPECT_THROW(test::gauss_rule(0), Error);
+  EXPECT_THROW(test::gauss_rule(17), Error);
 }
 
 TEST(TriangleRule, IntegratesMonomialsOfItsDegreeWithNodesInside) {

@@ -4,7 +4,9 @@
 #include "meshing/core/light_source.h"
 #include "meshing/patches/quality.h"
 #include "meshing/repair/repair.h"
-#include "solver/pipeline/mesh_scene.h"
+#include "solver/pipeline/plan.h"
+#include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
 
@@ -53,7 +55,7 @@ Found find(const Scene& scene) {
   found.scene = make_sound(scene);
   found.curves =
       find_discontinuities(found.scene, OpaqueScene(found.scene), light_sources(found.scene));
-  found.mean = mean_direct_irradiance(found.scene);
+  found.mean = mean_direct_irradiance(PreparedScene(scene));
   return found;
 }
 

@@ -1,15 +1,31 @@
 #pragma once
 
+#include "tests/support/expect_error.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <unistd.h>
 
+/// What tests that read or write files need; expect_error, too.
 namespace halfshade::test {
+
+inline std::string contents(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A file of the folder data/.
+inline std::filesystem::path data_file(std::string_view name) {
+  return std::filesystem::path(HALFSHADE_DATA) / name;
+}
 
 /// A folder of its own for one test, removed with what is in it. Tests run in parallel processes,
 /// hence the process id in its name.

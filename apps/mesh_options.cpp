@@ -1,0 +1,64 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include <map>
+
+namespace halfshade {
+namespace {
+
+void add_picture(CLI::App& app, MeshCommand& command) {
+  CLI::Option* picture =
+      add_file(app, "--picture", command.picture,
+               "Map of the curves over the exact direct light of one surface: .png");
+  app.add_option("--of", command.picture_of,
+                 "Group or number of the surface to draw (default: where most curves are)")
+      ->needs(picture)
+      ->type_name("NAME");
+  const std::map<std::string, CurveColour> colours = {{"order", CurveColour::order},
+                                                      {"kind", CurveColour::kind}};
+  app.add_option("--colour", command.picture_options.colour,
+                 "By 'order' (D0 red, D1 blue, D2 pink, D2 of three edges yellow) or by 'kind'\n"
+                 "(contact red, face green, ev pink, eee yellow)")
+      ->needs(picture)
+      ->transform(CLI::CheckedTransformer(colours, CLI::ignore_case))
+      ->default_str("order");
+  app.add_option("--pixels", command.picture_options.pixels, "Longer side of the picture")
+      ->needs(picture)
+      ->capture_default_str()
+      ->check(CLI::Range(least_curve_pixels, most_pixels));
+}
+
+}  // namespace
+
+void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
+  CLI::App& app = *program.add_subcommand(
+      "mesh",
+      "Find the curves where the light breaks and mesh a scene along them, without solving");
+  add_scene(app, command.scene);
+  add_outputs(app, command.outputs,
+              "Mesh: .vtu, .vtp or .ply; may repeat (default: SCENE.vtu in this folder, unless "
+              "--curves or --picture is given)");
+  add_file(app, "--curves", command.curves, "The curves with kind, order, jump and origin: .vtp");
+  add_materials(app, command.materials, "Materials file, as for solve");
+  app.add_option(
+         "--tolerance", command.options.tolerance,
+         "Leave out curves that change the irradiance by less than this share of its mean,\n"
+         "and draw conics accordingly (default: 0, the mesh is complete)")
+      ->check(number(true));
+  app.add_option("--max-length", command.options.max_length,
+                 "Longest element edge in scene units (default: no limit)")
+      ->check(number(false));
+  add_events(app, command.options.events, command.options.secondary);
+  add_picture(app, command);
+  add_common(app, common);
+  app.footer(footer(
+      "Examples:\n"
+      "  halfshade mesh data/s1.obj -o s1_mesh.vtu --curves s1_curves.vtp --json s1_mesh.json\n"
+      "  halfshade mesh data/skew_bars.obj --picture skew_bars.png --of floor --colour kind\n"
+      "  halfshade mesh data/cornell_box.obj --tolerance 0.01 --max-length 100 -o "
+      "cornell_mesh.vtu\n"
+      "  halfshade mesh data/bars.obj --events contact,face,ev --curves bars.vtp\n\n"));
+}
+
+}  // namespace halfshade

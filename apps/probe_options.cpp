@@ -1,0 +1,51 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace halfshade {
+namespace {
+
+/// Either a table of points or a grid on a group.
+void add_points(CLI::App& app, ProbeCommand& command) {
+  CLI::Option* points =
+      add_file(app, "--points", command.points,
+               "Table with columns x, y, z, nx, ny, nz; others are kept as they are");
+  CLI::Option* grid = app.add_option("--grid", command.group,
+                                     "Points in a square grid on the front of this group instead")
+                          ->type_name("GROUP");
+  CLI::Option* spacing =
+      app.add_option("--spacing", command.spacing, "Spacing of the grid in scene units")
+          ->check(CLI::PositiveNumber);
+  grid->needs(spacing)->excludes(points);
+  spacing->needs(grid);
+  app.callback([points, grid] {
+    if (points->count() + grid->count() == 0) throw CLI::RequiredError("--points or --grid");
+  });
+}
+
+}  // namespace
+
+void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) {
+  CLI::App& app = *program.add_subcommand(
+      "probe", "Compute the irradiance at given points, with exact direct light");
+  add_scene(app, command.scene);
+  add_points(app, command);
+  add_file(app, "-o,--output", command.output,
+           "Result: .csv (the same rows with H_r,H_g,H_b,visible) or .vtp")
+      ->required();
+  app.add_flag("--direct", command.direct_only,
+               "Only light straight from the emitters; else interreflection is gathered from a\n"
+               "solution by closed-form factors, with visibility by rays");
+  add_elements(app, command.options.elements,
+               "About how many elements to solve with, without --direct");
+  add_materials(app, command.materials, "Materials file, as for solve");
+  add_common(app, common);
+  app.footer(footer(
+      "Examples:\n"
+      "  halfshade probe data/s1.obj --points data/s1_points.csv -o s1.csv --direct\n"
+      "  halfshade probe data/bars.obj --grid floor --spacing 0.05 -o bars.vtp --direct\n"
+      "  halfshade probe data/cornell_box.obj --grid floor --spacing 40 -o cornell.csv --elements "
+      "1000\n\n"));
+}
+
+}  // namespace halfshade

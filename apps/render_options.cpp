@@ -1,0 +1,65 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace halfshade {
+namespace {
+
+void add_vector(CLI::App& app, const char* name, std::optional<Vec3>& target, const char* help) {
+  app.add_option_function<std::vector<double>>(
+         name, [&target](const std::vector<double>& v) { target = Vec3(v[0], v[1], v[2]); }, help)
+      ->expected(3)
+      ->type_name("X Y Z");
+}
+
+void add_camera(CLI::App& app, RenderCommand& command) {
+  app.add_option("--camera", command.camera,
+                 "Camera by name (default: the file's first, or one that fits the scene)");
+  add_vector(app, "--position", command.position, "Put the camera here");
+  add_vector(app, "--target", command.target, "Look at this point");
+  add_vector(app, "--up", command.up, "Upwards in the picture");
+  app.add_option("--fov", command.vertical_fov,
+                 "Vertical field of view in degrees, with --position")
+      ->capture_default_str()
+      ->check(CLI::Range(1., 170.));
+}
+
+void add_picture(CLI::App& app, PictureOptions& options) {
+  app.add_option("--width", options.width, "Pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_pixels));
+  app.add_option("--height", options.height, "Pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_pixels));
+  app.add_option("--samples", options.samples, "Rays per pixel")
+      ->capture_default_str()
+      ->check(CLI::Range(1, most_samples));
+  app.add_option("--exposure", options.exposure,
+                 "Display value per W/m² (default: from the picture)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag_callback(
+      "--flat", [&options] { options.shading = Shading::flat; }, "One colour an element");
+  app.add_flag("--mesh", options.mesh_lines, "Draw the element edges");
+}
+
+}  // namespace
+
+void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common) {
+  CLI::App& app = *program.add_subcommand(
+      "render", "Draw a solution, or a scene, from a camera; needs no display");
+  app.add_option("input", command.input, "RESULT.vtu or .vtp of a solve, or a scene")
+      ->required()
+      ->type_name("INPUT");
+  add_file(app, "-o,--output", command.output, "Picture: .png")->required();
+  add_materials(app, command.materials, "Materials file, as for solve (scenes only)");
+  add_camera(app, command);
+  add_picture(app, command.options);
+  add_common(app, common);
+  app.footer(
+      footer("Examples:\n"
+             "  halfshade render cornell.vtu -o cornell.png --mesh\n"
+             "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
+             "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n\n"));
+}
+
+}  // namespace halfshade

@@ -1,0 +1,110 @@
+#include "io/write/report_parts.h"
+
+#include "io/write/write_curves.h"
+#include "meshing/patches/quality.h"
+#include "meshing/repair/repair_sentence.h"
+
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace halfshade::detail {
+Json scene_json(const SoundScene& scene, std::size_t cameras) {
+  std::set<int> faces;
+  for (const Surface& surface : scene.surfaces)
+    faces.insert(surface.faces.begin(), surface.faces.end());
+  return {{"faces", faces.size()},
+          {"surfaces", scene.surfaces.size()},
+          {"materials", scene.materials.size()},
+          {"groups", scene.groups.size()},
+          {"cameras", cameras},
+          {"diagonal", scene.tolerance.scene_size}};
+}
+
+Json repairs_json(const SoundScene& scene) {
+  Json json = Json::array();
+  for (const Repair& repair : scene.repairs)
+    json.push_back({{"kind", name_of(repair.kind)},
+                    {"faces", repair.faces},
+                    {"sentence", sentence(repair, scene)}});
+  return json;
+}
+
+Json area_quality_json(const ElementTable& elements) {
+  const AreaQuality quality = summarize_area_quality(elements);
+  return {{"histogram", {{"bin_width", 5}, {"shares", quality.histogram}}},
+          {"near_input_angles", quality.near_input_angles},
+          {"good", quality.good},
+          {"tolerable", quality.tolerable},
+          {"min_angle", quality.min_angle}};
+}
+
+Json mesh_json(const ElementTable& elements) {
+  const QualitySummary quality = summarize_quality(elements);
+  return {{"elements", elements.count()},
+          {"points", elements.points.size()},
+          {"min_angle", quality.min_angle},
+          {"mean_min_angle", quality.mean_angle},
+          {"worst_element", quality.worst_element},
+          {"longest_edge", quality.longest_edge},
+          {"min_angle_histogram", {{"bin_width", 5}, {"counts", quality.histogram}}}};
+}
+
+Json stages_json(const std::vector<StageReport>& stages) {
+  Json json = Json::array();
+  for (const StageReport& stage : stages)
+    json.push_back({{"name", stage.name},
+                    {"seconds", stage.seconds},
+                    {"count", stage.count},
+                    {"left_out_because",
+                     stage.left_out_because.empty() ? Json() : Json(stage.left_out_because)}});
+  return json;
+}
+
+Json exchange_json(const ExchangeReport& report) {
+  return {{"factors", report.factors},
+          {"rays", report.rays},
+          {"closed", report.closed},
+          {"closure_enforced", report.closure_enforced},
+          {"closure_error_max", report.closure_error_max},
+          {"closure_error_rms", report.closure_error_rms},
+          {"escaping_fraction", report.escaping_fraction},
+          {"complete", report.complete}};
+}
+
+Json radiosity_json(const RadiosityReport& report) {
+  Json channels = Json::array();
+  for (const ChannelReport& channel : report.channel)
+    channels.push_back({{"iterations", channel.iterations},
+                        {"residual", channel.residual},
+                        {"emitted_power", channel.emitted_power},
+                        {"absorbed_power", channel.absorbed_power},
+                        {"escaped_power", channel.escaped_power},
+                        {"balance", channel.balance}});
+  return {{"channels", report.channels},
+          {"unknowns", report.unknowns},
+          {"converged", report.converged},
+          {"channel", channels}};
+}
+
+Json search_json(const DiscontinuityReport& report) {
+  Json found;
+  for (std::size_t k = 0; k < report.found.size(); ++k)
+    found[name_of(static_cast<CurveKind>(k))] = report.found[k];
+  return {{"silhouette_edges", report.silhouette_edges},
+          {"swaths", report.swaths},
+          {"pieces", report.pieces},
+          {"found", found},
+          {"merged", report.merged},
+          {"complete", !report.interrupted}};
+}
+
+Json along_curves_json(const DiscontinuityMeshReport& report) {
+  return {{"kept", report.kept},
+          {"culled", report.culled},
+          {"deviation", report.deviation},
+          {"boundary_rounds", report.boundary_rounds},
+          {"unfinished_surfaces", report.unfinished_surfaces}};
+}
+
+}  // namespace halfshade::detail

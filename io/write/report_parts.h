@@ -1,0 +1,34 @@
+#pragma once
+
+#include "meshing/patches/discontinuity_mesh.h"
+#include "solver/exchange/exchange.h"
+#include "solver/linear/radiosity.h"
+#include "solver/pipeline/stages.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <vector>
+
+/// What reports on different commands have in common: plain structs as JSON objects.
+namespace halfshade::detail {
+
+using Json = nlohmann::ordered_json;
+
+/// How much there is of everything.
+Json scene_json(const SoundScene& scene, std::size_t cameras);
+Json repairs_json(const SoundScene& scene);
+Json stages_json(const std::vector<StageReport>& stages);
+
+/// Numbers and angles of the elements.
+Json mesh_json(const ElementTable& elements);
+/// Shares of the area by smallest angle; what lies at input angles stands apart.
+Json area_quality_json(const ElementTable& elements);
+
+/// How curves were found, and what the mesh made of them.
+Json search_json(const DiscontinuityReport& report);
+Json along_curves_json(const DiscontinuityMeshReport& report);
+
+Json exchange_json(const ExchangeReport& report);
+Json radiosity_json(const RadiosityReport& report);
+
+}  // namespace halfshade::detail

@@ -1,0 +1,78 @@
+#include "solver/pipeline/plan.h"
+
+#include "meshing/patches/patch_mesh.h"
+#include "solver/direct/direct_light.h"
+#include "solver/pipeline/sources.h"
+
+#include <algorithm>
+
+namespace halfshade {
+namespace {
+
+/// About how many places tell the mean irradiance.
+constexpr int places = 2000;
+
+}  // namespace
+
+Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
+               Stages& stages) {
+  Plan plan;
+  plan.no_exact_direct_light = direct_light_needless(prepared.scene(), options.direct_light);
+  plan.no_discontinuities = discontinuities_needless(prepared.scene(), options);
+  if (!plan.no_discontinuities.empty()) return plan;
+  stages.run("sources", [&] {
+    plan.sources = strong_enough(all_sources(prepared, options.secondary, progress),
+                                 prepared.scene(), options.tolerance);
+    if (!plan.sources.empty()) plan.mean_irradiance = mean_direct_irradiance(prepared, progress);
+    return plan.sources.size();
+  });
+  if (plan.sources.empty())
+    plan.no_discontinuities = "no source gives more than the tolerance of all light";
+  return plan;
+}
+
+std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options) {
+  const DiscontinuityOptions& events = options.events;
+  if (!options.discontinuities || !(events.contact || events.face || events.ev || events.eee))
+    return "they were not asked for";
+  if (is_convex(scene)) return "no surface can come between two others";
+  return most_surfaces_emit(scene);
+}
+
+std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice) {
+  if (choice == DirectLightBy::exact) return {};
+  if (choice == DirectLightBy::matrix) return "the matrix was asked for";
+  return most_surfaces_emit(scene);
+}
+
+bool is_convex(const SoundScene& scene) {
+  const auto is_behind = [&](const Surface& viewer, const Surface& other) {
+    const Ring& ring = other.rings.front();
+    return std::any_of(ring.begin(), ring.end(), [&](const Vec2& p) {
+      return viewer.frame.height(other.frame.to_space(p)) < -scene.tolerance.length;
+    });
+  };
+  for (const Surface& viewer : scene.surfaces)
+    for (const Surface& other : scene.surfaces)
+      if (is_behind(viewer, other)) return false;
+  return true;
+}
+
+double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
+  const SoundScene& scene = prepared.scene();
+  PlanarMeshOptions coarse;
+  coarse.max_length = length_for_count(scene, places);
+  const ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
+  const std::vector<DirectLight> light =
+      prepared.direct_light().irradiance(element_centres(elements), progress);
+  double power = 0, reached = 0;
+  for (std::size_t e = 0; e < light.size(); ++e) {
+    const double irradiance = light[e].irradiance.maxCoeff();
+    if (!(irradiance > 0)) continue;
+    power += elements.area[e] * irradiance;
+    reached += elements.area[e];
+  }
+  return reached > 0 ? power / reached : 0;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "meshing/core/light_source.h"
+#include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/solve_options.h"
+
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// What a scene needs, decided before the work. Reasons are for the user; empty if nothing is left
+/// out.
+struct Plan {
+  std::string no_discontinuities;     ///< why none are looked for
+  std::string no_exact_direct_light;  ///< why direct light comes out of the matrix
+  std::vector<LightSource> sources;   ///< to find discontinuities of; empty without
+  double mean_irradiance = 0;  ///< what the tolerance is a share of, W/m²; 0 without sources
+};
+
+/// Adds the stage "sources" to `stages` unless the scene or the options tell that there is no need
+/// of any. Cost: that of mean_direct_irradiance, and of secondary_sources if they are asked for.
+Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
+               Stages& stages);
+
+/// Why no discontinuities need be looked for, as far as the scene alone tells; empty if they do.
+std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options);
+
+/// Why direct light needs no stage of its own; empty if it does.
+std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice);
+
+/// True if every surface lies in front of every other, as in an empty room: nothing can hide a
+/// part of anything from anywhere.
+bool is_convex(const SoundScene& scene);
+
+/// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
+/// them (strongest channel), from one exact value at each of about 2000 places. What relative
+/// tolerances refer to. W/m²; 0 if nothing is reached.
+double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress = {});
+
+}  // namespace halfshade

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "meshing/discontinuity/discontinuity.h"
+#include "solver/exchange/exchange.h"
+#include "solver/linear/radiosity.h"
+
+namespace halfshade {
+
+enum class DirectLightBy {
+  automatic,  ///< exact, unless emitters are most of the scene, as in a furnace
+  exact,      ///< closed forms on exactly visible parts at points of each element
+  matrix      ///< the same form factors as reflected light
+};
+
+struct SolveOptions {
+  int elements =
+      8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
+  double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
+  int max_elements = 40000;     ///< refuse to make more; memory grows with the square
+  bool discontinuities = true;  ///< mesh along the curves where the light breaks
+  DiscontinuityOptions events;  ///< which curves to look for
+  int secondary = 0;  ///< look for those of this many of the brightest reflecting surfaces, too
+  /// Curves whose effect on the irradiance is below this share of its mean are left out.
+  double tolerance = 0.01;
+  DirectLightBy direct_light = DirectLightBy::automatic;
+  int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
+  ExchangeOptions exchange;
+  RadiosityOptions radiosity;
+};
+
+}  // namespace halfshade

@@ -1,4 +1,4 @@
-#include "io/write/vtk_file.h"
+#include "io/write/detail/vtk_file.h"
 
 #include "io/files/cameras_json.h"
 #include "io/files/seal.h"

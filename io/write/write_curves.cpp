@@ -1,7 +1,7 @@
 #include "io/write/write_curves.h"
 
 #include "io/files/atomic_file.h"
-#include "io/write/vtk_file.h"
+#include "io/write/detail/vtk_file.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>

@@ -2,8 +2,8 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/consistency.h"
+#include "io/write/detail/vtk_file.h"
 #include "io/write/ply_file.h"
-#include "io/write/vtk_file.h"
 #include "meshing/core/error.h"
 #include "solver/elements/material_arrays.h"
 

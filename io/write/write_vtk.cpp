@@ -1,5 +1,5 @@
+#include "io/write/detail/vtk_file.h"
 #include "io/write/result_bytes.h"
-#include "io/write/vtk_file.h"
 #include "solver/elements/vertex_values.h"
 
 #include <vtkCellData.h>

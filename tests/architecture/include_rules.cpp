@@ -11,7 +11,18 @@
 namespace halfshade::test {
 namespace {
 
-std::string room_of(const std::string& path) { return path.substr(0, path.rfind('/')); }
+constexpr std::string_view detail = "/detail";
+
+bool is_detail(const std::string& path) {
+  return path.substr(0, path.rfind('/')).ends_with(detail);
+}
+
+/// The folder, or the one that a folder `detail` is in.
+std::string room_of(const std::string& path) {
+  std::string folder = path.substr(0, path.rfind('/'));
+  if (folder.ends_with(detail)) folder.resize(folder.size() - detail.size());
+  return folder;
+}
 
 std::string house_of(const std::string& room) { return room.substr(0, room.find('/')); }
 
@@ -65,7 +76,7 @@ void check_file(const IncludeRules& rules, const SourceText& file,
         fmt::format("{} lies in {}, which the table of rooms does not list", file.path, room));
     return;
   }
-  const bool is_header = file.path.ends_with(".h");
+  const bool is_header = file.path.ends_with(".h") && !is_detail(file.path);
   for (const Include& include : includes_of(file.text)) {
     const std::string place = fmt::format("{}:{}", file.path, include.line);
     if (!include.in_quotes) {
@@ -77,6 +88,8 @@ void check_file(const IncludeRules& rules, const SourceText& file,
     const std::string other = room_of(include.target);
     if (!known.contains(include.target))
       broken.push_back(fmt::format("{} includes {}, which does not exist", place, include.target));
+    else if (other != room && is_detail(include.target))
+      broken.push_back(fmt::format("{} includes {}, a detail of {}", place, include.target, other));
     else if (other != room && !rule->second.contains(other))
       broken.push_back(fmt::format(
           "{} includes {}, but {} may include only {}", place, include.target, room,

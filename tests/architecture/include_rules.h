@@ -25,7 +25,8 @@ struct SourceText {
 /// One sentence for each thing that breaks the rules:
 /// * an #include in quotes of a file that is not there, or of a room that the table does not allow;
 /// * a file in a folder that the table does not list;
-/// * a header (other than in a folder `detail`) that includes CGAL, OpenMesh, Embree or VTK;
+/// * a header that includes CGAL, OpenMesh, Embree or VTK, other than in a folder `detail` of its
+///   room, and an #include of such a header from another room;
 /// * rooms whose permissions run in a circle.
 std::vector<std::string> broken_rules(const IncludeRules& rules,
                                       const std::vector<SourceText>& files);

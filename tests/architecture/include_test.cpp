@@ -76,6 +76,10 @@ TEST(ArchitectureRules, KeepLibrariesOutOfHeaders) {
   EXPECT_THAT(broken_rules(small_rules, {{"a/low/x.h", "#include <CGAL/Origin.h>\n"},
                                          {"a/low/x.cpp", "#include <CGAL/Origin.h>\n"}}),
               ElementsAre(HasSubstr("x.h:1 includes <CGAL/Origin.h>")));
+  EXPECT_THAT(broken_rules(small_rules, {{"a/low/detail/x.h", "#include <CGAL/Origin.h>\n"},
+                                         {"a/low/x.cpp", "#include \"a/low/detail/x.h\"\n"},
+                                         {"a/high/y.cpp", "#include \"a/low/detail/x.h\"\n"}}),
+              ElementsAre("a/high/y.cpp:1 includes a/low/detail/x.h, a detail of a/low"));
 }
 
 TEST(ArchitectureRules, AreNoneIfTheyRunInACircle) {

@@ -37,6 +37,22 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   return lies_on(piece.from) && lies_on(piece.to);
 }
 
+/// Tells the edges that one visible part may have apart.
+std::uint32_t number_of(EdgeId edge, std::size_t edge_count) {
+  const auto id = static_cast<std::uint32_t>(edge.id);
+  switch (edge.kind) {
+    case EdgeId::Kind::edge:
+      return id;
+    case EdgeId::Kind::cut:
+      return static_cast<std::uint32_t>(edge_count) + id;
+    case EdgeId::Kind::emitter_edge:
+      return ~id;
+    case EdgeId::Kind::horizon:
+      break;
+  }
+  return std::uint32_t{1} << 31;
+}
+
 /// Adds a straight piece of boundary to an extent.
 void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to) {
   const Vec3 a = from - view.point(), b = to - view.point(), normal = a.cross(to - from);
@@ -123,14 +139,15 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
   join_leftovers(arrangement, view);
   for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
     if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
+  const std::size_t edge_count = view.scene().edges.size();
   // A sum does not depend on where chains start, nor on their order.
   std::size_t first = 0;
   for (const int end : ends) {
     for (std::size_t i = first; i < at(end); ++i) {
       const ArrangedPiece& next = pieces[i + 1 < at(end) ? i + 1 : first];
       const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
-      const auto from = static_cast<std::uint32_t>(pieces[i].edge);
-      const auto to = static_cast<std::uint32_t>(next.edge);
+      const std::uint32_t from = number_of(pieces[i].edge, edge_count);
+      const std::uint32_t to = number_of(next.edge, edge_count);
       signature += mix_bits(mix_bits(mix_bits(from) + to) + kind);
     }
     first = at(end);
@@ -145,7 +162,7 @@ bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) 
   if ((whole.flux - total_.flux).norm() > whole.rounding + total_.rounding) return false;
   // The difference of sums cannot tell a small corner that is cut off from nothing.
   return std::all_of(pieces.begin(), pieces.end(), [&](const ArrangedPiece& piece) {
-    return piece.edge < 0 ||
+    return piece.edge.is_of_outline() ||
            std::any_of(outline.edges.begin(), outline.edges.end(),
                        [&](const OutlineEdge& edge) { return runs_along(view, piece, edge); });
   });

@@ -64,9 +64,9 @@ void ShadowArrangement::consider_edge(int edge) {
   if (a == Place::beyond) from = view_->corner_of_cut(edge);
   if (b == Place::beyond) to = view_->corner_of_cut(edge);
   if (weight > 0)
-    add_arc(from, to, weight, edge);
+    add_arc(from, to, weight, EdgeId::edge(edge));
   else
-    add_arc(to, from, -weight, edge);
+    add_arc(to, from, -weight, EdgeId::edge(edge));
 }
 
 /// The lines where faces pierce the emitter's plane.
@@ -87,7 +87,7 @@ void ShadowArrangement::collect_cuts() {
       const int i = p[at(k)], j = p[at((k + 1) % count)];
       const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
       if (a.place != Place::on || b.place != Place::on || !(a.is_cut || b.is_cut)) continue;
-      const int id = static_cast<int>(scene.edges.size()) + triangle;
+      const EdgeId id = EdgeId::cut(triangle);
       sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
     }
   });
@@ -119,7 +119,7 @@ void ShadowArrangement::join_repeated(std::size_t first_cut) {
   arcs_.erase(kept, arcs_.end());
 }
 
-void ShadowArrangement::add_arc(int from, int to, int weight, int edge) {
+void ShadowArrangement::add_arc(int from, int to, int weight, EdgeId edge) {
   const auto& corners = view_->corners;
   // Where a silhouette is an edge of the outline, the outline speaks for both.
   if (corners[at(from)].next_on_outline == to || corners[at(to)].next_on_outline == from) return;

@@ -22,7 +22,7 @@ double EmitterOutline::height(const PointView& view, int corner) const {
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 
-void EmitterOutline::add_edge(PointView& view, int from, int to, int edge) {
+void EmitterOutline::add_edge(PointView& view, int from, int to, EdgeId edge) {
   if (from == to) return;
   edges.push_back({from, to, edge});
   view.corners[at(from)].next_on_outline = to;
@@ -43,20 +43,21 @@ void EmitterOutline::cut_ring(PointView& view,
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const int a = view.corner_of_vertex(ring[k].vertex);
     const int b = view.corner_of_vertex(ring[(k + 1) % ring.size()].vertex);
+    const EdgeId edge = EdgeId::emitter_edge(ring[k].edge);
     const double from = height(view, a), to = height(view, b);
     reaches_above_ = reaches_above_ || from > 0;
     if (from >= 0 && to >= 0) {
-      add_edge(view, a, b, -1 - ring[k].edge);
+      add_edge(view, a, b, edge);
       continue;
     }
     if (from < 0 && to < 0) continue;
     const int c = cross_horizon(view, a, b);
     const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
     if (from >= 0) {
-      add_edge(view, a, c, -1 - ring[k].edge);
+      add_edge(view, a, c, edge);
       exits_.push_back({along, c});
     } else {
-      add_edge(view, c, b, -1 - ring[k].edge);
+      add_edge(view, c, b, edge);
       entries_.push_back({along, c});
     }
   }
@@ -70,7 +71,7 @@ void EmitterOutline::close_along_horizon(PointView& view) {
   std::sort(exits_.begin(), exits_.end(), before);
   std::sort(entries_.begin(), entries_.end(), before);
   for (std::size_t i = 0; i < exits_.size(); ++i)
-    add_edge(view, exits_[i].corner, entries_[i].corner, horizon_edge);
+    add_edge(view, exits_[i].corner, entries_[i].corner, EdgeId::horizon());
 }
 
 /// Chain by chain, each edge after the one that ends where it starts.

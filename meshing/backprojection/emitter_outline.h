@@ -10,7 +10,7 @@ namespace halfshade {
 /// the emitter is on its left.
 struct OutlineEdge {
   int from, to;  ///< corners
-  int edge;      ///< as in BoundaryPiece
+  EdgeId edge;
 };
 
 /// Cuts an emitter's rings at the point's horizon. Keeps its buffers.
@@ -30,7 +30,7 @@ class EmitterOutline {
     double along;
     int corner;
   };
-  void add_edge(PointView& view, int from, int to, int edge);
+  void add_edge(PointView& view, int from, int to, EdgeId edge);
   int cross_horizon(PointView& view, int from, int to);
   void cut_ring(PointView& view, std::span<const OpaqueScene::Impl::OutlineVertex> ring);
   void close_along_horizon(PointView& view);

@@ -12,7 +12,7 @@ namespace halfshade {
 /// crossings, then corners; the same number is the same direction.
 struct ArrangedPiece {
   Vec3 from, to;
-  int edge;  ///< as in BoundaryPiece
+  EdgeId edge;
   int start, end;
 };
 
@@ -34,7 +34,8 @@ class ShadowArrangement {
   /// An arc with `weight` more faces on its left than on its right; for the outline, the emitter is
   /// on the left.
   struct Arc {
-    int from, to, weight, edge;
+    int from, to, weight;
+    EdgeId edge;
     bool is_outline = false, is_done = false;
     int start_cover = 0;  // on its right, where it starts inside
     Vec2 low = Vec2::Zero(), high = Vec2::Zero();
@@ -54,7 +55,7 @@ class ShadowArrangement {
   void collect_cuts();
   void join_repeated(std::size_t first_cut);
   void consider_edge(int edge);
-  void add_arc(int from, int to, int weight, int edge);
+  void add_arc(int from, int to, int weight, EdgeId edge);
   bool set_box(Arc& arc) const;
 
   void find_crossings();

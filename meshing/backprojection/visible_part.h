@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
 #include "meshing/core/sound_scene.h"
 #include "meshing/core/types.h"
 
@@ -23,13 +24,8 @@ enum class Region : std::uint8_t {
 /// part lies on its left.
 struct BoundaryPiece {
   Vec3 from, to;  ///< end points in the direction of the boundary, on the edge that makes it
-  /// The edge it lies on: an edge id of the opaque scene for an occluder's edge, or
-  /// OpaqueScene::edge_count() + t where its triangle t pierces the emitter's plane; −1 − k for the
-  /// k-th edge of the emitter (rings counted through), `horizon_edge` for the horizon.
-  int edge;
+  EdgeId edge;    ///< the edge it lies on
 };
-
-inline constexpr int horizon_edge = INT32_MIN;
 
 struct VisiblePart {
   Region region = Region::away;

@@ -69,7 +69,8 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
   double jump = 0, whole = 0;
   const auto add = [&](const VisiblePart& part, double sign) {
     for (const BoundaryPiece& piece : part.pieces) {
-      if (piece.edge == horizon_edge || !lies_in_sight_plane(curve, point, piece.edge)) continue;
+      if (piece.edge == EdgeId::horizon() || !lies_in_sight_plane(curve, point, piece.edge))
+        continue;
       const double motion = boundary_motion(receiving, stage_.frame, piece.from, piece.to);
       jump += sign * motion;
       whole += std::abs(motion);
@@ -81,7 +82,7 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 }
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
-                                        int edge) const {
+                                        EdgeId edge) const {
   const Line3 line = line_of(stage_, opaque_.impl(), edge);
   const double slack = in_plane * stage_.joined;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&

@@ -24,7 +24,7 @@ class JumpPredictor {
                     const Vec3& normal) const;
   double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
                         const Vec3& normal) const;
-  bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, int edge) const;
+  bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, EdgeId edge) const;
 
   const SoundScene& scene_;
   const OpaqueScene& opaque_;

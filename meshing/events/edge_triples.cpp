@@ -202,7 +202,7 @@ void pair_swaths(const EmitterStage& stage, int a, int b, const SwathSink& sink)
         CurveKind::eee,
         {piece.feature, {Feature::Kind::edge, first.id}, {Feature::Kind::edge, second.id}},
         3};
-    swath.group = {piece.id, first.id, second.id};
+    swath.group = {piece.id, EdgeId::edge(first.id), EdgeId::edge(second.id)};
     std::sort(swath.group.begin(), swath.group.end());
     swath.silhouettes = {a, b, -1};
     swath.ends_on_outline = true;
@@ -217,8 +217,9 @@ void triple_swath(const EmitterStage& stage, int a, int b, int c, const SwathSin
   std::array<Span3, 3> spans;
   std::size_t k = 0;
   for (const int e : {a, b, c}) {
-    swath.source.features[k] = {Feature::Kind::edge, stage.edges[at(e)].id};
-    swath.group.push_back(stage.edges[at(e)].id);
+    const EdgeId id = EdgeId::edge(stage.edges[at(e)].id);
+    swath.source.features[k] = feature_of(id);
+    swath.group.push_back(id);
     spans[k++] = stage.edges[at(e)].front;
   }
   std::sort(swath.group.begin(), swath.group.end());

@@ -1,12 +1,15 @@
 #include "meshing/events/emitter_stage.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
+#include <string>
 
 namespace halfshade {
 namespace {
@@ -131,12 +134,12 @@ class Builder {
         const auto& before = ring[(k + ring.size() - 1) % ring.size()];
         const Vec3 &from = opaque_.vertices[at(here.vertex)],
                    &to = opaque_.vertices[at(next.vertex)];
-        stage_.outline.push_back(
-            {{from, to}, -1 - here.edge, {Feature::Kind::emitter_edge, here.edge}});
+        const EdgeId edge = EdgeId::emitter_edge(here.edge);
+        stage_.outline.push_back({{from, to}, edge, feature_of(edge)});
         if (before.edge == here.edge) continue;
         OutlinePoint& corner = corner_at(here.vertex, {Feature::Kind::emitter_vertex, here.edge});
-        corner.edges.push_back(-1 - before.edge);
-        corner.edges.push_back(-1 - here.edge);
+        corner.edges.push_back(EdgeId::emitter_edge(before.edge));
+        corner.edges.push_back(edge);
       }
     }
   }
@@ -151,9 +154,8 @@ class Builder {
         for (const int v : opaque_.triangles[at(opaque_.incidences[at(i)].triangle)].corner)
           hangs = hangs || is_in_front(v);
       const Span3 span = {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]};
-      if (hangs && meets_emitter(span))
-        stage_.outline.push_back(
-            {span, static_cast<int>(e), {Feature::Kind::edge, static_cast<int>(e)}});
+      const EdgeId id = EdgeId::edge(static_cast<int>(e));
+      if (hangs && meets_emitter(span)) stage_.outline.push_back({span, id, feature_of(id)});
     }
   }
 
@@ -171,7 +173,6 @@ class Builder {
 
   /// Where faces pierce the emitter's plane.
   void add_cuts() {
-    const int edge_count = static_cast<int>(opaque_.edges.size());
     std::set<int> cut_edges;
     for (std::size_t t = 0; t < opaque_.triangles.size(); ++t) {
       const Impl::Triangle& triangle = opaque_.triangles[t];
@@ -188,7 +189,7 @@ class Builder {
       }
       if (!front || !behind || ends.size() != 2 || !meets_emitter({ends[0], ends[1]})) continue;
       stage_.outline.push_back({{ends[0], ends[1]},
-                                edge_count + static_cast<int>(t),
+                                EdgeId::cut(static_cast<int>(t)),
                                 {Feature::Kind::face, triangle.surface}});
       for (const int e : triangle.edge) {
         const Impl::Edge& edge = opaque_.edges[at(e)];
@@ -199,10 +200,10 @@ class Builder {
     for (const int e : cut_edges) {
       const Vec3 position = cut(e);
       if (!stage_.contains(position)) continue;
-      OutlinePoint corner{position, {e}, {Feature::Kind::edge, e}};
+      OutlinePoint corner{position, {EdgeId::edge(e)}, feature_of(EdgeId::edge(e))};
       const Impl::Edge& edge = opaque_.edges[at(e)];
       for (int i = edge.first; i < edge.first + edge.count; ++i)
-        corner.edges.push_back(edge_count + opaque_.incidences[at(i)].triangle);
+        corner.edges.push_back(EdgeId::cut(opaque_.incidences[at(i)].triangle));
       stage_.corners.push_back(std::move(corner));
     }
   }
@@ -226,7 +227,7 @@ class Builder {
       OutlinePoint& corner = corner_at(v, {Feature::Kind::vertex, v});
       for (std::size_t e = 0; e < opaque_.edges.size(); ++e)
         if (opaque_.edges[e].from == v || opaque_.edges[e].to == v)
-          corner.edges.push_back(static_cast<int>(e));
+          corner.edges.push_back(EdgeId::edge(static_cast<int>(e)));
     }
   }
 
@@ -235,7 +236,7 @@ class Builder {
     for (std::size_t i = 0; i < stage_.outline.size(); ++i)
       for (std::size_t j = 0; j < i; ++j) {
         const OutlinePiece &a = stage_.outline[i], &b = stage_.outline[j];
-        if (a.id < 0 && b.id < 0) continue;
+        if (a.id.is_of_outline() && b.id.is_of_outline()) continue;
         const Vec2 p = stage_.frame.to_plane(a.span.from), q = stage_.frame.to_plane(b.span.from);
         const Vec2 u = stage_.frame.to_plane(a.span.to) - p,
                    v = stage_.frame.to_plane(b.span.to) - q;
@@ -291,15 +292,44 @@ EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, i
   }
 }
 
-Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int edge) {
-  if (edge >= 0 && edge < static_cast<int>(opaque.edges.size())) {
-    const auto& ends = opaque.edges[at(edge)];
+namespace {
+
+/// Where a triangle's plane cuts the emitter's; nothing if all its corners are on one side.
+std::optional<Line3> line_of_cut(const EmitterStage& stage, const Impl& opaque,
+                                 const Impl::Triangle& triangle) {
+  std::array<double, 3> height{};
+  std::array<Vec3, 3> corner;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = opaque.vertices[at(triangle.corner[k])];
+    height[k] = stage.frame.height(corner[k]);
+  }
+  for (std::size_t k = 0; k < 3; ++k) {  // the corner that is alone on its side
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    if ((height[i] > 0) != (height[j] > 0) || (height[i] > 0) == (height[k] > 0)) continue;
+    const auto cut = [&](std::size_t other) -> Vec3 {
+      return corner[k] + height[k] / (height[k] - height[other]) * (corner[other] - corner[k]);
+    };
+    return Line3{cut(i), cut(j) - cut(i)};
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, EdgeId edge) {
+  if (edge.kind == EdgeId::Kind::edge && at(edge.id) < opaque.edges.size()) {
+    const auto& ends = opaque.edges[at(edge.id)];
     const Vec3& from = opaque.vertices[at(ends.from)];
     return {from, opaque.vertices[at(ends.to)] - from};
   }
   for (const OutlinePiece& piece : stage.outline)
     if (piece.id == edge) return {piece.span.from, piece.span.direction()};
-  return {stage.frame.origin, stage.frame.e1};
+  // A triangle that reaches through the plane by rounding only is no piece of the outline.
+  if (edge.kind == EdgeId::Kind::cut && at(edge.id) < opaque.triangles.size())
+    if (const auto line = line_of_cut(stage, opaque, opaque.triangles[at(edge.id)])) return *line;
+  throw Error(ErrorCode::contract, "line_of",
+              "there is no edge " + std::to_string(edge.id) + " of kind " +
+                  std::to_string(static_cast<int>(edge.kind)));
 }
 
 bool EmitterStage::may_be_silhouette(const StageEdge& edge, const Vec3& direction) const {

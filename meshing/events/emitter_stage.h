@@ -32,14 +32,14 @@ struct StageVertex {
 /// touches or cuts its plane.
 struct OutlinePiece {
   Span3 span;
-  int id = 0;  ///< as BoundaryPiece::edge
+  EdgeId id;
   Feature feature;
 };
 
 /// A point of the emitter's plane where such pieces meet or an edge touches it.
 struct OutlinePoint {
   Vec3 position = Vec3::Zero();
-  std::vector<int> edges;  ///< ids of what meets there, as BoundaryPiece::edge
+  std::vector<EdgeId> edges;  ///< what meets there
   Feature feature;
 };
 
@@ -75,8 +75,8 @@ struct EmitterStage {
   bool contains(const Vec3& point) const;
 };
 
-/// The line that an edge, as in BoundaryPiece::edge, lies on.
-Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int edge);
+/// The line that an edge lies on. Error(contract) if there is no such edge: the horizon is none.
+Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, EdgeId edge);
 
 /// The convex hull of points in a plane, counter-clockwise.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);

@@ -20,14 +20,14 @@ double distance_to_line(const Vec3& p, const Span3& span) {
   return (p - span.from - along.dot(p - span.from) * along).norm();
 }
 
-void normalize(std::vector<int>& group) {
+void normalize(std::vector<EdgeId>& group) {
   std::sort(group.begin(), group.end());
   group.erase(std::unique(group.begin(), group.end()), group.end());
 }
 
-std::vector<int> ids_at(const EmitterStage& stage, const StageVertex& vertex) {
-  std::vector<int> ids;
-  for (const int e : vertex.edges) ids.push_back(stage.edges[at(e)].id);
+std::vector<EdgeId> ids_at(const EmitterStage& stage, const StageVertex& vertex) {
+  std::vector<EdgeId> ids;
+  for (const int e : vertex.edges) ids.push_back(EdgeId::edge(stage.edges[at(e)].id));
   return ids;
 }
 
@@ -110,7 +110,7 @@ void non_emitter_swaths(const EmitterStage& stage, int edge, const SwathSink& si
       swath.apex = vertex.position;
       swath.base = part;
       swath.group = ids_at(stage, vertex);
-      swath.group.push_back(e.id);
+      swath.group.push_back(EdgeId::edge(e.id));
       normalize(swath.group);
       swath.silhouettes[0] = edge;
       swath.corner = static_cast<int>(w);
@@ -131,7 +131,7 @@ void edge_swaths(const EmitterStage& stage, int edge, const SwathSink& sink) {
     swath.apex = corner.position;
     swath.base = e.front;
     swath.group = corner.edges;
-    swath.group.push_back(e.id);
+    swath.group.push_back(EdgeId::edge(e.id));
     normalize(swath.group);
     swath.silhouettes[0] = edge;
     swath.ends_on_outline = true;
@@ -164,7 +164,7 @@ namespace {
 struct FaceEdges {
   std::vector<Span3> spans;  // in front of the emitter
   std::vector<Vec3> ends;
-  std::vector<int> ids;  // all on its border
+  std::vector<EdgeId> ids;  // all on its border
 };
 
 FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int receiver) {
@@ -178,7 +178,7 @@ FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaq
     const bool again = (i > 0 && count_once[i - 1] == count_once[i]) ||
                        (i + 1 < count_once.size() && count_once[i + 1] == count_once[i]);
     if (again) continue;
-    face.ids.push_back(count_once[i]);
+    face.ids.push_back(EdgeId::edge(count_once[i]));
     const auto& edge = opaque.edges[at(count_once[i])];
     Span3 span = {opaque.vertices[at(edge.from)], opaque.vertices[at(edge.to)]};
     const double a = stage.frame.height(span.from), b = stage.frame.height(span.to);

@@ -15,8 +15,7 @@ namespace halfshade {
 /// of the point on the base, or on the first of the three edges.
 struct Swath {
   CurveSource source;
-  std::vector<int> group;  ///< edges whose images change their order here, sorted; as
-                           ///< BoundaryPiece::edge
+  std::vector<EdgeId> group;  ///< edges whose images change their order here, sorted
   /// Edges of the stage that must be silhouettes for every line, −1: none; and a vertex of the
   /// stage with at least two edges that are, or −1.
   std::array<int, 3> silhouettes = {-1, -1, -1};

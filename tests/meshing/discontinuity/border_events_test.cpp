@@ -92,8 +92,8 @@ TEST(SeenFactor, OfPiecesDoesNotDependOnWhereTheyLieOnTheirRays) {
     VisiblePart plain, scaled;
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-      plain.pieces.push_back({a, b, 0});
-      scaled.pieces.push_back({random(0.2, 3) * a, random(0.2, 3) * b, 0});
+      plain.pieces.push_back({a, b, EdgeId::edge(0)});
+      scaled.pieces.push_back({random(0.2, 3) * a, random(0.2, 3) * b, EdgeId::edge(0)});
     }
     const double factor = seen_factor(plain, Vec3::Zero(), up);
     EXPECT_GT(factor, 0);

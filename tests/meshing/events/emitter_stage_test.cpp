@@ -1,6 +1,7 @@
 #include "meshing/events/emitter_stage.h"
 
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/core/error.h"
 #include "meshing/core/light_source.h"
 #include "tests/support/staged.h"
 #include "tests/support/visible_part_oracle.h"
@@ -49,7 +50,8 @@ double outline_length(const EmitterStage& stage, const Keep& keep) {
   return sum;
 }
 
-bool is_own(const OutlinePiece& piece) { return piece.id < 0; }
+bool is_own(const OutlinePiece& piece) { return piece.id.kind == EdgeId::Kind::emitter_edge; }
+bool is_cut(const OutlinePiece& piece) { return piece.id.kind == EdgeId::Kind::cut; }
 
 TEST(StageEdges, OfABoxBelowTheLightAreAllOfThem) {
   // From somewhere on the light each side can be seen, and from elsewhere not.
@@ -212,9 +214,11 @@ TEST(Outline, OfALightWithAHoleHasBothRings) {
   ASSERT_EQ(stage.outline.size(), 8u);
   EXPECT_NEAR(outline_length(stage, is_own), 2 * (1.4 + 1.2) + 2 * (0.5 + 0.4), 1e-9);
   ASSERT_EQ(stage.corners.size(), 8u);
-  std::set<int> ids;
+  std::set<EdgeId> ids;
   for (const OutlinePiece& piece : stage.outline) ids.insert(piece.id);
-  EXPECT_EQ(ids, (std::set{-1, -2, -3, -4, -5, -6, -7, -8}));
+  std::set<EdgeId> expected;
+  for (int k = 0; k < 8; ++k) expected.insert(EdgeId::emitter_edge(k));
+  EXPECT_EQ(ids, expected);
   for (const OutlinePoint& corner : stage.corners) {
     ASSERT_EQ(corner.edges.size(), 2u);
     EXPECT_LT(corner.edges[0], corner.edges[1]);
@@ -241,10 +245,10 @@ TEST(Outline, GoesRoundWhatHangsFromTheLight) {
   for (std::size_t f = 0; f < 5; ++f) maker.polygon(faces[f]);
   const Staged staged(maker);
   EXPECT_NEAR(outline_length(staged.stage, is_own), 4, 1e-9);
-  EXPECT_NEAR(outline_length(staged.stage, [](const OutlinePiece& p) { return p.id >= 0; }), 1.6,
+  EXPECT_NEAR(outline_length(staged.stage, [](const OutlinePiece& p) { return !is_own(p); }), 1.6,
               1e-9);
   for (const OutlinePiece& piece : staged.stage.outline) {
-    if (piece.id < 0) continue;
+    if (is_own(piece)) continue;
     EXPECT_TRUE(is_on_square(piece.span.from) && is_on_square(piece.span.at(0.5)));
     EXPECT_EQ(piece.feature.kind, Feature::Kind::edge);
   }
@@ -261,14 +265,12 @@ TEST(Outline, FollowsWhatPiercesTheLight) {
   // The repair gives the sides corners in the light's plane, between which there may be edges.
   const Staged repaired(maker), staged(test::as_it_is(maker.scene));
   EXPECT_NEAR(outline_length(repaired.stage, is_own), 4, 1e-9);
-  EXPECT_NEAR(outline_length(repaired.stage, [](const OutlinePiece& p) { return p.id >= 0; }), 1.6,
+  EXPECT_NEAR(outline_length(repaired.stage, [](const OutlinePiece& p) { return !is_own(p); }), 1.6,
               1e-9);
-  const int edges = staged.opaque.edge_count();
   EXPECT_NEAR(outline_length(staged.stage, is_own), 4, 1e-9);
-  EXPECT_NEAR(outline_length(staged.stage, [&](const OutlinePiece& p) { return p.id >= edges; }),
-              1.6, 1e-9);
+  EXPECT_NEAR(outline_length(staged.stage, is_cut), 1.6, 1e-9);
   for (const OutlinePiece& piece : staged.stage.outline)
-    if (piece.id >= 0) {
+    if (!is_own(piece)) {
       EXPECT_TRUE(is_on_square(piece.span.from) && is_on_square(piece.span.at(0.5)));
       EXPECT_EQ(piece.feature.kind, Feature::Kind::face);
     }
@@ -278,10 +280,10 @@ TEST(Outline, FollowsWhatPiercesTheLight) {
       ASSERT_TRUE(corner);
       // Two triangles of the sides that meet here, and the edge between them.
       EXPECT_EQ(std::count_if(corner->edges.begin(), corner->edges.end(),
-                              [&](int id) { return id >= edges; }),
+                              [](EdgeId id) { return id.kind == EdgeId::Kind::cut; }),
                 2);
       EXPECT_EQ(std::count_if(corner->edges.begin(), corner->edges.end(),
-                              [&](int id) { return id >= 0 && id < edges; }),
+                              [](EdgeId id) { return id.kind == EdgeId::Kind::edge; }),
                 1);
     }
 }
@@ -289,12 +291,12 @@ TEST(Outline, FollowsWhatPiercesTheLight) {
 TEST(Outline, HasCornersWhereWhatPiercesItCrossesTheBorder) {
   const Staged staged(
       test::as_it_is(SceneMaker().square_light().box({0.3, -0.2, 1.6}, {0.7, 0.1, 2.3}).scene));
-  const int edges = staged.opaque.edge_count();
   for (const double y : {-0.2, 0.1}) {
     bool found = false;
     for (const OutlinePoint& corner : staged.stage.corners)
       if (is_same(corner.position, {0.5, y, 2}))
-        found = found || (corner.edges.front() < 0 && corner.edges.back() >= edges);
+        found = found || (corner.edges.front().kind == EdgeId::Kind::emitter_edge &&
+                          corner.edges.back().kind == EdgeId::Kind::cut);
     EXPECT_TRUE(found) << y;
     EXPECT_GE(corners_at(staged.stage, {0.3, y, 2}), 1);
     EXPECT_EQ(corners_at(staged.stage, {0.7, y, 2}), 0) << "outside the light";
@@ -305,9 +307,9 @@ TEST(Outline, AThingThatTouchesTheBorderMakesNoCornerOfTheLightsOwn) {
   const Staged staged(
       SceneMaker().square_light().polygon({{-0.1, 0.5, 2}, {0.2, 0.5, 2}, {0, 0.5, 1.5}}));
   EXPECT_NEAR(outline_length(staged.stage, is_own), 4, 1e-9);
-  std::set<int> own;
+  std::set<EdgeId> own;
   for (const OutlinePiece& piece : staged.stage.outline)
-    if (piece.id < 0) own.insert(piece.id);
+    if (is_own(piece)) own.insert(piece.id);
   EXPECT_EQ(own.size(), 4u) << "pieces of one edge share its id";
   for (const double x : {-0.1, 0.2}) {
     ASSERT_GE(corners_at(staged.stage, {x, 0.5, 2}), 1);
@@ -318,6 +320,47 @@ TEST(Outline, AThingThatTouchesTheBorderMakesNoCornerOfTheLightsOwn) {
                             return corner.feature.kind == Feature::Kind::emitter_vertex;
                           }),
             4);
+}
+
+TEST(LineOf, RunsThroughEdgesOfTheSceneAndPiecesOfTheOutline) {
+  const Staged staged(
+      test::as_it_is(SceneMaker().square_light().box({0.3, -0.2, 1.6}, {0.7, 0.1, 2.3}).scene));
+  const auto is_on = [](const Line3& line, const Vec3& p) {
+    return line.direction.cross(p - line.point).norm() < 1e-12;
+  };
+  for (int e = 0; e < staged.opaque.edge_count(); ++e) {
+    const Line3 line = line_of(staged.stage, staged.opaque.impl(), EdgeId::edge(e));
+    for (const Vec3& p : staged.opaque.edge_ends(e)) EXPECT_TRUE(is_on(line, p));
+  }
+  for (const OutlinePiece& piece : staged.stage.outline) {
+    const Line3 line = line_of(staged.stage, staged.opaque.impl(), piece.id);
+    EXPECT_TRUE(is_on(line, piece.span.from) && is_on(line, piece.span.to));
+  }
+}
+
+TEST(LineOf, FindsCutsThatAreNoPieceOfTheOutline) {
+  Staged staged(
+      test::as_it_is(SceneMaker().square_light().box({0.3, -0.2, 1.6}, {0.7, 0.1, 2.3}).scene));
+  const std::vector<OutlinePiece> outline = std::move(staged.stage.outline);
+  staged.stage.outline.clear();
+  int cuts = 0;
+  for (const OutlinePiece& piece : outline) {
+    if (!is_cut(piece)) continue;
+    ++cuts;
+    const Line3 line = line_of(staged.stage, staged.opaque.impl(), piece.id);
+    for (const Vec3& p : {piece.span.from, piece.span.to})
+      EXPECT_LT(line.direction.cross(p - line.point).norm(), 1e-12);
+    EXPECT_GT(line.direction.norm(), 0);
+  }
+  EXPECT_GT(cuts, 0);
+}
+
+TEST(LineOf, RefusesWhatIsNoEdge) {
+  const Staged staged(SceneMaker().square_light().floor());
+  const int edges = staged.opaque.edge_count();
+  for (const EdgeId id : {EdgeId::horizon(), EdgeId::edge(edges), EdgeId::edge(-1),
+                          EdgeId::emitter_edge(4), EdgeId::cut(0), EdgeId::cut(1000)})
+    EXPECT_THROW(line_of(staged.stage, staged.opaque.impl(), id), Error);
 }
 
 TEST(EmitterStage, ContainsWhatACountOfCrossingsSays) {

@@ -76,7 +76,8 @@ TEST(EdgeSwaths, JoinEveryCornerOfTheLightWithTheEdge) {
         EXPECT_EQ(swath.source.kind, CurveKind::ev);
         EXPECT_EQ(swath.silhouettes[0], e);
         EXPECT_TRUE(std::is_sorted(swath.group.begin(), swath.group.end()));
-        EXPECT_TRUE(std::binary_search(swath.group.begin(), swath.group.end(), edge.id));
+        EXPECT_TRUE(
+            std::binary_search(swath.group.begin(), swath.group.end(), EdgeId::edge(edge.id)));
         EXPECT_LT(distance_to_segment(swath.base.from, edge.front), 1e-9);
         EXPECT_LT(distance_to_segment(swath.base.to, edge.front), 1e-9);
         if (!swath.ends_on_outline) {
@@ -318,15 +319,17 @@ TEST(PairSwaths, JoinTwoEdgesWithEveryPieceOfTheOutline) {
   const std::vector<Swath> swaths =
       collect([&](const SwathSink& sink) { pair_swaths(stage, a, b, sink); });
   ASSERT_EQ(swaths.size(), 4u);
-  std::set<int> pieces;
+  std::set<EdgeId> pieces;
   for (const Swath& swath : swaths) {
     EXPECT_FALSE(swath.is_planar);
     EXPECT_TRUE(swath.ends_on_outline);
     ASSERT_EQ(swath.group.size(), 3u);
     pieces.insert(swath.group[0]);
-    EXPECT_EQ(swath.group[1], stage.edges[static_cast<std::size_t>(std::min(a, b))].id);
+    EXPECT_EQ(swath.group[1],
+              EdgeId::edge(stage.edges[static_cast<std::size_t>(std::min(a, b))].id));
   }
-  EXPECT_EQ(pieces, (std::set{-1, -2, -3, -4}));
+  EXPECT_EQ(pieces, (std::set{EdgeId::emitter_edge(0), EdgeId::emitter_edge(1),
+                              EdgeId::emitter_edge(2), EdgeId::emitter_edge(3)}));
 }
 
 }  // namespace

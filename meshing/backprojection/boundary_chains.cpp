@@ -139,7 +139,7 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
   join_leftovers(arrangement, view);
   for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
     if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
-  const std::size_t edge_count = view.scene().edges.size();
+  const std::size_t edge_count = view.topology().edges.size();
   // A sum does not depend on where chains start, nor on their order.
   std::size_t first = 0;
   for (const int end : ends) {

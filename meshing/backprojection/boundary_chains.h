@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/backprojection/shadow_arrangement.h"
+#include "meshing/backprojection/visible_part.h"
 
 #include <vector>
 

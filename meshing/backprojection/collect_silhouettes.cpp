@@ -27,28 +27,28 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
 }  // namespace
 
 void ShadowArrangement::collect_silhouettes() {
-  const auto& scene = view_->scene();
+  const SilhouetteTrees& trees = view_->silhouette_trees();
   const SightPyramid& pyramid = outline_->pyramid;
   const auto consider = [&](int edge) { consider_edge(edge); };
   walk_tree(
-      scene.closed_edges,
+      trees.closed_edges,
       [&](int index) {
-        const Bounds& box = scene.closed_edges.nodes[at(index)].box;
+        const Bounds& box = trees.closed_edges.nodes[at(index)].box;
         if (pyramid.is_outside(box)) return true;
         // Faces beyond the emitter's plane or in it do not count, so their edges may matter.
-        return look_one_way(scene.cones[at(index)], pyramid.eye, pyramid.slack) &&
+        return look_one_way(trees.cones[at(index)], pyramid.eye, pyramid.slack) &&
                pyramid.is_before_plane(box);
       },
       consider);
   walk_tree(
-      scene.open_edges,
-      [&](int index) { return pyramid.is_outside(scene.open_edges.nodes[at(index)].box); },
+      trees.open_edges,
+      [&](int index) { return pyramid.is_outside(trees.open_edges.nodes[at(index)].box); },
       consider);
   collect_cuts();
 }
 
 void ShadowArrangement::consider_edge(int edge) {
-  const auto& e = view_->scene().edges[at(edge)];
+  const auto& e = view_->topology().edges[at(edge)];
   int from = view_->corner_of_vertex(e.from), to = view_->corner_of_vertex(e.to);
   if (outline_->pyramid.is_outside(view_->corners[at(from)].direction,
                                    view_->corners[at(to)].direction))
@@ -57,7 +57,7 @@ void ShadowArrangement::consider_edge(int edge) {
   if (a != Place::before && b != Place::before && !(a == Place::on && b == Place::on)) return;
   int weight = 0;
   for (int i = e.first; i < e.first + e.count; ++i) {
-    const auto& incidence = view_->scene().incidences[at(i)];
+    const auto& incidence = view_->topology().incidences[at(i)];
     weight += incidence.direction * view_->face_sign(incidence.triangle);
   }
   if (weight == 0) return;
@@ -71,14 +71,14 @@ void ShadowArrangement::consider_edge(int edge) {
 
 /// The lines where faces pierce the emitter's plane.
 void ShadowArrangement::collect_cuts() {
-  const auto& scene = view_->scene();
+  const FlatTree& faces = view_->face_tree();
   const SightPyramid& pyramid = outline_->pyramid;
   const auto skip = [&](int index) {
-    const Bounds& box = scene.faces.nodes[at(index)].box;
+    const Bounds& box = faces.nodes[at(index)].box;
     return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
   };
   const std::size_t first = arcs_.size();
-  walk_tree(scene.faces, skip, [&](int triangle) {
+  walk_tree(faces, skip, [&](int triangle) {
     const int sign = view_->face_sign(triangle);
     if (sign == 0) return;
     std::array<int, 4> p{};

@@ -39,7 +39,7 @@ int EmitterOutline::cross_horizon(PointView& view, int from, int to) {
 }
 
 void EmitterOutline::cut_ring(PointView& view,
-                              std::span<const OpaqueScene::Impl::OutlineVertex> ring) {
+                              std::span<const OpaqueTopology::OutlineVertex> ring) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const int a = view.corner_of_vertex(ring[k].vertex);
     const int b = view.corner_of_vertex(ring[(k + 1) % ring.size()].vertex);
@@ -138,9 +138,9 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   point_ = point;
   normal_ = normal;
   horizon_ = normal.cross(view.emitter().normal);
-  const auto& surface = view.scene().surfaces[at(emitter)];
+  const auto& surface = view.topology().surfaces[at(emitter)];
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
-    cut_ring(view, view.scene().ring(r));
+    cut_ring(view, view.topology().ring(r));
   if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
   if (!exits_.empty()) {
     close_along_horizon(view);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/point_view.h"
 
 #include <vector>
@@ -32,7 +33,7 @@ class EmitterOutline {
   };
   void add_edge(PointView& view, int from, int to, EdgeId edge);
   int cross_horizon(PointView& view, int from, int to);
-  void cut_ring(PointView& view, std::span<const OpaqueScene::Impl::OutlineVertex> ring);
+  void cut_ring(PointView& view, std::span<const OpaqueTopology::OutlineVertex> ring);
   void close_along_horizon(PointView& view);
   void put_in_order(const PointView& view);
   void make_pyramid(const PointView& view);

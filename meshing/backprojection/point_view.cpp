@@ -13,8 +13,6 @@ namespace {
 // Stands for 0 where directions are inverted; its inverse is still finite.
 constexpr double least_slope = 1e-300;
 
-using Impl = OpaqueScene::Impl;
-
 // What rounding may put a point off a plane that it was computed to lie in, relative to the largest
 // coordinate: a few roundings each in the point, in the plane's origin and in the distance.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
@@ -65,12 +63,14 @@ bool SightPyramid::crosses_plane(const Bounds& box) const {
          reach(box, normal) + slack;
 }
 
-PointView::PointView(const Impl& scene)
-    : scene_(scene),
-      vertices_(scene.vertices.size()),
-      cuts_(scene.edges.size()),
-      signs_(scene.triangles.size()),
-      edge_on_(scene.surfaces.size()) {}
+PointView::PointView(const OpaqueScene& scene)
+    : topology_(scene.topology()),
+      silhouette_trees_(scene.silhouette_trees()),
+      face_tree_(scene.face_tree()),
+      vertices_(topology_.vertices.size()),
+      cuts_(topology_.edges.size()),
+      signs_(topology_.triangles.size()),
+      edge_on_(topology_.surfaces.size()) {}
 
 void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
   if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
@@ -82,13 +82,13 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   point_ = point;
   jitter_ = jitter;
   normal_ = normal;
-  emitter_ = &scene_.surfaces[at(emitter)].frame;
+  emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  slack_ = rounding * std::max(scene_.magnitude, point.lpNorm<Eigen::Infinity>());
+  slack_ = rounding * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
 }
 
 std::int64_t PointView::first_free_rank() const {
-  return static_cast<std::int64_t>(scene_.vertices.size() + scene_.edges.size());
+  return static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
 }
 
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
@@ -110,20 +110,20 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
 
 int PointView::corner_of_vertex(int vertex) {
   Kept& kept = vertices_[at(vertex)];
-  if (!is_fresh(kept)) kept = {query_, add_corner(scene_.vertices[at(vertex)], vertex)};
+  if (!is_fresh(kept)) kept = {query_, add_corner(topology_.vertices[at(vertex)], vertex)};
   return kept.value;
 }
 
 int PointView::corner_of_cut(int edge) {
   Kept& kept = cuts_[at(edge)];
   if (!is_fresh(kept)) {
-    int from = corner_of_vertex(scene_.edges[at(edge)].from);
-    int to = corner_of_vertex(scene_.edges[at(edge)].to);
+    int from = corner_of_vertex(topology_.edges[at(edge)].from);
+    int to = corner_of_vertex(topology_.edges[at(edge)].to);
     if (corners[at(from)].place == Place::beyond) std::swap(from, to);
     const Corner &a = corners[at(from)], &b = corners[at(to)];
     const Vec3 position =
         a.true_position + a.height / (a.height - b.height) * (b.true_position - a.true_position);
-    const auto rank = static_cast<std::int64_t>(scene_.vertices.size()) + edge;
+    const auto rank = static_cast<std::int64_t>(topology_.vertices.size()) + edge;
     kept = {query_, add_corner(position, rank)};
     corners.back().is_cut = true;
     corners.back().place = Place::on;
@@ -138,10 +138,10 @@ int PointView::turn(int a, int b, int c) const {
 bool PointView::is_edge_on(int surface) {
   Kept& kept = edge_on_[at(surface)];
   if (!is_fresh(kept)) {
-    const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
+    const PlaneFrame& frame = topology_.surfaces[at(surface)].frame;
     const double height = std::abs(frame.height(point_));
     kept = {query_, height <= slack_ ||
-                        (height <= scene_.tolerance.length &&
+                        (height <= topology_.tolerance.length &&
                          std::abs(frame.normal.dot(normal_)) > same_normal && touches(surface))};
   }
   return kept.value != 0;
@@ -149,17 +149,17 @@ bool PointView::is_edge_on(int surface) {
 
 /// Whether the point lies over the surface or within the tolerance of its border.
 bool PointView::touches(int id) const {
-  const Impl::OpaqueSurface& surface = scene_.surfaces[at(id)];
+  const OpaqueTopology::OpaqueSurface& surface = topology_.surfaces[at(id)];
   bool inside = false;
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
-    const auto ring = scene_.ring(r);
+    const auto ring = topology_.ring(r);
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 a = surface.frame.to_plane(scene_.vertices[at(ring[k].vertex)]);
+      const Vec2 a = surface.frame.to_plane(topology_.vertices[at(ring[k].vertex)]);
       const Vec2 b =
-          surface.frame.to_plane(scene_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
+          surface.frame.to_plane(topology_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
       const Vec2 p = surface.frame.to_plane(point_), along = b - a;
       const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0., 1.);
-      if ((p - a - t * along).norm() <= scene_.tolerance.length) return true;
+      if ((p - a - t * along).norm() <= topology_.tolerance.length) return true;
       if ((a.y() > p.y()) != (b.y() > p.y()) &&
           p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
         inside = !inside;
@@ -171,13 +171,13 @@ bool PointView::touches(int id) const {
 int PointView::face_sign(int triangle) {
   Kept& kept = signs_[at(triangle)];
   if (!is_fresh(kept)) {
-    const Impl::Triangle& face = scene_.triangles[at(triangle)];
+    const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
     std::array<int, 3> c{};
     bool blocks = false, flat = true;
     for (std::size_t k = 0; k < 3; ++k) {
       c[k] = corner_of_vertex(face.corner[k]);
       blocks = blocks || corners[at(c[k])].place == Place::before;
-      flat = flat && std::abs(corners[at(c[k])].height) <= scene_.tolerance.length;
+      flat = flat && std::abs(corners[at(c[k])].height) <= topology_.tolerance.length;
     }
     kept = {query_, blocks && !flat && !is_edge_on(face.surface) ? turn(c[0], c[1], c[2]) : 0};
   }
@@ -185,7 +185,7 @@ int PointView::face_sign(int triangle) {
 }
 
 int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
-  const Impl::Triangle& face = scene_.triangles[at(triangle)];
+  const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
   int count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const int a = corner_of_vertex(face.corner[k]);
@@ -218,13 +218,13 @@ int PointView::cover_by(int triangle, const Germ& germ) {
   const int count = clipped(triangle, p);
   int sum = 0;
   for (int k = 2; k < count; ++k) sum += covers(p[0], p[at(k - 1)], p[at(k)], germ);
-  if (sum != 0) covering_.push_back(scene_.triangles[at(triangle)].surface);
+  if (sum != 0) covering_.push_back(topology_.triangles[at(triangle)].surface);
   return sign * sum;
 }
 
 int PointView::cover(const Germ& germ) {
   covering_.clear();
-  const FlatTree& tree = scene_.faces;
+  const FlatTree& tree = face_tree_;
   if (tree.nodes.empty()) return 0;
   const Corner& target = corners[at(germ.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/geometry/exact_signs.h"
 
 #include <array>
@@ -47,13 +49,15 @@ struct SightPyramid {
 /// kept until the next start.
 class PointView {
  public:
-  explicit PointView(const OpaqueScene::Impl& scene);
+  explicit PointView(const OpaqueScene& scene);
 
   /// With a positive `jitter` (a length), every corner decides as if it lay up to that far from
   /// its true position, in a direction that depends on its rank.
   void start(const Vec3& point, const Vec3& normal, int emitter, double jitter = 0);
 
-  const OpaqueScene::Impl& scene() const { return scene_; }
+  const OpaqueTopology& topology() const { return topology_; }
+  const SilhouetteTrees& silhouette_trees() const { return silhouette_trees_; }
+  const FlatTree& face_tree() const { return face_tree_; }
   const PlaneFrame& emitter() const { return *emitter_; }
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
   double slack() const { return slack_; }        ///< rounding of a distance
@@ -94,7 +98,9 @@ class PointView {
   bool touches(int surface) const;
   int cover_by(int triangle, const Germ& germ);
 
-  const OpaqueScene::Impl& scene_;
+  const OpaqueTopology& topology_;
+  const SilhouetteTrees& silhouette_trees_;
+  const FlatTree& face_tree_;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
   std::vector<int> covering_;
   std::uint32_t query_ = 0;

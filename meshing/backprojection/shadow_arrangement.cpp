@@ -49,9 +49,9 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
 
 /// Whether a surface that covers a direction in the pyramid covers all: its border stays outside.
 bool ShadowArrangement::is_hidden_by(int id) {
-  const auto& surface = view_->scene().surfaces[at(id)];
+  const auto& surface = view_->topology().surfaces[at(id)];
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
-    const auto ring = view_->scene().ring(r);
+    const auto ring = view_->topology().ring(r);
     int from = view_->corner_of_vertex(ring.back().vertex);
     for (const auto& next : ring) {
       const int to = view_->corner_of_vertex(next.vertex);

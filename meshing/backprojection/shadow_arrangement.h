@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/emitter_outline.h"
 #include "meshing/backprojection/point_view.h"
 

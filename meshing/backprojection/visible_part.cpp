@@ -26,10 +26,10 @@ constexpr std::uint64_t away_signature = 0x71e40b9d256c8fa3;
 constexpr double least_jitter = 0x1p-46;
 constexpr int most_attempts = 6;
 
-void check(const OpaqueScene::Impl& scene, const Vec3& point, const Vec3& normal, int surface) {
-  if (surface < 0 || static_cast<std::size_t>(surface) >= scene.surfaces.size())
+void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal, int surface) {
+  if (surface < 0 || static_cast<std::size_t>(surface) >= topology.surfaces.size())
     throw Error(ErrorCode::contract, "VisiblePartFinder",
-                fmt::format("there is no surface {} among {}", surface, scene.surfaces.size()));
+                fmt::format("there is no surface {} among {}", surface, topology.surfaces.size()));
   if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < unit_enough))
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("the point ({}, {}, {}) must be finite and its normal ({}, {}, {}) of "
@@ -48,7 +48,7 @@ void clear(VisiblePart& part) {
 }  // namespace
 
 struct VisiblePartFinder::Impl {
-  explicit Impl(const OpaqueScene::Impl& scene) : view(scene) {}
+  explicit Impl(const OpaqueScene& scene) : view(scene) {}
 
   PointView view;
   EmitterOutline outline;
@@ -78,7 +78,7 @@ void VisiblePartFinder::Impl::fill_unobstructed(VisiblePart& part) const {
 }
 
 VisiblePartFinder::VisiblePartFinder(const OpaqueScene& scene)
-    : impl_(std::make_unique<Impl>(scene.impl())) {}
+    : impl_(std::make_unique<Impl>(scene)) {}
 
 VisiblePartFinder::~VisiblePartFinder() = default;
 VisiblePartFinder::VisiblePartFinder(VisiblePartFinder&&) noexcept = default;
@@ -87,9 +87,9 @@ VisiblePartFinder& VisiblePartFinder::operator=(VisiblePartFinder&&) noexcept = 
 void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
                              VisiblePart& part) {
   Impl& m = *impl_;
-  check(m.view.scene(), point, normal, surface);
+  check(m.view.topology(), point, normal, surface);
   clear(part);
-  const double size = std::max(m.view.scene().magnitude, point.lpNorm<Eigen::Infinity>());
+  const double size = std::max(m.view.topology().magnitude, point.lpNorm<Eigen::Infinity>());
   double jitter = 0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     if (!m.try_with(jitter * size, point, normal, surface)) return;

@@ -35,7 +35,7 @@ std::vector<std::array<double, 2>> stretches(const Surface& receiver, const Vec2
 }
 
 /// Points of the emitter's plane that can limit what is seen along it.
-std::vector<Vec3> limits_in_plane(const OpaqueScene::Impl& opaque, const EmitterStage& stage) {
+std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterStage& stage) {
   std::vector<Vec3> points;
   for (const auto& edge : opaque.edges) {
     const Vec3 &from = opaque.vertices[at(edge.from)], &to = opaque.vertices[at(edge.to)];
@@ -77,7 +77,7 @@ void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
   const auto inside = stretches(target, start, along);
   if (inside.empty()) return;
   std::vector<double> cuts;
-  const std::vector<Vec3> limits = limits_in_plane(opaque.impl(), stage);
+  const std::vector<Vec3> limits = limits_in_plane(opaque.topology(), stage);
   std::vector<Vec2> apexes;
   for (const OutlinePoint& corner : stage.corners)
     apexes.push_back(stage.frame.to_plane(corner.position));

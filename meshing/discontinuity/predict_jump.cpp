@@ -83,7 +83,7 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
                                         EdgeId edge) const {
-  const Line3 line = line_of(stage_, opaque_.impl(), edge);
+  const Line3 line = line_of(stage_, opaque_.topology(), edge);
   const double slack = in_plane * stage_.joined;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
@@ -94,9 +94,9 @@ double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3
   double jump = 0;
   for (const EdgeTriple& triple : curve.triples) {
     const double size = triangle_jump({point, normal, left}, stage_.frame,
-                                      {line_of(stage_, opaque_.impl(), triple.edges[0]),
-                                       line_of(stage_, opaque_.impl(), triple.edges[1]),
-                                       line_of(stage_, opaque_.impl(), triple.edges[2])});
+                                      {line_of(stage_, opaque_.topology(), triple.edges[0]),
+                                       line_of(stage_, opaque_.topology(), triple.edges[1]),
+                                       line_of(stage_, opaque_.topology(), triple.edges[2])});
     if (std::isfinite(size)) jump += triple.sign * size;
   }
   return jump;

@@ -70,7 +70,7 @@ class RayBoxTest {
 double side_step(const SoundScene& scene, const OpaqueScene& opaque) {
   return std::max(
       relative_step * scene.tolerance.scene_size,
-      roundings_per_step * std::numeric_limits<double>::epsilon() * opaque.impl().magnitude);
+      roundings_per_step * std::numeric_limits<double>::epsilon() * opaque.topology().magnitude);
 }
 
 /// A piece of curve on a receiver that may go on.
@@ -83,7 +83,9 @@ struct SwathTracer::Open {
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
                          const EmitterStage& stage, const TraceLimits& limits)
     : scene_(scene),
-      opaque_(opaque.impl()),
+      opaque_(opaque.topology()),
+      silhouette_trees_(opaque.silhouette_trees()),
+      face_tree_(opaque.face_tree()),
       stage_(stage),
       limits_(limits),
       finder_(opaque),
@@ -134,8 +136,8 @@ void SwathTracer::cut(const Swath& swath, double t0, double t1) {
     const auto& edge = opaque_.edges[at(e)];
     consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
   };
-  walk(opaque_.closed_edges, skip, visit);
-  walk(opaque_.open_edges, skip, visit);
+  walk(silhouette_trees_.closed_edges, skip, visit);
+  walk(silhouette_trees_.open_edges, skip, visit);
   // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
   walk(contact_tree_, skip, [&](int c) { consider(contacts_[at(c)]); });
   for (const double t : found)
@@ -208,7 +210,7 @@ void SwathTracer::find_crossings(const SightLine& line) {
   const double slack = scene_.tolerance.length;
   const RayBoxTest ray(line, slack);
   walk(
-      opaque_.faces, [&](const Bounds& box) { return ray.misses(box); },
+      face_tree_, [&](const Bounds& box) { return ray.misses(box); },
       [&](int t) {
         const auto& corner = opaque_.triangles[at(t)].corner;
         const Vec3 a = opaque_.vertices[at(corner[0])] - line.start;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/discontinuity.h"
 #include "meshing/discontinuity/event_jump.h"
@@ -65,7 +66,9 @@ class SwathTracer {
   void finish(const Swath& swath, const Open& piece, std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
-  const OpaqueScene::Impl& opaque_;
+  const OpaqueTopology& opaque_;
+  const SilhouetteTrees& silhouette_trees_;
+  const FlatTree& face_tree_;
   const EmitterStage& stage_;
   TraceLimits limits_;
   std::vector<double> receiver_size_;    ///< diagonals of the bounding boxes

@@ -14,8 +14,6 @@
 namespace halfshade {
 namespace {
 
-using Impl = OpaqueScene::Impl;
-
 // Lines that run along a face to within this sine may have it on either side.
 constexpr double grazing = 1e-9;
 // What the repair has joined agrees to this share of the tolerance by which it joins.
@@ -26,7 +24,7 @@ constexpr double position_roundings = 1e3;
 /// Fills a stage step by step.
 class Builder {
  public:
-  Builder(const SoundScene& scene, const Impl& opaque, EmitterStage& stage)
+  Builder(const SoundScene& scene, const OpaqueTopology& opaque, EmitterStage& stage)
       : scene_(scene), opaque_(opaque), stage_(stage) {
     stage.stage_edge.assign(opaque.edges.size(), -1);
     for (const Vec3& p : opaque.vertices) height_.push_back(stage.frame.height(p));
@@ -46,17 +44,17 @@ class Builder {
   bool is_on(int vertex) const { return std::abs(height_[at(vertex)]) <= stage_.slack; }
   bool is_in_front(int vertex) const { return height_[at(vertex)] > stage_.slack; }
 
-  bool lies_in_emitter_plane(const Impl::Triangle& triangle) const {
+  bool lies_in_emitter_plane(const OpaqueTopology::Triangle& triangle) const {
     return std::all_of(triangle.corner.begin(), triangle.corner.end(),
                        [&](int v) { return is_on(v); });
   }
 
   /// The faces at an edge, those in one plane taken together.
-  void add_faces(const Impl::Edge& edge, StageEdge& out) {
+  void add_faces(const OpaqueTopology::Edge& edge, StageEdge& out) {
     std::map<int, StageEdge::Face> by_plane;
     for (int i = edge.first; i < edge.first + edge.count; ++i) {
-      const Impl::Incidence& incidence = opaque_.incidences[at(i)];
-      const Impl::Triangle& triangle = opaque_.triangles[at(incidence.triangle)];
+      const OpaqueTopology::Incidence& incidence = opaque_.incidences[at(i)];
+      const OpaqueTopology::Triangle& triangle = opaque_.triangles[at(incidence.triangle)];
       if (lies_in_emitter_plane(triangle)) continue;
       const Surface& receiver = scene_.surfaces[at(triangle.surface)];
       const auto [face, is_new] =
@@ -88,7 +86,7 @@ class Builder {
   }
 
   void add_edge(int id) {
-    const Impl::Edge& edge = opaque_.edges[at(id)];
+    const OpaqueTopology::Edge& edge = opaque_.edges[at(id)];
     if (!is_in_front(edge.from) && !is_in_front(edge.to)) return;
     StageEdge out;
     out.id = id;
@@ -110,7 +108,7 @@ class Builder {
   void add_vertices() {
     std::map<int, std::vector<int>> at_vertex;
     for (std::size_t e = 0; e < stage_.edges.size(); ++e) {
-      const Impl::Edge& edge = opaque_.edges[at(stage_.edges[e].id)];
+      const OpaqueTopology::Edge& edge = opaque_.edges[at(stage_.edges[e].id)];
       for (const int v : {edge.from, edge.to}) at_vertex[v].push_back(static_cast<int>(e));
     }
     for (const auto& [v, edges] : at_vertex)
@@ -126,7 +124,7 @@ class Builder {
   }
 
   void add_own_outline() {
-    const Impl::OpaqueSurface& surface = opaque_.surfaces[at(stage_.emitter)];
+    const OpaqueTopology::OpaqueSurface& surface = opaque_.surfaces[at(stage_.emitter)];
     for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
       const auto ring = opaque_.ring(r);
       for (std::size_t k = 0; k < ring.size(); ++k) {
@@ -147,7 +145,7 @@ class Builder {
   /// Edges in the emitter's plane at which something that hangs from it begins.
   void add_touching_edges() {
     for (std::size_t e = 0; e < opaque_.edges.size(); ++e) {
-      const Impl::Edge& edge = opaque_.edges[e];
+      const OpaqueTopology::Edge& edge = opaque_.edges[e];
       if (!is_on(edge.from) || !is_on(edge.to)) continue;
       bool hangs = false;
       for (int i = edge.first; i < edge.first + edge.count; ++i)
@@ -175,7 +173,7 @@ class Builder {
   void add_cuts() {
     std::set<int> cut_edges;
     for (std::size_t t = 0; t < opaque_.triangles.size(); ++t) {
-      const Impl::Triangle& triangle = opaque_.triangles[t];
+      const OpaqueTopology::Triangle& triangle = opaque_.triangles[t];
       std::vector<Vec3> ends;
       bool front = false, behind = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -192,7 +190,7 @@ class Builder {
                                 EdgeId::cut(static_cast<int>(t)),
                                 {Feature::Kind::face, triangle.surface}});
       for (const int e : triangle.edge) {
-        const Impl::Edge& edge = opaque_.edges[at(e)];
+        const OpaqueTopology::Edge& edge = opaque_.edges[at(e)];
         if (!is_on(edge.from) && !is_on(edge.to) && is_in_front(edge.from) != is_in_front(edge.to))
           cut_edges.insert(e);
       }
@@ -201,7 +199,7 @@ class Builder {
       const Vec3 position = cut(e);
       if (!stage_.contains(position)) continue;
       OutlinePoint corner{position, {EdgeId::edge(e)}, feature_of(EdgeId::edge(e))};
-      const Impl::Edge& edge = opaque_.edges[at(e)];
+      const OpaqueTopology::Edge& edge = opaque_.edges[at(e)];
       for (int i = edge.first; i < edge.first + edge.count; ++i)
         corner.edges.push_back(EdgeId::cut(opaque_.incidences[at(i)].triangle));
       stage_.corners.push_back(std::move(corner));
@@ -209,7 +207,7 @@ class Builder {
   }
 
   Vec3 cut(int e) const {
-    const Impl::Edge& edge = opaque_.edges[at(e)];
+    const OpaqueTopology::Edge& edge = opaque_.edges[at(e)];
     const double a = height_[at(edge.from)], b = height_[at(edge.to)];
     const Vec3 from = opaque_.vertices[at(edge.from)];
     return from + a / (a - b) * (opaque_.vertices[at(edge.to)] - from);
@@ -219,7 +217,7 @@ class Builder {
   void add_touching_points() {
     std::set<int> touching;
     for (const StageEdge& edge : stage_.edges) {
-      const Impl::Edge& ends = opaque_.edges[at(edge.id)];
+      const OpaqueTopology::Edge& ends = opaque_.edges[at(edge.id)];
       for (const int v : {ends.from, ends.to})
         if (is_on(v) && stage_.contains(opaque_.vertices[at(v)])) touching.insert(v);
     }
@@ -248,7 +246,7 @@ class Builder {
   }
 
   const SoundScene& scene_;
-  const Impl& opaque_;
+  const OpaqueTopology& opaque_;
   EmitterStage& stage_;
   std::vector<double> height_;            // of vertices above the emitter's plane
   std::map<int, std::size_t> corner_of_;  // vertex of the scene → corner of the stage
@@ -277,15 +275,16 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 
 EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, int receiver)
     : emitter(receiver), frame(scene.surfaces[at(receiver)].frame) {
-  const Impl& impl = opaque.impl();
-  slack = std::max(exact_share * scene.tolerance.length,
-                   position_roundings * std::numeric_limits<double>::epsilon() * impl.magnitude);
+  const OpaqueTopology& topology = opaque.topology();
+  slack =
+      std::max(exact_share * scene.tolerance.length,
+               position_roundings * std::numeric_limits<double>::epsilon() * topology.magnitude);
   joined = std::max(slack, scene.tolerance.length);
   rings = scene.surfaces[at(receiver)].rings;
   hull = convex_hull(rings[0]);
   for (const Vec2& p : hull) bounds.extend(p);
   area = halfshade::area(scene.surfaces[at(receiver)]);
-  Builder(scene, impl, *this).run();
+  Builder(scene, topology, *this).run();
   for (OutlinePoint& corner : corners) {
     std::sort(corner.edges.begin(), corner.edges.end());
     corner.edges.erase(std::unique(corner.edges.begin(), corner.edges.end()), corner.edges.end());
@@ -295,8 +294,8 @@ EmitterStage::EmitterStage(const SoundScene& scene, const OpaqueScene& opaque, i
 namespace {
 
 /// Where a triangle's plane cuts the emitter's; nothing if all its corners are on one side.
-std::optional<Line3> line_of_cut(const EmitterStage& stage, const Impl& opaque,
-                                 const Impl::Triangle& triangle) {
+std::optional<Line3> line_of_cut(const EmitterStage& stage, const OpaqueTopology& opaque,
+                                 const OpaqueTopology::Triangle& triangle) {
   std::array<double, 3> height{};
   std::array<Vec3, 3> corner;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -316,7 +315,7 @@ std::optional<Line3> line_of_cut(const EmitterStage& stage, const Impl& opaque,
 
 }  // namespace
 
-Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, EdgeId edge) {
+Line3 line_of(const EmitterStage& stage, const OpaqueTopology& opaque, EdgeId edge) {
   if (edge.kind == EdgeId::Kind::edge && at(edge.id) < opaque.edges.size()) {
     const auto& ends = opaque.edges[at(edge.id)];
     const Vec3& from = opaque.vertices[at(ends.from)];

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
 #include "meshing/events/swath.h"
 
 #include <span>
@@ -76,7 +77,7 @@ struct EmitterStage {
 };
 
 /// The line that an edge lies on. Error(contract) if there is no such edge: the horizon is none.
-Line3 line_of(const EmitterStage& stage, const OpaqueScene::Impl& opaque, EdgeId edge);
+Line3 line_of(const EmitterStage& stage, const OpaqueTopology& opaque, EdgeId edge);
 
 /// The convex hull of points in a plane, counter-clockwise.
 std::vector<Vec2> convex_hull(std::vector<Vec2> points);

@@ -167,7 +167,7 @@ struct FaceEdges {
   std::vector<EdgeId> ids;  // all on its border
 };
 
-FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int receiver) {
+FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueTopology& opaque, int receiver) {
   std::vector<int> count_once;
   for (const auto& triangle : opaque.triangles)
     if (triangle.surface == receiver)
@@ -207,7 +207,7 @@ void face_swaths(const SoundScene& scene, const EmitterStage& stage, const Opaqu
     if ((a > 0) != (b > 0)) entries.push_back(piece.span.at(a / (a - b)));
   }
   if (!above || !below || entries.size() < 2) return;
-  const FaceEdges face = edges_of_face(stage, opaque.impl(), receiver);
+  const FaceEdges face = edges_of_face(stage, opaque.topology(), receiver);
   if (face.spans.empty()) return;
   Swath swath;
   swath.source = {CurveKind::face, {Feature{Feature::Kind::face, receiver}}, 1};

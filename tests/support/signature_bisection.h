@@ -66,7 +66,7 @@ class SegmentAuditor {
         finder_(opaque),
         curves_(curves),
         size_(scene.tolerance.scene_size),
-        limit_(accepted * size_ + rounding * opaque.impl().magnitude) {}
+        limit_(accepted * size_ + rounding * opaque.topology().magnitude) {}
 
   /// `count` segments on surfaces chosen at random among those where something can be seen.
   SegmentAudit run(std::span<const int> emitters, int count, std::uint64_t seed) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
 #include "meshing/backprojection/visible_part.h"
 
 #include <fmt/format.h>
@@ -36,7 +36,7 @@ class Signer {
       : scene_(scene),
         opaque_(opaque),
         line_of_edge_(join_lines(opaque)),
-        rounding_(1e-12 * scene.tolerance.scene_size + 0x1p-46 * opaque.impl().magnitude) {}
+        rounding_(1e-12 * scene.tolerance.scene_size + 0x1p-46 * opaque.topology().magnitude) {}
 
   /// `normal`: of the surface that the point lies on.
   Signature operator()(const VisiblePart& part, const Vec3& point, const Vec3& normal,
@@ -98,7 +98,7 @@ class Signer {
     if (edge.kind == EdgeId::Kind::emitter_edge)
       return EdgeId::emitter_edge(line_of_outline(edge.id, emitter));
     if (edge.kind == EdgeId::Kind::edge) return EdgeId::edge(line_of_edge_[at(edge.id)]);
-    const int surface = opaque_.impl().triangles[at(edge.id)].surface;
+    const int surface = opaque_.topology().triangles[at(edge.id)].surface;
     return EdgeId::cut(scene_.surfaces[at(surface)].plane);
   }
 
@@ -141,8 +141,8 @@ class Signer {
 
   /// The lowest edge of those on one line that share vertices.
   static std::vector<int> join_lines(const OpaqueScene& opaque) {
-    const auto& edges = opaque.impl().edges;
-    std::vector<std::vector<int>> at_vertex(opaque.impl().vertices.size());
+    const auto& edges = opaque.topology().edges;
+    std::vector<std::vector<int>> at_vertex(opaque.topology().vertices.size());
     std::vector<int> line(edges.size());
     std::iota(line.begin(), line.end(), 0);
     const auto root = [&](int e) {
@@ -153,7 +153,7 @@ class Signer {
       for (const int v : {edges[e].from, edges[e].to})
         at_vertex[static_cast<std::size_t>(v)].push_back(static_cast<int>(e));
     const auto position = [&](int v) -> const Vec3& {
-      return opaque.impl().vertices[static_cast<std::size_t>(v)];
+      return opaque.topology().vertices[static_cast<std::size_t>(v)];
     };
     const auto far_end = [&](int e, int v) {
       const auto& edge = edges[static_cast<std::size_t>(e)];

@@ -1,6 +1,6 @@
 #include "meshing/events/emitter_stage.h"
 
-#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
 #include "meshing/core/error.h"
 #include "meshing/core/light_source.h"
 #include "tests/support/staged.h"
@@ -329,11 +329,11 @@ TEST(LineOf, RunsThroughEdgesOfTheSceneAndPiecesOfTheOutline) {
     return line.direction.cross(p - line.point).norm() < 1e-12;
   };
   for (int e = 0; e < staged.opaque.edge_count(); ++e) {
-    const Line3 line = line_of(staged.stage, staged.opaque.impl(), EdgeId::edge(e));
+    const Line3 line = line_of(staged.stage, staged.opaque.topology(), EdgeId::edge(e));
     for (const Vec3& p : staged.opaque.edge_ends(e)) EXPECT_TRUE(is_on(line, p));
   }
   for (const OutlinePiece& piece : staged.stage.outline) {
-    const Line3 line = line_of(staged.stage, staged.opaque.impl(), piece.id);
+    const Line3 line = line_of(staged.stage, staged.opaque.topology(), piece.id);
     EXPECT_TRUE(is_on(line, piece.span.from) && is_on(line, piece.span.to));
   }
 }
@@ -347,7 +347,7 @@ TEST(LineOf, FindsCutsThatAreNoPieceOfTheOutline) {
   for (const OutlinePiece& piece : outline) {
     if (!is_cut(piece)) continue;
     ++cuts;
-    const Line3 line = line_of(staged.stage, staged.opaque.impl(), piece.id);
+    const Line3 line = line_of(staged.stage, staged.opaque.topology(), piece.id);
     for (const Vec3& p : {piece.span.from, piece.span.to})
       EXPECT_LT(line.direction.cross(p - line.point).norm(), 1e-12);
     EXPECT_GT(line.direction.norm(), 0);
@@ -360,7 +360,7 @@ TEST(LineOf, RefusesWhatIsNoEdge) {
   const int edges = staged.opaque.edge_count();
   for (const EdgeId id : {EdgeId::horizon(), EdgeId::edge(edges), EdgeId::edge(-1),
                           EdgeId::emitter_edge(4), EdgeId::cut(0), EdgeId::cut(1000)})
-    EXPECT_THROW(line_of(staged.stage, staged.opaque.impl(), id), Error);
+    EXPECT_THROW(line_of(staged.stage, staged.opaque.topology(), id), Error);
 }
 
 TEST(EmitterStage, ContainsWhatACountOfCrossingsSays) {

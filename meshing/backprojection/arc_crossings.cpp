@@ -57,12 +57,12 @@ bool ShadowArrangement::cross(int i, int j) {
   if (a_from != b_to || view_->turn(b.from, b.to, a.to) == a_from) return false;
   Crossing crossing{
       {i, j}, {}, {a_from < 0 ? b.weight : -b.weight, b_from < 0 ? a.weight : -a.weight}};
-  place_crossing(crossing);
+  locate_crossing(crossing);
   crossings_.push_back(crossing);
   return true;
 }
 
-void ShadowArrangement::place_crossing(Crossing& crossing) const {
+void ShadowArrangement::locate_crossing(Crossing& crossing) const {
   std::array<Vec3, 2> start, along, normal;
   for (std::size_t k = 0; k < 2; ++k) {
     const Arc& arc = arcs_[at(crossing.arc[k])];
@@ -114,15 +114,15 @@ void ShadowArrangement::sort_crossings() {
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
     const int arc = static_cast<int>(i);
     const auto begin = order_.begin() + arcs_[i].first, end = begin + arcs_[i].count;
-    const auto place = [&](int c) {
+    const auto along = [&](int c) {
       const Crossing& crossing = crossings_[at(c)];
       return crossing.along[at(side_of(crossing, arc))];
     };
     std::sort(begin, end,
-              [&](int a, int b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
+              [&](int a, int b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
     // Insertion, because the order of near ties need not be transitive.
     for (auto next = begin; next != end; ++next)
-      for (auto c = next; c != begin && place(*c) - place(c[-1]) < near_tie; --c) {
+      for (auto c = next; c != begin && along(*c) - along(c[-1]) < near_tie; --c) {
         if (!is_before(arc, *c, c[-1])) break;
         std::swap(*c, c[-1]);
       }

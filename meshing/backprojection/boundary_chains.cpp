@@ -65,9 +65,9 @@ void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to
 }  // namespace
 
 /// A piece's follower starts where it ends.
-void BoundaryChains::join_places(const ShadowArrangement& arrangement) {
+void BoundaryChains::join_at_junctions(const ShadowArrangement& arrangement) {
   const auto& all = arrangement.pieces;
-  starts_.assign(at(arrangement.place_count), -1);
+  starts_.assign(at(arrangement.junction_count), -1);
   siblings_.assign(all.size(), -1);
   next_.assign(all.size(), -1);
   is_taken_.assign(all.size(), 0);
@@ -135,7 +135,7 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
   signature = 0;
   total_ = {};
   closed = true;
-  join_places(arrangement);
+  join_at_junctions(arrangement);
   join_leftovers(arrangement, view);
   for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
     if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));

@@ -53,16 +53,18 @@ void ShadowArrangement::consider_edge(int edge) {
   if (outline_->pyramid.is_outside(view_->corners[at(from)].direction,
                                    view_->corners[at(to)].direction))
     return;
-  const Place a = view_->corners[at(from)].place, b = view_->corners[at(to)].place;
-  if (a != Place::before && b != Place::before && !(a == Place::on && b == Place::on)) return;
+  const PlaneSide a = view_->corners[at(from)].side, b = view_->corners[at(to)].side;
+  if (a != PlaneSide::before && b != PlaneSide::before &&
+      !(a == PlaneSide::on && b == PlaneSide::on))
+    return;
   int weight = 0;
   for (int i = e.first; i < e.first + e.count; ++i) {
     const auto& incidence = view_->topology().incidences[at(i)];
     weight += incidence.direction * view_->face_sign(incidence.triangle);
   }
   if (weight == 0) return;
-  if (a == Place::beyond) from = view_->corner_of_cut(edge);
-  if (b == Place::beyond) to = view_->corner_of_cut(edge);
+  if (a == PlaneSide::beyond) from = view_->corner_of_cut(edge);
+  if (b == PlaneSide::beyond) to = view_->corner_of_cut(edge);
   if (weight > 0)
     add_arc(from, to, weight, EdgeId::edge(edge));
   else
@@ -86,7 +88,7 @@ void ShadowArrangement::collect_cuts() {
     for (int k = 0; k < count; ++k) {
       const int i = p[at(k)], j = p[at((k + 1) % count)];
       const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
-      if (a.place != Place::on || b.place != Place::on || !(a.is_cut || b.is_cut)) continue;
+      if (a.side != PlaneSide::on || b.side != PlaneSide::on || !(a.is_cut || b.is_cut)) continue;
       const EdgeId id = EdgeId::cut(triangle);
       sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
     }

@@ -98,7 +98,8 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);
-  if (corner.height <= slack_) corner.place = corner.height < -slack_ ? Place::beyond : Place::on;
+  if (corner.height <= slack_)
+    corner.side = corner.height < -slack_ ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
   corner.is_ahead = depth > nearest_image * distance_;
   if (corner.is_ahead)
@@ -119,14 +120,14 @@ int PointView::corner_of_cut(int edge) {
   if (!is_fresh(kept)) {
     int from = corner_of_vertex(topology_.edges[at(edge)].from);
     int to = corner_of_vertex(topology_.edges[at(edge)].to);
-    if (corners[at(from)].place == Place::beyond) std::swap(from, to);
+    if (corners[at(from)].side == PlaneSide::beyond) std::swap(from, to);
     const Corner &a = corners[at(from)], &b = corners[at(to)];
     const Vec3 position =
         a.true_position + a.height / (a.height - b.height) * (b.true_position - a.true_position);
     const auto rank = static_cast<std::int64_t>(topology_.vertices.size()) + edge;
     kept = {query_, add_corner(position, rank)};
     corners.back().is_cut = true;
-    corners.back().place = Place::on;
+    corners.back().side = PlaneSide::on;
   }
   return kept.value;
 }
@@ -176,7 +177,7 @@ int PointView::face_sign(int triangle) {
     bool blocks = false, flat = true;
     for (std::size_t k = 0; k < 3; ++k) {
       c[k] = corner_of_vertex(face.corner[k]);
-      blocks = blocks || corners[at(c[k])].place == Place::before;
+      blocks = blocks || corners[at(c[k])].side == PlaneSide::before;
       flat = flat && std::abs(corners[at(c[k])].height) <= topology_.tolerance.length;
     }
     kept = {query_, blocks && !flat && !is_edge_on(face.surface) ? turn(c[0], c[1], c[2]) : 0};
@@ -190,18 +191,18 @@ int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
   for (std::size_t k = 0; k < 3; ++k) {
     const int a = corner_of_vertex(face.corner[k]);
     const int b = corner_of_vertex(face.corner[(k + 1) % 3]);
-    const auto from = static_cast<int>(corners[at(a)].place);
-    const auto to = static_cast<int>(corners[at(b)].place);
+    const auto from = static_cast<int>(corners[at(a)].side);
+    const auto to = static_cast<int>(corners[at(b)].side);
     if (from <= 0) polygon[at(count++)] = a;
     if (from * to < 0) polygon[at(count++)] = corner_of_cut(face.edge[k]);
   }
   return count;
 }
 
-int PointView::covers(int a, int b, int c, const Germ& germ) const {
-  const auto [v, w, side] = germ;
-  if (v == b) return covers(b, c, a, germ);
-  if (v == c) return covers(c, a, b, germ);
+int PointView::winding(int a, int b, int c, const DirectionBeside& direction) const {
+  const auto [v, w, side] = direction;
+  if (v == b) return winding(b, c, a, direction);
+  if (v == c) return winding(c, a, b, direction);
   const int sign = turn(a, b, c);
   if (v == a) {
     if (w == b) return side == sign ? sign : 0;
@@ -211,22 +212,22 @@ int PointView::covers(int a, int b, int c, const Germ& germ) const {
   return turn(a, b, v) == sign && turn(b, c, v) == sign && turn(c, a, v) == sign ? sign : 0;
 }
 
-int PointView::cover_by(int triangle, const Germ& germ) {
+int PointView::layers_of(int triangle, const DirectionBeside& direction) {
   const int sign = face_sign(triangle);
   if (sign == 0) return 0;
   std::array<int, 4> p{};
   const int count = clipped(triangle, p);
   int sum = 0;
-  for (int k = 2; k < count; ++k) sum += covers(p[0], p[at(k - 1)], p[at(k)], germ);
-  if (sum != 0) covering_.push_back(topology_.triangles[at(triangle)].surface);
+  for (int k = 2; k < count; ++k) sum += winding(p[0], p[at(k - 1)], p[at(k)], direction);
+  if (sum != 0) layer_surfaces_.push_back(topology_.triangles[at(triangle)].surface);
   return sign * sum;
 }
 
-int PointView::cover(const Germ& germ) {
-  covering_.clear();
+int PointView::layers_over(const DirectionBeside& direction) {
+  layer_surfaces_.clear();
   const FlatTree& tree = face_tree_;
   if (tree.nodes.empty()) return 0;
-  const Corner& target = corners[at(germ.from)];
+  const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
   const Vec3 margin = Vec3::Constant(blur() * last);
@@ -248,7 +249,7 @@ int PointView::cover(const Germ& germ) {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      sum += cover_by(tree.items[at(i)], germ);
+      sum += layers_of(tree.items[at(i)], direction);
   }
   return sum;
 }

@@ -1,5 +1,6 @@
 #include "meshing/backprojection/boundary_chains.h"
 
+#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -8,17 +9,8 @@
 namespace halfshade {
 namespace {
 
-// Parts thinner than this many of the view's slacks, eight roundings of a length, are no parts:
-// where occluders abut or touch the outline, rounding decides whether there is a gap.
-constexpr double thinnest = 0.25;
-// An occluder's edge may leave the outline it runs along by so many of those.
-constexpr double widest_overlap = 16;
-// Ends of pieces that rounding kept from meeting lie within this many roundings.
-constexpr double widest_gap = 1e5;
-
 double rounding_width(const PointView& view) {
-  // Two scattered edges part by up to 2 √3 times as much as their corners move along an axis.
-  return thinnest * view.slack() + 4 * view.jitter();
+  return rounding::thinnest_part * view.slack() + rounding::jitters_of_a_part * view.jitter();
 }
 
 /// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
@@ -26,7 +18,7 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   const Vec3 from = view.corners[at(edge.from)].true_position - view.point();
   const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
   const Vec3 normal = from.cross(to).normalized();
-  const double width = widest_overlap * rounding_width(view);
+  const double width = rounding::widest_overlap * rounding_width(view);
   const auto lies_on = [&](const Vec3& end) {
     const Vec3 p = end - view.point();
     // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
@@ -103,7 +95,7 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
       }
     }
     is_taken_[at(next_[i])] = 1;
-    closed = closed && best <= widest_gap * view.slack();
+    closed = closed && best <= rounding::widest_gap * view.slack();
   }
 }
 

@@ -1,3 +1,4 @@
+#include "meshing/backprojection/rounding.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 
 #include <algorithm>
@@ -8,11 +9,6 @@
 
 namespace halfshade {
 namespace {
-
-// How much boxes are enlarged, relative to the outline's size and to the rounding of a corner: far
-// above what can go wrong, and little enough to keep the boxes useful.
-constexpr double box_margin = 1e-9;
-constexpr double blur_margin = 1e5;
 
 /// All faces below a node look towards the eye, or all look away from it.
 bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
@@ -133,9 +129,8 @@ void ShadowArrangement::add_arc(int from, int to, int weight, EdgeId edge) {
 bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
-  // Boxes need not be tight; these margins are far above rounding.
-  const double margin =
-      box_margin * (pyramid.high - pyramid.low).maxCoeff() + blur_margin * view_->blur();
+  const double margin = rounding::box_margin * (pyramid.high - pyramid.low).maxCoeff() +
+                        rounding::blur_margin * view_->blur();
   if (a.is_ahead && b.is_ahead) {
     arc.low = a.image.cwiseMin(b.image).array() - margin;
     arc.high = a.image.cwiseMax(b.image).array() + margin;

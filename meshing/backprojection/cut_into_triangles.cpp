@@ -1,4 +1,5 @@
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/rounding.h"
 #include "meshing/triangulation/planar_mesh.h"
 
 #include <algorithm>
@@ -6,9 +7,6 @@
 
 namespace halfshade {
 namespace {
-
-// Corners that turn by less than this, relative to the widest, may be straight or reflex.
-constexpr double clearly_convex = 1e-6;
 
 double turn_2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - a;
@@ -24,7 +22,7 @@ bool is_convex_quad(const Ring& ring) {
     least = std::min(least, area);
     most = std::max(most, area);
   }
-  return least > clearly_convex * most;
+  return least > rounding::clearly_convex * most;
 }
 
 /// The vertex whose image in the plane lies nearest to q.

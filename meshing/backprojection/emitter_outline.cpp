@@ -1,5 +1,7 @@
 #include "meshing/backprojection/emitter_outline.h"
 
+#include "meshing/backprojection/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,16 +11,14 @@ namespace {
 
 // More planes than this cost more in tests than they save in edges.
 constexpr std::size_t max_sides = 8;
-// How far the horizon is raised, in roundings of a length.
-constexpr double raised = 4;
 
 }  // namespace
 
 /// Above the horizon, which is raised by a few roundings: so edges of other faces that lie in the
 /// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
 double EmitterOutline::height(const PointView& view, int corner) const {
-  const double h =
-      normal_.dot(view.corners[at(corner)].true_position - point_) - raised * view.slack();
+  const double h = normal_.dot(view.corners[at(corner)].true_position - point_) -
+                   rounding::raised_horizon * view.slack();
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 
@@ -99,7 +99,7 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   pyramid.eye = point_;
   pyramid.normal = frame.normal;
   pyramid.plane_point = frame.origin;
-  pyramid.slack = 8 * view.blur();
+  pyramid.slack = rounding::pyramid_margin * view.blur();
   pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
   for (const OutlineEdge& edge : edges) {
     pyramid.low = pyramid.low.cwiseMin(view.corners[at(edge.from)].image);

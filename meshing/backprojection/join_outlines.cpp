@@ -1,4 +1,5 @@
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -7,10 +8,6 @@
 
 namespace halfshade {
 namespace {
-
-// Corners of neighbours lie apart by as much as their planes do, but never by this share of an
-// edge.
-constexpr double largest_gap = 0.01;
 
 /// One point per corner of a ring, in the order of the scene.
 struct Corners {
@@ -26,9 +23,9 @@ void add_ring(const Surface& surface, const Ring& ring, const Tolerance& toleran
     const double before = (ring[k] - ring[(k + n - 1) % n]).norm();
     const double after = (ring[(k + 1) % n] - ring[k]).norm();
     corners.position.push_back(surface.frame.to_space(ring[k]));
-    corners.reach.push_back(
-        std::max(tolerance.length,
-                 std::min(2 * tolerance.planarity, largest_gap * std::min(before, after))));
+    corners.reach.push_back(std::max(
+        tolerance.length,
+        std::min(2 * tolerance.planarity, rounding::largest_joint_gap * std::min(before, after))));
     corners.edge.push_back(first_edge + static_cast<int>(k));
   }
 }

@@ -1,26 +1,14 @@
 #include "meshing/backprojection/point_view.h"
 
+#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace halfshade {
 namespace {
-
-// Stands for 0 where directions are inverted; its inverse is still finite.
-constexpr double least_slope = 1e-300;
-
-// What rounding may put a point off a plane that it was computed to lie in, relative to the largest
-// coordinate: a few roundings each in the point, in the plane's origin and in the distance.
-constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
-// Cosine beyond which the point's normal is its surface's.
-constexpr double same_normal = 1 - 1e-6;
-// Corners nearer to the plane through the point than this share of the emitter's distance are not
-// projected.
-constexpr double nearest_image = 1e-4;
 
 /// A vector in [−length, length)³ that looks random.
 Vec3 scatter(std::int64_t rank, double length) {
@@ -84,7 +72,7 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   normal_ = normal;
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  slack_ = rounding * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
+  slack_ = rounding::slack * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
 }
 
 std::int64_t PointView::first_free_rank() const {
@@ -101,7 +89,7 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   if (corner.height <= slack_)
     corner.side = corner.height < -slack_ ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
-  corner.is_ahead = depth > nearest_image * distance_;
+  corner.is_ahead = depth > rounding::nearest_image * distance_;
   if (corner.is_ahead)
     corner.image = distance_ / depth *
                    Vec2(emitter_->e1.dot(corner.direction), emitter_->e2.dot(corner.direction));
@@ -141,9 +129,10 @@ bool PointView::is_edge_on(int surface) {
   if (!is_fresh(kept)) {
     const PlaneFrame& frame = topology_.surfaces[at(surface)].frame;
     const double height = std::abs(frame.height(point_));
-    kept = {query_, height <= slack_ ||
-                        (height <= topology_.tolerance.length &&
-                         std::abs(frame.normal.dot(normal_)) > same_normal && touches(surface))};
+    kept = {query_,
+            height <= slack_ ||
+                (height <= topology_.tolerance.length &&
+                 std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
   }
   return kept.value != 0;
 }
@@ -231,8 +220,9 @@ int PointView::layers_over(const DirectionBeside& direction) {
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
   const Vec3 margin = Vec3::Constant(blur() * last);
-  const Vec3 inverse = target.direction.unaryExpr(
-      [](double d) { return 1 / (std::abs(d) > least_slope ? d : least_slope); });
+  const Vec3 inverse = target.direction.unaryExpr([](double d) {
+    return 1 / (std::abs(d) > rounding::least_slope ? d : rounding::least_slope);
+  });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -241,7 +231,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
     const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
-    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding));
+    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding::slack));
     if (enter > leave) continue;
     if (node.right >= 0) {
       stack[depth++] = node.right;

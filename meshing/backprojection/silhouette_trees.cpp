@@ -1,14 +1,13 @@
 #include "meshing/backprojection/silhouette_trees.h"
 
+#include "meshing/backprojection/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
 
 namespace halfshade {
 namespace {
-
-// A triangle flatter than this, relative to its longest edge squared, has no trustworthy normal.
-constexpr double flattest = 1e-10;
 
 Bounds box_of(const OpaqueTopology& topology, const OpaqueTopology::Edge& edge) {
   const auto [from, to] = topology.ends(edge);
@@ -54,7 +53,7 @@ Vec3 normal_of(const OpaqueTopology& topology, const OpaqueTopology::Triangle& t
   const Vec3 v = topology.vertices[at(c)] - topology.vertices[at(a)];
   const Vec3 normal = u.cross(v);
   const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-  if (!(normal.norm() > flattest * longest)) return Vec3::Zero();
+  if (!(normal.norm() > rounding::flattest_triangle * longest)) return Vec3::Zero();
   return normal.normalized();
 }
 
@@ -79,7 +78,7 @@ NormalCone cone_of(const OpaqueTopology& topology, const FlatTree::Node& node,
     within = within && axis.dot(normal) > 0;
     sine = std::max(sine, axis.cross(normal).norm());
   });
-  if (!within || sine > 0.99) return cone;
+  if (!within || sine > rounding::widest_cone) return cone;
   cone.axis = axis;
   cone.sine = sine;
   cone.cosine = std::sqrt(1 - sine * sine);

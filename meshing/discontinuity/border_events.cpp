@@ -1,7 +1,7 @@
 #include "meshing/discontinuity/border_events.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/discontinuity/rounding.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "meshing/discontinuity/border_events.h"
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/discontinuity/rounding.h"
 
 #include <cmath>
 

@@ -1,6 +1,7 @@
 #include "meshing/discontinuity/swath_tracer.h"
 
 #include "meshing/core/light_source.h"
+#include "meshing/discontinuity/rounding.h"
 #include "meshing/events/events.h"
 #include "tests/support/discontinuity_scenes.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <vector>
 
@@ -15,14 +15,14 @@ struct TraceLimits {
 
 /// Whether a line of a swath can be an event: it starts on the emitter, and the edges that must be
 /// silhouettes may be. Decides for all lines between two neighbouring limits of the swath.
-bool may_be_event(const EmitterStage& stage, const Swath& swath, const SightLine& line);
+bool may_be_event(const EmitterScene& emitter_scene, const Swath& swath, const SightLine& line);
 
 /// Says which events can matter, given what is not worth following.
 class EventCulling {
  public:
   /// All but the limits must outlive the culling.
-  EventCulling(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
-               const TraceLimits& limits);
+  EventCulling(const SoundScene& scene, const OpaqueScene& opaque,
+               const EmitterScene& emitter_scene, const TraceLimits& limits);
 
   /// False only if what happens at a point of a receiver, where a line of the swath ends, is below
   /// the limits: by bounds for the jump over an element of the receiver.
@@ -35,7 +35,7 @@ class EventCulling {
   bool curvature_may_matter(const Swath& swath, const ReceivingPoint& at, double size) const;
 
   const OpaqueScene::Impl& opaque_;
-  const EmitterStage& stage_;
+  const EmitterScene& emitter_scene_;
   TraceLimits limits_;
   std::vector<double> receiver_size_;  ///< see size_of
 };

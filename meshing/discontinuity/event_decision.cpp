@@ -13,21 +13,21 @@ constexpr double wide_step = 300;
 // Edges shorter than this share of the scene's size call for the narrow step.
 constexpr double fine_detail = 1e-4;
 
-bool has_shorter_edges(const EmitterStage& stage, double length) {
+bool has_shorter_edges(const EmitterScene& emitter_scene, double length) {
   const auto is_short = [&](const Span3& span) { return span.direction().norm() < length; };
-  return std::any_of(stage.edges.begin(), stage.edges.end(),
-                     [&](const StageEdge& edge) { return is_short(edge.whole); }) ||
-         std::any_of(stage.outline.begin(), stage.outline.end(),
+  return std::any_of(emitter_scene.edges.begin(), emitter_scene.edges.end(),
+                     [&](const SilhouetteEdge& edge) { return is_short(edge.whole); }) ||
+         std::any_of(emitter_scene.outline.begin(), emitter_scene.outline.end(),
                      [&](const OutlinePiece& piece) { return is_short(piece.span); });
 }
 
 }  // namespace
 
 EventDecider::EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
-                           const EmitterStage& stage)
-    : emitter_(stage.emitter),
+                           const EmitterScene& emitter_scene)
+    : emitter_(emitter_scene.emitter),
       step_(side_step(scene, opaque)),
-      has_fine_detail_(has_shorter_edges(stage, fine_detail * scene.tolerance.scene_size)),
+      has_fine_detail_(has_shorter_edges(emitter_scene, fine_detail * scene.tolerance.scene_size)),
       finder_(opaque) {}
 
 EventEvidence EventDecider::decide(const ReceivingPoint& at, std::span<const int> group) {

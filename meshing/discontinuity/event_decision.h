@@ -3,7 +3,7 @@
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/event_evidence.h"
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <span>
 
@@ -14,7 +14,8 @@ namespace halfshade {
 class EventDecider {
  public:
   /// All must outlive the decider.
-  EventDecider(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage);
+  EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
+               const EmitterScene& emitter_scene);
 
   /// How the places where edges of `group` (sorted) follow each other differ between the sides of a
   /// curve that would be normal to `at.across`, which is its left; triples sorted. Costs two or

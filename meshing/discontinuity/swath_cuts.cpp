@@ -6,13 +6,14 @@
 namespace halfshade {
 namespace {
 
-// Lines whose hulls are searched for edges at once.
-constexpr int hulls_per_swath = 4;
+// How many parts of a swath are bounded, and searched for edges, each on its own.
+constexpr int parts_per_swath = 4;
 
 }  // namespace
 
-SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage)
-    : scene_(scene), opaque_(opaque.impl()), stage_(stage) {
+SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
+                     const EmitterScene& emitter_scene)
+    : scene_(scene), opaque_(opaque.impl()), emitter_scene_(emitter_scene) {
   for (const auto& edge : opaque_.edges) {
     const auto surface_of = [&](int i) {
       return opaque_.triangles[at(opaque_.incidences[at(edge.first + i)].triangle)].surface;
@@ -32,7 +33,7 @@ SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque, const E
 std::vector<double> SwathCuts::limits(const Swath& swath) const {
   std::vector<double> limits = {0, 1};
   if (!swath.is_planar) own_limits(swath, limits);
-  for (const OutlinePiece& piece : stage_.outline)
+  for (const OutlinePiece& piece : emitter_scene_.outline)
     critical_parameters(swath, piece.span, scene_.tolerance.length, limits);
   add_grazing(swath, limits);
   std::sort(limits.begin(), limits.end());
@@ -42,35 +43,36 @@ std::vector<double> SwathCuts::limits(const Swath& swath) const {
 /// Where the faces at the edges that make the swath turn from one side to the other.
 void SwathCuts::add_grazing(const Swath& swath, std::vector<double>& parameters) const {
   const auto add = [&](int e) {
-    const StageEdge& edge = stage_.edges[at(e)];
+    const SilhouetteEdge& edge = emitter_scene_.edges[at(e)];
     for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f)
-      grazing_parameters(swath, stage_.faces[at(f)].normal, parameters);
+      grazing_parameters(swath, emitter_scene_.faces[at(f)].normal, parameters);
   };
   for (const int e : swath.silhouettes)
     if (e >= 0) add(e);
   if (swath.corner >= 0)
-    for (const int e : stage_.vertices[at(swath.corner)].edges) add(e);
+    for (const int e : emitter_scene_.vertices[at(swath.corner)].edges) add(e);
 }
 
 void SwathCuts::between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
   cuts.assign({t0, t1});
-  const int hulls = static_cast<int>(std::ceil(hulls_per_swath * (t1 - t0)));
-  for (int h = 0; h < hulls; ++h)
-    add_met(swath, t0 + h * (t1 - t0) / hulls, t0 + (h + 1) * (t1 - t0) / hulls, cuts);
+  const int parts = static_cast<int>(std::ceil(parts_per_swath * (t1 - t0)));
+  for (int k = 0; k < parts; ++k)
+    add_met(swath, t0 + k * (t1 - t0) / parts, t0 + (k + 1) * (t1 - t0) / parts, cuts);
   std::sort(cuts.begin(), cuts.end());
 }
 
 void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
   const double slack = scene_.tolerance.length;
-  const SwathHull hull = hull_of(swath, t0, t1);
+  const SwathBounds bounds = bounds_of(swath, t0, t1);
   const auto is_missed = [&](const Bounds& box) {
-    return stage_.frame.normal.dot(0.5 * (box.low + box.high) - stage_.frame.origin) <
-               -stage_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
-           !hull.meets(box.low, box.high, slack);
+    return emitter_scene_.frame.normal.dot(0.5 * (box.low + box.high) -
+                                           emitter_scene_.frame.origin) <
+               -emitter_scene_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
+           !bounds.meets(box.low, box.high, slack);
   };
   std::vector<double> found;
   const auto consider = [&](const Span3& span) {
-    if (hull.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
+    if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
       critical_parameters(swath, span, slack, found);
   };
   const auto walk = [&](const FlatTree& tree, const auto& visit) {

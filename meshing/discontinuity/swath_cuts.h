@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <vector>
 
@@ -11,7 +11,7 @@ namespace halfshade {
 class SwathCuts {
  public:
   /// All must outlive the cuts.
-  SwathCuts(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage);
+  SwathCuts(const SoundScene& scene, const OpaqueScene& opaque, const EmitterScene& emitter_scene);
 
   /// Where the lines begin and end, pass the emitter's outline, or run along a face of an edge that
   /// makes them; 0 and 1 among them. Sorted; may repeat.
@@ -28,7 +28,7 @@ class SwathCuts {
 
   const SoundScene& scene_;
   const OpaqueScene::Impl& opaque_;
-  const EmitterStage& stage_;
+  const EmitterScene& emitter_scene_;
   std::vector<bool> is_inner_;   ///< edges between two triangles of one surface
   std::vector<Span3> contacts_;  ///< of all surfaces
   FlatTree contact_tree_;        ///< over them

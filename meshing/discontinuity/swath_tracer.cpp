@@ -15,14 +15,14 @@ constexpr double straight_enough = 0.1;
 }  // namespace
 
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
-                         const EmitterStage& stage, const TraceLimits& limits)
+                         const EmitterScene& emitter_scene, const TraceLimits& limits)
     : scene_(scene),
-      stage_(stage),
+      emitter_scene_(emitter_scene),
       step_(side_step(scene, opaque)),
-      cuts_(scene, opaque, stage),
+      cuts_(scene, opaque, emitter_scene),
       caster_(scene, opaque),
-      culling_(scene, opaque, stage, limits),
-      decider_(scene, opaque, stage) {}
+      culling_(scene, opaque, emitter_scene, limits),
+      decider_(scene, opaque, emitter_scene) {}
 
 void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
   ++counts_.swaths;
@@ -31,8 +31,8 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
   for (std::size_t i = 1; i < limits.size(); ++i) {
     const double t0 = limits[i - 1], t1 = limits[i];
     if (!(t1 > t0)) continue;
-    const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
-    if (!line || !may_be_event(stage_, swath, *line)) continue;
+    const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
+    if (!line || !may_be_event(emitter_scene_, swath, *line)) continue;
     cuts_.between(swath, t0, t1, parameters_);
     for (std::size_t k = 1; k < parameters_.size(); ++k)
       if (parameters_[k] > parameters_[k - 1])
@@ -42,7 +42,7 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
 }
 
 void SwathTracer::trace_piece(const Swath& swath, double t0, double t1) {
-  const auto line = line_at(swath, stage_.frame, 0.5 * (t0 + t1));
+  const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
   if (!line) return;
   ++counts_.pieces;
   for (const int receiver : caster_.cast(*line)) try_receiver(swath, *line, receiver, t0, t1);
@@ -86,12 +86,12 @@ void SwathTracer::append_curves(const Swath& swath, const Piece& piece,
   const PlaneFrame& plane = scene_.surfaces[at(piece.receiver)].frame;
   DiscontinuityCurve curve;
   curve.receiver = piece.receiver;
-  curve.emitter = stage_.emitter;
+  curve.emitter = emitter_scene_.emitter;
   curve.kind = swath.source.kind;
   curve.order = swath.may_be_first_order ? 1 : 2;
   curve.triples = piece.triples;
   curve.sources = {swath.source};
-  if (swath.is_planar) curve.sight_plane = hull_of(swath, 0, 1).normal;
+  if (swath.is_planar) curve.sight_plane = plane_normal(swath);
   for (const ConicArc& arc : fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * step_)) {
     curve.arc = arc;
     curves.push_back(curve);

@@ -6,7 +6,7 @@
 #include "meshing/discontinuity/known_pieces.h"
 #include "meshing/discontinuity/sight_casting.h"
 #include "meshing/discontinuity/swath_cuts.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <cstddef>
 #include <vector>
@@ -27,14 +27,14 @@ struct TraceCounts {
 class SwathTracer {
  public:
   /// All must outlive the tracer.
-  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
+  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterScene& emitter_scene,
               const TraceLimits& limits = {});
 
   /// Appends the pieces of curve that a swath makes.
   void trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves);
 
   const TraceCounts& counts() const { return counts_; }
-  const EmitterStage& stage() const { return stage_; }
+  const EmitterScene& emitter_scene() const { return emitter_scene_; }
 
  private:
   /// A piece of curve on a receiver.
@@ -51,7 +51,7 @@ class SwathTracer {
                      std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
-  const EmitterStage& stage_;
+  const EmitterScene& emitter_scene_;
   double step_;  ///< see side_step
   SwathCuts cuts_;
   SightCaster caster_;

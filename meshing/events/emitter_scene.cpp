@@ -1,0 +1,83 @@
+#include "meshing/events/emitter_scene.h"
+
+#include "meshing/core/planar.h"
+#include "meshing/events/emitter_border.h"
+#include "meshing/events/silhouette_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+// Lines that run along a face to within this sine may have it on either side.
+constexpr double grazing = 1e-9;
+// What the repair has joined agrees to this share of the tolerance by which it joins.
+constexpr double exact_share = 1e-3;
+// Positions agree to this many roundings of the largest coordinate.
+constexpr double position_roundings = 1e3;
+
+}  // namespace
+
+std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
+    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
+  });
+  std::vector<Vec2> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t start = hull.size();
+    for (const Vec2& p : points) {
+      while (hull.size() >= start + 2 &&
+             cross_2d(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
+        hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
+    : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
+  const OpaqueScene::Impl& impl = opaque.impl();
+  slack = std::max(exact_share * scene.tolerance.length,
+                   position_roundings * std::numeric_limits<double>::epsilon() * impl.magnitude);
+  joined = std::max(slack, scene.tolerance.length);
+  rings = scene.surfaces[at(surface)].rings;
+  hull = convex_hull(rings[0]);
+  for (const Vec2& p : hull) bounds.extend(p);
+  area = halfshade::area(scene.surfaces[at(surface)]);
+  const VertexHeights heights(impl, frame, slack);
+  add_silhouettes(scene, impl, heights, *this);
+  add_border(impl, heights, *this);
+}
+
+Line3 line_of(const EmitterScene& emitter_scene, const OpaqueScene::Impl& opaque, int edge) {
+  if (edge >= 0 && edge < static_cast<int>(opaque.edges.size())) {
+    const auto& ends = opaque.edges[at(edge)];
+    const Vec3& from = opaque.vertices[at(ends.from)];
+    return {from, opaque.vertices[at(ends.to)] - from};
+  }
+  for (const OutlinePiece& piece : emitter_scene.outline)
+    if (piece.id == edge) return {piece.span.from, piece.span.direction()};
+  return {emitter_scene.frame.origin, emitter_scene.frame.e1};
+}
+
+bool EmitterScene::may_be_silhouette(const SilhouetteEdge& edge, const Vec3& direction) const {
+  int weight = 0;
+  for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f) {
+    const double side = faces[at(f)].normal.dot(direction);
+    if (std::abs(side) <= grazing) return true;
+    weight += side > 0 ? faces[at(f)].direction : -faces[at(f)].direction;
+  }
+  return weight != 0;
+}
+
+bool EmitterScene::contains(const Vec3& point) const {
+  const Vec2 p = frame.to_plane(point);
+  return is_inside(rings, p) || distance_to_rings(rings, p) <= slack;
+}
+
+}  // namespace halfshade

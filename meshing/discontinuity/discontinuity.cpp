@@ -49,31 +49,31 @@ class Search {
          const DiscontinuityOptions& options, const Progress& progress, DiscontinuityReport& report)
       : scene_(scene),
         opaque_(opaque),
-        stage_(scene, opaque, source.surface),
+        emitter_scene_(scene, opaque, source.surface),
         exitance_(source.exitance),
         options_(options),
         progress_(progress),
         report_(report) {}
 
   Curves run() {
-    report_.silhouette_edges += stage_.edges.size();
-    const auto edge_count = stage_.edges.size();
+    report_.silhouette_edges += emitter_scene_.edges.size();
+    const auto edge_count = emitter_scene_.edges.size();
     if (options_.ev) {
       trace(edge_count, "vertex and edge",
-            [&](int e, const SwathSink& sink) { edge_swaths(stage_, e, sink); });
-      trace(stage_.vertices.size(), "edge and vertex",
-            [&](int v, const SwathSink& sink) { vertex_swaths(stage_, v, sink); });
+            [&](int e, const SwathSink& sink) { edge_swaths(emitter_scene_, e, sink); });
+      trace(emitter_scene_.vertices.size(), "edge and vertex",
+            [&](int v, const SwathSink& sink) { vertex_swaths(emitter_scene_, v, sink); });
     }
     if (options_.face)
       trace(scene_.surfaces.size(), "planes of faces", [&](int r, const SwathSink& sink) {
-        if (r != stage_.emitter && !scene_.surfaces[at(r)].back)
-          face_swaths(scene_, stage_, opaque_, r, sink);
+        if (r != emitter_scene_.emitter && !scene_.surfaces[at(r)].back)
+          face_swaths(scene_, emitter_scene_, opaque_, r, sink);
       });
     if (options_.eee) find_triples();
     for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
       if (progress_.stopped()) break;
-      if (options_.face) emitter_plane_curves(scene_, opaque_, stage_, r, curves_);
-      if (options_.contact) contact_curves(scene_, opaque_, stage_, r, curves_);
+      if (options_.face) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, curves_);
+      if (options_.contact) contact_curves(scene_, opaque_, emitter_scene_, r, curves_);
     }
     for (const auto& tracer : tracers_.idle()) {
       report_.swaths += tracer->counts().swaths;
@@ -96,7 +96,7 @@ class Search {
         [&](std::size_t i) {
           auto tracer = tracers_.take([&] {
             return std::make_unique<SwathTracer>(
-                scene_, opaque_, stage_,
+                scene_, opaque_, emitter_scene_,
                 TraceLimits{options_.irradiance_tolerance / exitance_, options_.max_length});
           });
           generate(static_cast<int>(i),
@@ -110,19 +110,20 @@ class Search {
   }
 
   void find_triples() {
-    const std::size_t count = stage_.edges.size();
+    const std::size_t count = emitter_scene_.edges.size();
     std::vector<std::vector<int>> later(count);
     parallel_for(
-        count, [&](std::size_t e) { later[e] = later_partners(stage_, static_cast<int>(e)); },
+        count,
+        [&](std::size_t e) { later[e] = later_partners(emitter_scene_, static_cast<int>(e)); },
         progress_, "pairs of edges");
     trace(count, "three edges", [&](int a, const SwathSink& sink) {
       std::vector<int> common;
       for (const int b : later[at(a)]) {
-        pair_swaths(stage_, a, b, sink);
+        pair_swaths(emitter_scene_, a, b, sink);
         common.clear();
         std::set_intersection(later[at(a)].begin(), later[at(a)].end(), later[at(b)].begin(),
                               later[at(b)].end(), std::back_inserter(common));
-        for (const int c : common) triple_swath(stage_, a, b, c, sink);
+        for (const int c : common) triple_swath(emitter_scene_, a, b, c, sink);
       }
     });
   }
@@ -133,7 +134,7 @@ class Search {
         curves_.size(),
         [&](std::size_t i) {
           auto predictor = predictors.take(
-              [&] { return std::make_unique<JumpPredictor>(scene_, opaque_, stage_); });
+              [&] { return std::make_unique<JumpPredictor>(scene_, opaque_, emitter_scene_); });
           predictor->predict(curves_[i]);
           for (double& jump : curves_[i].jump) jump *= exitance_;
           predictors.give_back(std::move(predictor));
@@ -143,7 +144,7 @@ class Search {
 
   const SoundScene& scene_;
   const OpaqueScene& opaque_;
-  const EmitterStage stage_;
+  const EmitterScene emitter_scene_;
   double exitance_;
   const DiscontinuityOptions& options_;
   const Progress& progress_;

@@ -73,7 +73,4 @@ struct EmitterScene {
 /// The line that an edge, as in BoundaryPiece::edge, lies on.
 Line3 line_of(const EmitterScene& emitter_scene, const OpaqueScene::Impl& opaque, int edge);
 
-/// The convex hull of points in a plane, counter-clockwise.
-std::vector<Vec2> convex_hull(std::vector<Vec2> points);
-
 }  // namespace halfshade

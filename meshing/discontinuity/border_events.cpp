@@ -1,11 +1,11 @@
 #include "meshing/discontinuity/border_events.h"
 
+#include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/planar.h"
 #include "meshing/discontinuity/rounding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -51,16 +51,6 @@ std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterSce
 }
 
 }  // namespace
-
-double seen_factor(const VisiblePart& part, const Vec3& point, const Vec3& normal) {
-  double sum = 0;
-  for (const BoundaryPiece& piece : part.pieces) {
-    const Vec3 a = piece.from - point, b = piece.to - point, cross = a.cross(b);
-    const double sine = cross.norm();
-    if (sine > 0) sum -= std::atan2(sine, a.dot(b)) / sine * normal.dot(cross);
-  }
-  return sum / (2 * std::numbers::pi);
-}
 
 void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
                           const EmitterScene& emitter_scene, int receiver,
@@ -136,7 +126,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
     const auto factor = [&](const Vec2& p) {
       const Vec3 point = target.frame.to_space(p);
       finder.find(point, target.frame.normal, emitter_scene.emitter, part);
-      return seen_factor(part, point, target.frame.normal);
+      return enclosed_factor(point, target.frame.normal, part.pieces);
     };
     bool jumps = false;
     for (int k = 0; k < contact_samples && !jumps; ++k) {

@@ -1,15 +1,11 @@
 #pragma once
 
-#include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/discontinuity.h"
 #include "meshing/events/emitter_scene.h"
 
 #include <vector>
 
 namespace halfshade {
-
-/// Form factor from a point to what it sees: Lambert's sum over the pieces.
-double seen_factor(const VisiblePart& part, const Vec3& point, const Vec3& normal);
 
 /// Where a receiver crosses the emitter's plane and sees the emitter edge-on: before it the
 /// irradiance grows from zero. Appends straight curves of order 1.

@@ -7,40 +7,19 @@
 #include "meshing/discontinuity/swath_tracer.h"
 #include "meshing/events/events.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
-#include <mutex>
 
 namespace halfshade {
 namespace {
 
 using Curves = std::vector<DiscontinuityCurve>;
 
-/// Lends workers that are costly to make to the threads that need one.
+/// One worker a thread, made when it is first needed. Results do not depend on which thread has
+/// done what, for workers keep nothing between jobs but buffers and counts.
 template <class Worker>
-class Pool {
- public:
-  template <class Make>
-  std::unique_ptr<Worker> take(Make&& make) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!idle_.empty()) {
-        auto worker = std::move(idle_.back());
-        idle_.pop_back();
-        return worker;
-      }
-    }
-    return make();
-  }
-  void give_back(std::unique_ptr<Worker> worker) {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(worker));
-  }
-  const std::vector<std::unique_ptr<Worker>>& idle() const { return idle_; }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Worker>> idle_;
-};
+using PerThread = tbb::enumerable_thread_specific<Worker>;
 
 /// The search for one emitter's curves.
 class Search {
@@ -53,7 +32,11 @@ class Search {
         exitance_(source.exitance),
         options_(options),
         progress_(progress),
-        report_(report) {}
+        report_(report),
+        tracers_([this] {
+          return SwathTracer(scene_, opaque_, emitter_scene_,
+                             {options_.irradiance_tolerance / exitance_, options_.max_length});
+        }) {}
 
   Curves run() {
     report_.silhouette_edges += emitter_scene_.edges.size();
@@ -75,9 +58,9 @@ class Search {
       if (options_.face) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, curves_);
       if (options_.contact) contact_curves(scene_, opaque_, emitter_scene_, r, curves_);
     }
-    for (const auto& tracer : tracers_.idle()) {
-      report_.swaths += tracer->counts().swaths;
-      report_.pieces += tracer->counts().pieces;
+    for (const SwathTracer& tracer : tracers_) {
+      report_.swaths += tracer.counts().swaths;
+      report_.pieces += tracer.counts().pieces;
     }
     for (const DiscontinuityCurve& curve : curves_)
       ++report_.found[static_cast<std::size_t>(curve.kind)];
@@ -94,14 +77,8 @@ class Search {
     parallel_for(
         count,
         [&](std::size_t i) {
-          auto tracer = tracers_.take([&] {
-            return std::make_unique<SwathTracer>(
-                scene_, opaque_, emitter_scene_,
-                TraceLimits{options_.irradiance_tolerance / exitance_, options_.max_length});
-          });
-          generate(static_cast<int>(i),
-                   [&](const Swath& swath) { tracer->trace(swath, found[i]); });
-          tracers_.give_back(std::move(tracer));
+          SwathTracer& tracer = tracers_.local();
+          generate(static_cast<int>(i), [&](const Swath& swath) { tracer.trace(swath, found[i]); });
         },
         progress_, name);
     for (Curves& curves : found)
@@ -129,15 +106,13 @@ class Search {
   }
 
   void predict_jumps() {
-    Pool<JumpPredictor> predictors;
+    PerThread<JumpPredictor> predictors(
+        [this] { return JumpPredictor(scene_, opaque_, emitter_scene_); });
     parallel_for(
         curves_.size(),
         [&](std::size_t i) {
-          auto predictor = predictors.take(
-              [&] { return std::make_unique<JumpPredictor>(scene_, opaque_, emitter_scene_); });
-          predictor->predict(curves_[i]);
+          predictors.local().predict(curves_[i]);
           for (double& jump : curves_[i].jump) jump *= exitance_;
-          predictors.give_back(std::move(predictor));
         },
         progress_, "jumps");
   }
@@ -149,7 +124,7 @@ class Search {
   const DiscontinuityOptions& options_;
   const Progress& progress_;
   DiscontinuityReport& report_;
-  Pool<SwathTracer> tracers_;
+  PerThread<SwathTracer> tracers_;
   Curves curves_;
 };
 

@@ -1,6 +1,6 @@
 #include "meshing/discontinuity/predict_jump.h"
 
-#include "meshing/discontinuity/border_events.h"
+#include "meshing/backprojection/edge_sum.h"
 #include "meshing/discontinuity/event_jump.h"
 #include "meshing/discontinuity/rounding.h"
 
@@ -57,13 +57,15 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
 }
 
 double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const {
-  return seen_factor(left_, point + step, normal) - seen_factor(right_, point - step, normal);
+  return enclosed_factor(point + step, normal, left_.pieces) -
+         enclosed_factor(point - step, normal, right_.pieces);
 }
 
 double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& point,
                                  const Vec3& step, const Vec3& normal) const {
   if (std::abs(emitter_scene_.frame.height(point)) <= step_)  // the emitter is seen edge-on
-    return (seen_factor(left_, point + step, normal) + seen_factor(right_, point - step, normal)) /
+    return (enclosed_factor(point + step, normal, left_.pieces) +
+            enclosed_factor(point - step, normal, right_.pieces)) /
            step.norm();
   const ReceivingPoint receiving = {point, normal, step.normalized()};
   double jump = 0, whole = 0;

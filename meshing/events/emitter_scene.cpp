@@ -4,6 +4,7 @@
 #include "meshing/core/planar.h"
 #include "meshing/events/emitter_border.h"
 #include "meshing/events/silhouette_edges.h"
+#include "meshing/geometry/convex_hull.h"
 
 #include <algorithm>
 #include <array>
@@ -24,25 +25,6 @@ constexpr double position_roundings = 1e3;
 
 }  // namespace
 
-std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) {
-    return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
-  });
-  std::vector<Vec2> hull;
-  for (int half = 0; half < 2; ++half) {
-    const std::size_t start = hull.size();
-    for (const Vec2& p : points) {
-      while (hull.size() >= start + 2 &&
-             cross_2d(hull.back() - hull[hull.size() - 2], p - hull.back()) <= 0)
-        hull.pop_back();
-      hull.push_back(p);
-    }
-    hull.pop_back();
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
 EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
   const OpaqueTopology& topology = opaque.topology();
@@ -51,7 +33,7 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
                position_roundings * std::numeric_limits<double>::epsilon() * topology.magnitude);
   joined = std::max(slack, scene.tolerance.length);
   rings = scene.surfaces[at(surface)].rings;
-  hull = convex_hull(rings[0]);
+  for (const std::size_t k : convex_hull(rings[0])) hull.push_back(rings[0][k]);
   for (const Vec2& p : hull) bounds.extend(p);
   area = halfshade::area(scene.surfaces[at(surface)]);
   const VertexHeights heights(topology, frame, slack);

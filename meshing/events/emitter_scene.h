@@ -74,7 +74,4 @@ struct EmitterScene {
 /// The line that an edge lies on. Error(contract) if there is no such edge: the horizon is none.
 Line3 line_of(const EmitterScene& emitter_scene, const OpaqueTopology& opaque, EdgeId edge);
 
-/// The convex hull of points in a plane, counter-clockwise.
-std::vector<Vec2> convex_hull(std::vector<Vec2> points);
-
 }  // namespace halfshade

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/light_source.h"
 #include "meshing/events/emitter_scene.h"
 #include "tests/support/discontinuity_scenes.h"
@@ -15,6 +16,13 @@ struct LitScene {
         opaque(scene),
         emitter_scene(scene, opaque, light_sources(scene).at(0).surface) {}
   explicit LitScene(const SceneMaker& maker) : LitScene(maker.sound()) {}
+
+  /// Form factor from a point to what it sees of the light.
+  double factor(const Vec3& point, const Vec3& normal) const {
+    VisiblePart part;
+    VisiblePartFinder(opaque).find(point, normal, emitter_scene.emitter, part);
+    return enclosed_factor(point, normal, part.pieces);
+  }
 
   SoundScene scene;
   OpaqueScene opaque;

@@ -1,6 +1,5 @@
 #include "meshing/discontinuity/border_events.h"
 
-#include "tests/support/analytic.h"
 #include "tests/support/discontinuity_scenes.h"
 #include "tests/support/lit_scene.h"
 
@@ -13,7 +12,6 @@
 namespace halfshade {
 namespace {
 
-using test::Random;
 using test::SceneMaker;
 
 const Vec3 up = Vec3::UnitZ();
@@ -43,57 +41,7 @@ struct BorderScene : test::LitScene {
     const PlaneFrame& frame = scene.surfaces[static_cast<std::size_t>(curve.receiver)].frame;
     return {frame.to_space(curve.arc.from), frame.to_space(curve.arc.to)};
   }
-  double factor(const Vec3& point, const Vec3& normal) const {
-    VisiblePartFinder finder(opaque);
-    VisiblePart part;
-    finder.find(point, normal, emitter_scene.emitter, part);
-    return seen_factor(part, point, normal);
-  }
 };
-
-TEST(SeenFactor, OfAParallelRectangleIsTheClosedForm) {
-  for (const auto& [a, b, c] : {std::array{1., 1., 2.}, {0.3, 2., 0.7}, {5., 0.1, 1.}}) {
-    const BorderScene lit(SceneMaker().down({0, 0}, {a, b}, c, test::white_light));
-    EXPECT_NEAR(lit.factor(Vec3::Zero(), up), test::point_parallel_rectangle(a, b, c), 1e-13);
-    EXPECT_EQ(lit.factor(Vec3::Zero(), -up), 0);
-  }
-}
-
-TEST(SeenFactor, OfAWallIsTheClosedFormAndItsPartBelowTheHorizonDoesNotCount) {
-  for (const auto& [a, b, c] : {std::array{1., 1., 2.}, {0.3, 2., 0.7}, {2., 0.5, 1.}})
-    for (const double low : {0., -0.4, -3.}) {
-      const BorderScene lit(SceneMaker().polygon({{c, 0, low}, {c, 0, a}, {c, b, a}, {c, b, low}},
-                                                 test::white_light));
-      EXPECT_NEAR(lit.factor(Vec3::Zero(), up), test::point_perpendicular_rectangle(a, b, c),
-                  1e-13);
-    }
-}
-
-TEST(SeenFactor, BehindAnOccluderIsTheRest) {
-  // The occluder at half height hides [0,.6] × [0,.4] of the light.
-  const BorderScene lit(
-      SceneMaker().down({0, 0}, {1, 1}, 2, test::white_light).up({-0.5, -0.7}, {0.3, 0.2}, 1));
-  const double expected =
-      test::point_parallel_rectangle(1, 1, 2) - test::point_parallel_rectangle(0.6, 0.4, 2);
-  EXPECT_NEAR(lit.factor(Vec3::Zero(), up), expected, 1e-13);
-}
-
-TEST(SeenFactor, OfPiecesDoesNotDependOnWhereTheyLieOnTheirRays) {
-  Random random(1);
-  const std::vector<Vec3> corners = {{-1, 0, 2}, {0, 1.5, 2}, {1, 0.5, 2}};  // clockwise from above
-  for (int round = 0; round < 50; ++round) {
-    VisiblePart plain, scaled;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-      plain.pieces.push_back({a, b, EdgeId::edge(0)});
-      scaled.pieces.push_back({random(0.2, 3) * a, random(0.2, 3) * b, EdgeId::edge(0)});
-    }
-    const double factor = seen_factor(plain, Vec3::Zero(), up);
-    EXPECT_GT(factor, 0);
-    EXPECT_NEAR(seen_factor(scaled, Vec3::Zero(), up), factor, 1e-14);
-  }
-  EXPECT_EQ(seen_factor({}, Vec3::Zero(), up), 0);
-}
 
 /// A wall in x = 1.5 beside the light [−.5,.5]² at z = 2; face 1.
 SceneMaker lamp_and_wall(double top) {

@@ -405,24 +405,5 @@ TEST(EmitterScene, ContainsWhatACountOfCrossingsSays) {
   }
 }
 
-TEST(ConvexHull, HoldsAllPointsOnItsLeftAndTurnsLeft) {
-  Random random(4);
-  for (int round = 0; round < 200; ++round) {
-    std::vector<Vec2> points;
-    const int count = random.integer(3, 20);
-    for (int k = 0; k < count; ++k)  // on a grid: many are collinear, some the same
-      points.emplace_back(random.integer(-3, 3), random.integer(-3, 3));
-    points.insert(points.end(), {Vec2(-3, -3), Vec2(3, -2), Vec2(0, 3)});
-    const std::vector<Vec2> hull = convex_hull(points);
-    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
-    for (std::size_t k = 0; k < hull.size(); ++k) {
-      const Vec2 &a = hull[k], &b = hull[(k + 1) % hull.size()], &c = hull[(k + 2) % hull.size()];
-      EXPECT_GT(cross(b - a, c - b), 0);
-      EXPECT_TRUE(std::find(points.begin(), points.end(), a) != points.end());
-      for (const Vec2& p : points) EXPECT_GE(cross(b - a, p - a), 0);
-    }
-  }
-}
-
 }  // namespace
 }  // namespace halfshade

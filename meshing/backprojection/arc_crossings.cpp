@@ -1,3 +1,4 @@
+#include "meshing/backprojection/rounding.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 
 #include <algorithm>
@@ -7,11 +8,6 @@
 
 namespace halfshade {
 namespace {
-
-// Sine of the angle between two arcs' planes below which their crossing is found along the arcs.
-constexpr double near_parallel = 1e-6;
-// Crossings closer than this along an arc are put in order by their arcs' ends where possible.
-constexpr double near_tie = 1e-8;
 
 /// Where in [0, 1] the segment from `start` along `along` passes nearest to direction q, measured
 /// along the segment. `normal` is that of the segment's plane through the eye.
@@ -57,12 +53,12 @@ bool ShadowArrangement::cross(int i, int j) {
   if (a_from != b_to || view_->turn(b.from, b.to, a.to) == a_from) return false;
   Crossing crossing{
       {i, j}, {}, {a_from < 0 ? b.weight : -b.weight, b_from < 0 ? a.weight : -a.weight}};
-  place_crossing(crossing);
+  locate_crossing(crossing);
   crossings_.push_back(crossing);
   return true;
 }
 
-void ShadowArrangement::place_crossing(Crossing& crossing) const {
+void ShadowArrangement::locate_crossing(Crossing& crossing) const {
   std::array<Vec3, 2> start, along, normal;
   for (std::size_t k = 0; k < 2; ++k) {
     const Arc& arc = arcs_[at(crossing.arc[k])];
@@ -77,12 +73,12 @@ void ShadowArrangement::place_crossing(Crossing& crossing) const {
     first[k] = normal[1 - k].dot(start[k] - start[1 - k]);
     drop[k] = -normal[1 - k].dot(along[k]);
     crossing.along[k] = std::clamp(first[k] / drop[k], 0., 1.);
-    is_clear =
-        is_clear && std::abs(drop[k]) > near_parallel * normal[1 - k].norm() * along[k].norm();
+    is_clear = is_clear &&
+               std::abs(drop[k]) > rounding::near_parallel * normal[1 - k].norm() * along[k].norm();
   }
   if (is_clear) return;
   // Nearly one line: the middle of the common part will do where rounding hides the crossing.
-  const double noise = 0.5 * view_->slack() * normal[1].norm();
+  const double noise = rounding::same_line * view_->slack() * normal[1].norm();
   double t = 0;
   if (std::abs(first[0]) <= noise && std::abs(first[0] - drop[0]) <= noise) {
     const double from = along_segment(start[0], along[0], normal[0], start[1]);
@@ -114,15 +110,15 @@ void ShadowArrangement::sort_crossings() {
   for (std::size_t i = 0; i < arcs_.size(); ++i) {
     const int arc = static_cast<int>(i);
     const auto begin = order_.begin() + arcs_[i].first, end = begin + arcs_[i].count;
-    const auto place = [&](int c) {
+    const auto along = [&](int c) {
       const Crossing& crossing = crossings_[at(c)];
       return crossing.along[at(side_of(crossing, arc))];
     };
     std::sort(begin, end,
-              [&](int a, int b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
+              [&](int a, int b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
     // Insertion, because the order of near ties need not be transitive.
     for (auto next = begin; next != end; ++next)
-      for (auto c = next; c != begin && place(*c) - place(c[-1]) < near_tie; --c) {
+      for (auto c = next; c != begin && along(*c) - along(c[-1]) < rounding::near_tie; --c) {
         if (!is_before(arc, *c, c[-1])) break;
         std::swap(*c, c[-1]);
       }

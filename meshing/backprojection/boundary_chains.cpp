@@ -1,5 +1,6 @@
 #include "meshing/backprojection/boundary_chains.h"
 
+#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -8,17 +9,8 @@
 namespace halfshade {
 namespace {
 
-// Parts thinner than this many of the view's slacks, eight roundings of a length, are no parts:
-// where occluders abut or touch the outline, rounding decides whether there is a gap.
-constexpr double thinnest = 0.25;
-// An occluder's edge may leave the outline it runs along by so many of those.
-constexpr double widest_overlap = 16;
-// Ends of pieces that rounding kept from meeting lie within this many roundings.
-constexpr double widest_gap = 1e5;
-
 double rounding_width(const PointView& view) {
-  // Two scattered edges part by up to 2 √3 times as much as their corners move along an axis.
-  return thinnest * view.slack() + 4 * view.jitter();
+  return rounding::thinnest_part * view.slack() + rounding::jitters_of_a_part * view.jitter();
 }
 
 /// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
@@ -26,7 +18,7 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   const Vec3 from = view.corners[at(edge.from)].true_position - view.point();
   const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
   const Vec3 normal = from.cross(to).normalized();
-  const double width = widest_overlap * rounding_width(view);
+  const double width = rounding::widest_overlap * rounding_width(view);
   const auto lies_on = [&](const Vec3& end) {
     const Vec3 p = end - view.point();
     // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
@@ -35,6 +27,22 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
            p.cross(to).dot(normal) >= -width * to.norm();
   };
   return lies_on(piece.from) && lies_on(piece.to);
+}
+
+/// Tells the edges that one visible part may have apart.
+std::uint32_t number_of(EdgeId edge, std::size_t edge_count) {
+  const auto id = static_cast<std::uint32_t>(edge.id);
+  switch (edge.kind) {
+    case EdgeId::Kind::edge:
+      return id;
+    case EdgeId::Kind::cut:
+      return static_cast<std::uint32_t>(edge_count) + id;
+    case EdgeId::Kind::emitter_edge:
+      return ~id;
+    case EdgeId::Kind::horizon:
+      break;
+  }
+  return std::uint32_t{1} << 31;
 }
 
 /// Adds a straight piece of boundary to an extent.
@@ -49,9 +57,9 @@ void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to
 }  // namespace
 
 /// A piece's follower starts where it ends.
-void BoundaryChains::join_places(const ShadowArrangement& arrangement) {
+void BoundaryChains::join_at_junctions(const ShadowArrangement& arrangement) {
   const auto& all = arrangement.pieces;
-  starts_.assign(at(arrangement.place_count), -1);
+  starts_.assign(at(arrangement.junction_count), -1);
   siblings_.assign(all.size(), -1);
   next_.assign(all.size(), -1);
   is_taken_.assign(all.size(), 0);
@@ -87,7 +95,7 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
       }
     }
     is_taken_[at(next_[i])] = 1;
-    closed = closed && best <= widest_gap * view.slack();
+    closed = closed && best <= rounding::widest_gap * view.slack();
   }
 }
 
@@ -119,18 +127,19 @@ void BoundaryChains::link(const ShadowArrangement& arrangement, const PointView&
   signature = 0;
   total_ = {};
   closed = true;
-  join_places(arrangement);
+  join_at_junctions(arrangement);
   join_leftovers(arrangement, view);
   for (std::size_t i = 0; i < arrangement.pieces.size(); ++i)
     if (next_[i] >= 0) add_chain(arrangement, view, static_cast<int>(i));
+  const std::size_t edge_count = view.topology().edges.size();
   // A sum does not depend on where chains start, nor on their order.
   std::size_t first = 0;
   for (const int end : ends) {
     for (std::size_t i = first; i < at(end); ++i) {
       const ArrangedPiece& next = pieces[i + 1 < at(end) ? i + 1 : first];
       const std::uint64_t kind = arrangement.is_crossing(pieces[i].end) ? 0 : 1;
-      const auto from = static_cast<std::uint32_t>(pieces[i].edge);
-      const auto to = static_cast<std::uint32_t>(next.edge);
+      const std::uint32_t from = number_of(pieces[i].edge, edge_count);
+      const std::uint32_t to = number_of(next.edge, edge_count);
       signature += mix_bits(mix_bits(mix_bits(from) + to) + kind);
     }
     first = at(end);
@@ -145,7 +154,7 @@ bool BoundaryChains::fill(const EmitterOutline& outline, const PointView& view) 
   if ((whole.flux - total_.flux).norm() > whole.rounding + total_.rounding) return false;
   // The difference of sums cannot tell a small corner that is cut off from nothing.
   return std::all_of(pieces.begin(), pieces.end(), [&](const ArrangedPiece& piece) {
-    return piece.edge < 0 ||
+    return piece.edge.is_of_outline() ||
            std::any_of(outline.edges.begin(), outline.edges.end(),
                        [&](const OutlineEdge& edge) { return runs_along(view, piece, edge); });
   });

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/backprojection/shadow_arrangement.h"
+#include "meshing/backprojection/visible_part.h"
 
 #include <vector>
 
@@ -28,12 +29,12 @@ class BoundaryChains {
   void copy(VisiblePart& part) const;
 
  private:
-  void join_places(const ShadowArrangement& arrangement);
+  void join_at_junctions(const ShadowArrangement& arrangement);
   void join_leftovers(const ShadowArrangement& arrangement, const PointView& view);
   void add_chain(const ShadowArrangement& arrangement, const PointView& view, int first);
 
   Extent total_;               // of all chains
-  std::vector<int> starts_;    // place → a piece that starts there
+  std::vector<int> starts_;    // junction → a piece that starts there
   std::vector<int> siblings_;  // piece → another that starts where it does
   std::vector<int> next_;      // piece → the piece that follows it
   std::vector<char> is_taken_;

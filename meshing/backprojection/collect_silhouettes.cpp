@@ -1,3 +1,4 @@
+#include "meshing/backprojection/rounding.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 
 #include <algorithm>
@@ -8,11 +9,6 @@
 
 namespace halfshade {
 namespace {
-
-// How much boxes are enlarged, relative to the outline's size and to the rounding of a corner: far
-// above what can go wrong, and little enough to keep the boxes useful.
-constexpr double box_margin = 1e-9;
-constexpr double blur_margin = 1e5;
 
 /// All faces below a node look towards the eye, or all look away from it.
 bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
@@ -27,58 +23,60 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
 }  // namespace
 
 void ShadowArrangement::collect_silhouettes() {
-  const auto& scene = view_->scene();
+  const SilhouetteTrees& trees = view_->silhouette_trees();
   const SightPyramid& pyramid = outline_->pyramid;
   const auto consider = [&](int edge) { consider_edge(edge); };
   walk_tree(
-      scene.closed_edges,
+      trees.closed_edges,
       [&](int index) {
-        const Bounds& box = scene.closed_edges.nodes[at(index)].box;
+        const Bounds& box = trees.closed_edges.nodes[at(index)].box;
         if (pyramid.is_outside(box)) return true;
         // Faces beyond the emitter's plane or in it do not count, so their edges may matter.
-        return look_one_way(scene.cones[at(index)], pyramid.eye, pyramid.slack) &&
+        return look_one_way(trees.cones[at(index)], pyramid.eye, pyramid.slack) &&
                pyramid.is_before_plane(box);
       },
       consider);
   walk_tree(
-      scene.open_edges,
-      [&](int index) { return pyramid.is_outside(scene.open_edges.nodes[at(index)].box); },
+      trees.open_edges,
+      [&](int index) { return pyramid.is_outside(trees.open_edges.nodes[at(index)].box); },
       consider);
   collect_cuts();
 }
 
 void ShadowArrangement::consider_edge(int edge) {
-  const auto& e = view_->scene().edges[at(edge)];
+  const auto& e = view_->topology().edges[at(edge)];
   int from = view_->corner_of_vertex(e.from), to = view_->corner_of_vertex(e.to);
   if (outline_->pyramid.is_outside(view_->corners[at(from)].direction,
                                    view_->corners[at(to)].direction))
     return;
-  const Place a = view_->corners[at(from)].place, b = view_->corners[at(to)].place;
-  if (a != Place::before && b != Place::before && !(a == Place::on && b == Place::on)) return;
+  const PlaneSide a = view_->corners[at(from)].side, b = view_->corners[at(to)].side;
+  if (a != PlaneSide::before && b != PlaneSide::before &&
+      !(a == PlaneSide::on && b == PlaneSide::on))
+    return;
   int weight = 0;
   for (int i = e.first; i < e.first + e.count; ++i) {
-    const auto& incidence = view_->scene().incidences[at(i)];
+    const auto& incidence = view_->topology().incidences[at(i)];
     weight += incidence.direction * view_->face_sign(incidence.triangle);
   }
   if (weight == 0) return;
-  if (a == Place::beyond) from = view_->corner_of_cut(edge);
-  if (b == Place::beyond) to = view_->corner_of_cut(edge);
+  if (a == PlaneSide::beyond) from = view_->corner_of_cut(edge);
+  if (b == PlaneSide::beyond) to = view_->corner_of_cut(edge);
   if (weight > 0)
-    add_arc(from, to, weight, edge);
+    add_arc(from, to, weight, EdgeId::edge(edge));
   else
-    add_arc(to, from, -weight, edge);
+    add_arc(to, from, -weight, EdgeId::edge(edge));
 }
 
 /// The lines where faces pierce the emitter's plane.
 void ShadowArrangement::collect_cuts() {
-  const auto& scene = view_->scene();
+  const FlatTree& faces = view_->face_tree();
   const SightPyramid& pyramid = outline_->pyramid;
   const auto skip = [&](int index) {
-    const Bounds& box = scene.faces.nodes[at(index)].box;
+    const Bounds& box = faces.nodes[at(index)].box;
     return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
   };
   const std::size_t first = arcs_.size();
-  walk_tree(scene.faces, skip, [&](int triangle) {
+  walk_tree(faces, skip, [&](int triangle) {
     const int sign = view_->face_sign(triangle);
     if (sign == 0) return;
     std::array<int, 4> p{};
@@ -86,8 +84,8 @@ void ShadowArrangement::collect_cuts() {
     for (int k = 0; k < count; ++k) {
       const int i = p[at(k)], j = p[at((k + 1) % count)];
       const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
-      if (a.place != Place::on || b.place != Place::on || !(a.is_cut || b.is_cut)) continue;
-      const int id = static_cast<int>(scene.edges.size()) + triangle;
+      if (a.side != PlaneSide::on || b.side != PlaneSide::on || !(a.is_cut || b.is_cut)) continue;
+      const EdgeId id = EdgeId::cut(triangle);
       sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
     }
   });
@@ -119,7 +117,7 @@ void ShadowArrangement::join_repeated(std::size_t first_cut) {
   arcs_.erase(kept, arcs_.end());
 }
 
-void ShadowArrangement::add_arc(int from, int to, int weight, int edge) {
+void ShadowArrangement::add_arc(int from, int to, int weight, EdgeId edge) {
   const auto& corners = view_->corners;
   // Where a silhouette is an edge of the outline, the outline speaks for both.
   if (corners[at(from)].next_on_outline == to || corners[at(to)].next_on_outline == from) return;
@@ -131,9 +129,8 @@ void ShadowArrangement::add_arc(int from, int to, int weight, int edge) {
 bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
-  // Boxes need not be tight; these margins are far above rounding.
-  const double margin =
-      box_margin * (pyramid.high - pyramid.low).maxCoeff() + blur_margin * view_->blur();
+  const double margin = rounding::box_margin * (pyramid.high - pyramid.low).maxCoeff() +
+                        rounding::blur_margin * view_->blur();
   if (a.is_ahead && b.is_ahead) {
     arc.low = a.image.cwiseMin(b.image).array() - margin;
     arc.high = a.image.cwiseMax(b.image).array() + margin;

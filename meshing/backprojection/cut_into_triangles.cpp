@@ -1,4 +1,5 @@
-#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/rounding.h"
 #include "meshing/triangulation/planar_mesh.h"
 
 #include <algorithm>
@@ -6,11 +7,6 @@
 
 namespace halfshade {
 namespace {
-
-// Corners that turn by less than this, relative to the widest, may be straight or reflex.
-constexpr double clearly_convex = 1e-6;
-
-using Impl = OpaqueScene::Impl;
 
 double turn_2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - a;
@@ -26,7 +22,7 @@ bool is_convex_quad(const Ring& ring) {
     least = std::min(least, area);
     most = std::max(most, area);
   }
-  return least > clearly_convex * most;
+  return least > rounding::clearly_convex * most;
 }
 
 /// The vertex whose image in the plane lies nearest to q.
@@ -43,22 +39,22 @@ int nearest(const std::vector<Ring>& images, std::span<const std::vector<int>> v
   return found;
 }
 
-void add_triangle(Impl& out, int surface, int a, int b, int c) {
+void add_triangle(OpaqueTopology& out, int surface, int a, int b, int c) {
   if (a != b && b != c && c != a) out.triangles.push_back({{a, b, c}, {-1, -1, -1}, surface});
 }
 
 }  // namespace
 
-void cut_into_triangles(const SoundScene& scene, Impl& out) {
+void cut_into_triangles(const SoundScene& scene, OpaqueTopology& out) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     if (scene.surfaces[r].back) continue;  // its front blocks already
-    const Impl::OpaqueSurface& surface = out.surfaces[r];
+    const OpaqueTopology::OpaqueSurface& surface = out.surfaces[r];
     std::vector<Ring> images;
     std::vector<std::vector<int>> vertices;
     for (int ring = surface.first_ring; ring < surface.first_ring + surface.ring_count; ++ring) {
       images.emplace_back();
       vertices.emplace_back();
-      for (const Impl::OutlineVertex& v : out.ring(ring)) {
+      for (const OpaqueTopology::OutlineVertex& v : out.ring(ring)) {
         images.back().push_back(surface.frame.to_plane(out.vertices[at(v.vertex)]));
         vertices.back().push_back(v.vertex);
       }

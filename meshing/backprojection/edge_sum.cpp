@@ -1,5 +1,7 @@
 #include "meshing/backprojection/edge_sum.h"
 
+#include "meshing/backprojection/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,9 +12,8 @@ namespace {
 /// θ/sin θ − 1 without cancellation; `sine` ≥ 0.
 double angle_excess(double sine, double cosine) {
   const double s = sine * sine;
-  // Of the series of arcsin s / s, eight terms are exact to rounding below this.
-  constexpr double small = 2.5e-3;
-  if (cosine > 0 && s < small)
+  // Eight terms of the series of arcsin s / s.
+  if (cosine > 0 && s < rounding::small_sine_squared)
     return s *
            (1. / 6 +
             s * (3. / 40 +

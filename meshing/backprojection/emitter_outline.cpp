@@ -1,5 +1,7 @@
 #include "meshing/backprojection/emitter_outline.h"
 
+#include "meshing/backprojection/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -9,20 +11,18 @@ namespace {
 
 // More planes than this cost more in tests than they save in edges.
 constexpr std::size_t max_sides = 8;
-// How far the horizon is raised, in roundings of a length.
-constexpr double raised = 4;
 
 }  // namespace
 
 /// Above the horizon, which is raised by a few roundings: so edges of other faces that lie in the
 /// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
 double EmitterOutline::height(const PointView& view, int corner) const {
-  const double h =
-      normal_.dot(view.corners[at(corner)].true_position - point_) - raised * view.slack();
+  const double h = normal_.dot(view.corners[at(corner)].true_position - point_) -
+                   rounding::raised_horizon * view.slack();
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 
-void EmitterOutline::add_edge(PointView& view, int from, int to, int edge) {
+void EmitterOutline::add_edge(PointView& view, int from, int to, EdgeId edge) {
   if (from == to) return;
   edges.push_back({from, to, edge});
   view.corners[at(from)].next_on_outline = to;
@@ -39,24 +39,25 @@ int EmitterOutline::cross_horizon(PointView& view, int from, int to) {
 }
 
 void EmitterOutline::cut_ring(PointView& view,
-                              std::span<const OpaqueScene::Impl::OutlineVertex> ring) {
+                              std::span<const OpaqueTopology::OutlineVertex> ring) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const int a = view.corner_of_vertex(ring[k].vertex);
     const int b = view.corner_of_vertex(ring[(k + 1) % ring.size()].vertex);
+    const EdgeId edge = EdgeId::emitter_edge(ring[k].edge);
     const double from = height(view, a), to = height(view, b);
     reaches_above_ = reaches_above_ || from > 0;
     if (from >= 0 && to >= 0) {
-      add_edge(view, a, b, -1 - ring[k].edge);
+      add_edge(view, a, b, edge);
       continue;
     }
     if (from < 0 && to < 0) continue;
     const int c = cross_horizon(view, a, b);
     const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
     if (from >= 0) {
-      add_edge(view, a, c, -1 - ring[k].edge);
+      add_edge(view, a, c, edge);
       exits_.push_back({along, c});
     } else {
-      add_edge(view, c, b, -1 - ring[k].edge);
+      add_edge(view, c, b, edge);
       entries_.push_back({along, c});
     }
   }
@@ -70,7 +71,7 @@ void EmitterOutline::close_along_horizon(PointView& view) {
   std::sort(exits_.begin(), exits_.end(), before);
   std::sort(entries_.begin(), entries_.end(), before);
   for (std::size_t i = 0; i < exits_.size(); ++i)
-    add_edge(view, exits_[i].corner, entries_[i].corner, horizon_edge);
+    add_edge(view, exits_[i].corner, entries_[i].corner, EdgeId::horizon());
 }
 
 /// Chain by chain, each edge after the one that ends where it starts.
@@ -98,7 +99,7 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   pyramid.eye = point_;
   pyramid.normal = frame.normal;
   pyramid.plane_point = frame.origin;
-  pyramid.slack = 8 * view.blur();
+  pyramid.slack = rounding::pyramid_margin * view.blur();
   pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
   for (const OutlineEdge& edge : edges) {
     pyramid.low = pyramid.low.cwiseMin(view.corners[at(edge.from)].image);
@@ -137,9 +138,9 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   point_ = point;
   normal_ = normal;
   horizon_ = normal.cross(view.emitter().normal);
-  const auto& surface = view.scene().surfaces[at(emitter)];
+  const auto& surface = view.topology().surfaces[at(emitter)];
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
-    cut_ring(view, view.scene().ring(r));
+    cut_ring(view, view.topology().ring(r));
   if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
   if (!exits_.empty()) {
     close_along_horizon(view);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/point_view.h"
 
 #include <vector>
@@ -10,7 +11,7 @@ namespace halfshade {
 /// the emitter is on its left.
 struct OutlineEdge {
   int from, to;  ///< corners
-  int edge;      ///< as in BoundaryPiece
+  EdgeId edge;
 };
 
 /// Cuts an emitter's rings at the point's horizon. Keeps its buffers.
@@ -30,9 +31,9 @@ class EmitterOutline {
     double along;
     int corner;
   };
-  void add_edge(PointView& view, int from, int to, int edge);
+  void add_edge(PointView& view, int from, int to, EdgeId edge);
   int cross_horizon(PointView& view, int from, int to);
-  void cut_ring(PointView& view, std::span<const OpaqueScene::Impl::OutlineVertex> ring);
+  void cut_ring(PointView& view, std::span<const OpaqueTopology::OutlineVertex> ring);
   void close_along_horizon(PointView& view);
   void put_in_order(const PointView& view);
   void make_pyramid(const PointView& view);

@@ -1,4 +1,6 @@
-#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/rounding.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +8,6 @@
 
 namespace halfshade {
 namespace {
-
-using Impl = OpaqueScene::Impl;
-
-// Corners of neighbours lie apart by as much as their planes do, but never by this share of an
-// edge.
-constexpr double largest_gap = 0.01;
 
 /// One point per corner of a ring, in the order of the scene.
 struct Corners {
@@ -27,9 +23,9 @@ void add_ring(const Surface& surface, const Ring& ring, const Tolerance& toleran
     const double before = (ring[k] - ring[(k + n - 1) % n]).norm();
     const double after = (ring[(k + 1) % n] - ring[k]).norm();
     corners.position.push_back(surface.frame.to_space(ring[k]));
-    corners.reach.push_back(
-        std::max(tolerance.length,
-                 std::min(2 * tolerance.planarity, largest_gap * std::min(before, after))));
+    corners.reach.push_back(std::max(
+        tolerance.length,
+        std::min(2 * tolerance.planarity, rounding::largest_joint_gap * std::min(before, after))));
     corners.edge.push_back(first_edge + static_cast<int>(k));
   }
 }
@@ -64,7 +60,8 @@ struct EdgeFiller {
   const FlatTree& tree;
   std::vector<std::pair<double, int>> found;
 
-  void add(int from, int to, int edge, double reach, std::vector<Impl::OutlineVertex>& outline) {
+  void add(int from, int to, int edge, double reach,
+           std::vector<OpaqueTopology::OutlineVertex>& outline) {
     const Vec3 a = vertices[at(from)], along = vertices[at(to)] - a;
     Bounds box = box_about(a, reach);
     box.include(box_about(vertices[at(to)], reach));
@@ -82,12 +79,12 @@ struct EdgeFiller {
 
 }  // namespace
 
-void join_outlines(const SoundScene& scene, Impl& out) {
+void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
   Corners corners;
   std::vector<int> sizes;
   for (const Surface& surface : scene.surfaces) {
-    Impl::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
-                               static_cast<int>(surface.rings.size())};
+    OpaqueTopology::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
+                                         static_cast<int>(surface.rings.size())};
     int first_edge = 0;
     for (const Ring& ring : surface.rings) {
       add_ring(surface, ring, scene.tolerance, first_edge, corners);
@@ -103,7 +100,7 @@ void join_outlines(const SoundScene& scene, Impl& out) {
   EdgeFiller filler{out.vertices, tree, {}};
   std::size_t first = 0;
   for (const int size : sizes) {
-    Impl::RingRange range{static_cast<int>(out.outline.size()), 0};
+    OpaqueTopology::RingRange range{static_cast<int>(out.outline.size()), 0};
     for (std::size_t k = 0; k < at(size); ++k) {
       const int from = vertex[first + k], to = vertex[first + (k + 1) % at(size)];
       if (from == to) continue;

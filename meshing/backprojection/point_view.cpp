@@ -1,28 +1,14 @@
 #include "meshing/backprojection/point_view.h"
 
+#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace halfshade {
 namespace {
-
-// Stands for 0 where directions are inverted; its inverse is still finite.
-constexpr double least_slope = 1e-300;
-
-using Impl = OpaqueScene::Impl;
-
-// What rounding may put a point off a plane that it was computed to lie in, relative to the largest
-// coordinate: a few roundings each in the point, in the plane's origin and in the distance.
-constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
-// Cosine beyond which the point's normal is its surface's.
-constexpr double same_normal = 1 - 1e-6;
-// Corners nearer to the plane through the point than this share of the emitter's distance are not
-// projected.
-constexpr double nearest_image = 1e-4;
 
 /// A vector in [−length, length)³ that looks random.
 Vec3 scatter(std::int64_t rank, double length) {
@@ -65,12 +51,14 @@ bool SightPyramid::crosses_plane(const Bounds& box) const {
          reach(box, normal) + slack;
 }
 
-PointView::PointView(const Impl& scene)
-    : scene_(scene),
-      vertices_(scene.vertices.size()),
-      cuts_(scene.edges.size()),
-      signs_(scene.triangles.size()),
-      edge_on_(scene.surfaces.size()) {}
+PointView::PointView(const OpaqueScene& scene)
+    : topology_(scene.topology()),
+      silhouette_trees_(scene.silhouette_trees()),
+      face_tree_(scene.face_tree()),
+      vertices_(topology_.vertices.size()),
+      cuts_(topology_.edges.size()),
+      signs_(topology_.triangles.size()),
+      edge_on_(topology_.surfaces.size()) {}
 
 void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
   if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
@@ -82,13 +70,13 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   point_ = point;
   jitter_ = jitter;
   normal_ = normal;
-  emitter_ = &scene_.surfaces[at(emitter)].frame;
+  emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  slack_ = rounding * std::max(scene_.magnitude, point.lpNorm<Eigen::Infinity>());
+  slack_ = rounding::slack * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
 }
 
 std::int64_t PointView::first_free_rank() const {
-  return static_cast<std::int64_t>(scene_.vertices.size() + scene_.edges.size());
+  return static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
 }
 
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
@@ -98,9 +86,10 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);
-  if (corner.height <= slack_) corner.place = corner.height < -slack_ ? Place::beyond : Place::on;
+  if (corner.height <= slack_)
+    corner.side = corner.height < -slack_ ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
-  corner.is_ahead = depth > nearest_image * distance_;
+  corner.is_ahead = depth > rounding::nearest_image * distance_;
   if (corner.is_ahead)
     corner.image = distance_ / depth *
                    Vec2(emitter_->e1.dot(corner.direction), emitter_->e2.dot(corner.direction));
@@ -110,23 +99,23 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
 
 int PointView::corner_of_vertex(int vertex) {
   Kept& kept = vertices_[at(vertex)];
-  if (!is_fresh(kept)) kept = {query_, add_corner(scene_.vertices[at(vertex)], vertex)};
+  if (!is_fresh(kept)) kept = {query_, add_corner(topology_.vertices[at(vertex)], vertex)};
   return kept.value;
 }
 
 int PointView::corner_of_cut(int edge) {
   Kept& kept = cuts_[at(edge)];
   if (!is_fresh(kept)) {
-    int from = corner_of_vertex(scene_.edges[at(edge)].from);
-    int to = corner_of_vertex(scene_.edges[at(edge)].to);
-    if (corners[at(from)].place == Place::beyond) std::swap(from, to);
+    int from = corner_of_vertex(topology_.edges[at(edge)].from);
+    int to = corner_of_vertex(topology_.edges[at(edge)].to);
+    if (corners[at(from)].side == PlaneSide::beyond) std::swap(from, to);
     const Corner &a = corners[at(from)], &b = corners[at(to)];
     const Vec3 position =
         a.true_position + a.height / (a.height - b.height) * (b.true_position - a.true_position);
-    const auto rank = static_cast<std::int64_t>(scene_.vertices.size()) + edge;
+    const auto rank = static_cast<std::int64_t>(topology_.vertices.size()) + edge;
     kept = {query_, add_corner(position, rank)};
     corners.back().is_cut = true;
-    corners.back().place = Place::on;
+    corners.back().side = PlaneSide::on;
   }
   return kept.value;
 }
@@ -138,28 +127,29 @@ int PointView::turn(int a, int b, int c) const {
 bool PointView::is_edge_on(int surface) {
   Kept& kept = edge_on_[at(surface)];
   if (!is_fresh(kept)) {
-    const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
+    const PlaneFrame& frame = topology_.surfaces[at(surface)].frame;
     const double height = std::abs(frame.height(point_));
-    kept = {query_, height <= slack_ ||
-                        (height <= scene_.tolerance.length &&
-                         std::abs(frame.normal.dot(normal_)) > same_normal && touches(surface))};
+    kept = {query_,
+            height <= slack_ ||
+                (height <= topology_.tolerance.length &&
+                 std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
   }
   return kept.value != 0;
 }
 
 /// Whether the point lies over the surface or within the tolerance of its border.
 bool PointView::touches(int id) const {
-  const Impl::OpaqueSurface& surface = scene_.surfaces[at(id)];
+  const OpaqueTopology::OpaqueSurface& surface = topology_.surfaces[at(id)];
   bool inside = false;
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
-    const auto ring = scene_.ring(r);
+    const auto ring = topology_.ring(r);
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 a = surface.frame.to_plane(scene_.vertices[at(ring[k].vertex)]);
+      const Vec2 a = surface.frame.to_plane(topology_.vertices[at(ring[k].vertex)]);
       const Vec2 b =
-          surface.frame.to_plane(scene_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
+          surface.frame.to_plane(topology_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
       const Vec2 p = surface.frame.to_plane(point_), along = b - a;
       const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0., 1.);
-      if ((p - a - t * along).norm() <= scene_.tolerance.length) return true;
+      if ((p - a - t * along).norm() <= topology_.tolerance.length) return true;
       if ((a.y() > p.y()) != (b.y() > p.y()) &&
           p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
         inside = !inside;
@@ -171,13 +161,13 @@ bool PointView::touches(int id) const {
 int PointView::face_sign(int triangle) {
   Kept& kept = signs_[at(triangle)];
   if (!is_fresh(kept)) {
-    const Impl::Triangle& face = scene_.triangles[at(triangle)];
+    const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
     std::array<int, 3> c{};
     bool blocks = false, flat = true;
     for (std::size_t k = 0; k < 3; ++k) {
       c[k] = corner_of_vertex(face.corner[k]);
-      blocks = blocks || corners[at(c[k])].place == Place::before;
-      flat = flat && std::abs(corners[at(c[k])].height) <= scene_.tolerance.length;
+      blocks = blocks || corners[at(c[k])].side == PlaneSide::before;
+      flat = flat && std::abs(corners[at(c[k])].height) <= topology_.tolerance.length;
     }
     kept = {query_, blocks && !flat && !is_edge_on(face.surface) ? turn(c[0], c[1], c[2]) : 0};
   }
@@ -185,23 +175,23 @@ int PointView::face_sign(int triangle) {
 }
 
 int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
-  const Impl::Triangle& face = scene_.triangles[at(triangle)];
+  const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
   int count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const int a = corner_of_vertex(face.corner[k]);
     const int b = corner_of_vertex(face.corner[(k + 1) % 3]);
-    const auto from = static_cast<int>(corners[at(a)].place);
-    const auto to = static_cast<int>(corners[at(b)].place);
+    const auto from = static_cast<int>(corners[at(a)].side);
+    const auto to = static_cast<int>(corners[at(b)].side);
     if (from <= 0) polygon[at(count++)] = a;
     if (from * to < 0) polygon[at(count++)] = corner_of_cut(face.edge[k]);
   }
   return count;
 }
 
-int PointView::covers(int a, int b, int c, const Germ& germ) const {
-  const auto [v, w, side] = germ;
-  if (v == b) return covers(b, c, a, germ);
-  if (v == c) return covers(c, a, b, germ);
+int PointView::winding(int a, int b, int c, const DirectionBeside& direction) const {
+  const auto [v, w, side] = direction;
+  if (v == b) return winding(b, c, a, direction);
+  if (v == c) return winding(c, a, b, direction);
   const int sign = turn(a, b, c);
   if (v == a) {
     if (w == b) return side == sign ? sign : 0;
@@ -211,27 +201,28 @@ int PointView::covers(int a, int b, int c, const Germ& germ) const {
   return turn(a, b, v) == sign && turn(b, c, v) == sign && turn(c, a, v) == sign ? sign : 0;
 }
 
-int PointView::cover_by(int triangle, const Germ& germ) {
+int PointView::layers_of(int triangle, const DirectionBeside& direction) {
   const int sign = face_sign(triangle);
   if (sign == 0) return 0;
   std::array<int, 4> p{};
   const int count = clipped(triangle, p);
   int sum = 0;
-  for (int k = 2; k < count; ++k) sum += covers(p[0], p[at(k - 1)], p[at(k)], germ);
-  if (sum != 0) covering_.push_back(scene_.triangles[at(triangle)].surface);
+  for (int k = 2; k < count; ++k) sum += winding(p[0], p[at(k - 1)], p[at(k)], direction);
+  if (sum != 0) layer_surfaces_.push_back(topology_.triangles[at(triangle)].surface);
   return sign * sum;
 }
 
-int PointView::cover(const Germ& germ) {
-  covering_.clear();
-  const FlatTree& tree = scene_.faces;
+int PointView::layers_over(const DirectionBeside& direction) {
+  layer_surfaces_.clear();
+  const FlatTree& tree = face_tree_;
   if (tree.nodes.empty()) return 0;
-  const Corner& target = corners[at(germ.from)];
+  const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
   const Vec3 margin = Vec3::Constant(blur() * last);
-  const Vec3 inverse = target.direction.unaryExpr(
-      [](double d) { return 1 / (std::abs(d) > least_slope ? d : least_slope); });
+  const Vec3 inverse = target.direction.unaryExpr([](double d) {
+    return 1 / (std::abs(d) > rounding::least_slope ? d : rounding::least_slope);
+  });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -240,7 +231,7 @@ int PointView::cover(const Germ& germ) {
     const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
-    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding));
+    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding::slack));
     if (enter > leave) continue;
     if (node.right >= 0) {
       stack[depth++] = node.right;
@@ -248,7 +239,7 @@ int PointView::cover(const Germ& germ) {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      sum += cover_by(tree.items[at(i)], germ);
+      sum += layers_of(tree.items[at(i)], direction);
   }
   return sum;
 }

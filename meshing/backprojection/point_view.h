@@ -1,6 +1,8 @@
 #pragma once
 
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/geometry/exact_signs.h"
 
 #include <array>
@@ -8,14 +10,14 @@
 
 namespace halfshade {
 
-/// Where a point lies with respect to the emitter's plane.
-enum class Place : std::int8_t { before = -1, on = 0, beyond = 1 };
+/// On which side of the emitter's plane a point lies, seen from the eye.
+enum class PlaneSide : std::int8_t { before = -1, on = 0, beyond = 1 };
 
 /// A vertex as seen from the point. `position` is what decides, see PointView::start.
 struct Corner : SeenPoint {
   Vec3 true_position = Vec3::Zero();
   double height = 0;  ///< above the emitter's plane; positive on the point's side
-  Place place = Place::before;
+  PlaneSide side = PlaneSide::before;
   bool is_cut = false;        ///< where an edge pierces the emitter's plane
   bool is_ahead = false;      ///< clearly in the half-space of the directions to the emitter
   Vec2 image = Vec2::Zero();  ///< projected onto the emitter's plane, if ahead
@@ -23,7 +25,7 @@ struct Corner : SeenPoint {
 };
 
 /// A direction just beside an edge and just after its start.
-struct Germ {
+struct DirectionBeside {
   int from, to;  ///< corners
   int side;      ///< +1: left of the edge, −1: right of it
 };
@@ -47,13 +49,15 @@ struct SightPyramid {
 /// kept until the next start.
 class PointView {
  public:
-  explicit PointView(const OpaqueScene::Impl& scene);
+  explicit PointView(const OpaqueScene& scene);
 
   /// With a positive `jitter` (a length), every corner decides as if it lay up to that far from
   /// its true position, in a direction that depends on its rank.
   void start(const Vec3& point, const Vec3& normal, int emitter, double jitter = 0);
 
-  const OpaqueScene::Impl& scene() const { return scene_; }
+  const OpaqueTopology& topology() const { return topology_; }
+  const SilhouetteTrees& silhouette_trees() const { return silhouette_trees_; }
+  const FlatTree& face_tree() const { return face_tree_; }
   const PlaneFrame& emitter() const { return *emitter_; }
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
   double slack() const { return slack_; }        ///< rounding of a distance
@@ -77,12 +81,13 @@ class PointView {
   int face_sign(int triangle);
   /// The part of a face before the emitter's plane, as up to four corners; their number.
   int clipped(int triangle, std::array<int, 4>& polygon);
-  /// How many faces cover a germ that lies inside the pyramid.
-  int cover(const Germ& germ);
-  /// The surfaces that the last call of cover found, perhaps repeatedly.
-  std::span<const int> covering() const { return covering_; }
-  /// ±1 if triangle abc, as it runs, covers the germ; else 0.
-  int covers(int a, int b, int c, const Germ& germ) const;
+  /// How many faces lie over a direction inside the pyramid, the emitter left out: Appel's
+  /// quantitative invisibility (1967).
+  int layers_over(const DirectionBeside& direction);
+  /// The surfaces that the last call of layers_over found, perhaps repeatedly.
+  std::span<const int> layer_surfaces() const { return layer_surfaces_; }
+  /// How often triangle abc, as it runs, winds round the direction: ±1 or 0.
+  int winding(int a, int b, int c, const DirectionBeside& direction) const;
 
  private:
   struct Kept {
@@ -92,11 +97,13 @@ class PointView {
   bool is_fresh(Kept& kept) const { return kept.query == query_; }
   bool is_edge_on(int surface);
   bool touches(int surface) const;
-  int cover_by(int triangle, const Germ& germ);
+  int layers_of(int triangle, const DirectionBeside& direction);
 
-  const OpaqueScene::Impl& scene_;
+  const OpaqueTopology& topology_;
+  const SilhouetteTrees& silhouette_trees_;
+  const FlatTree& face_tree_;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
-  std::vector<int> covering_;
+  std::vector<int> layer_surfaces_;
   std::uint32_t query_ = 0;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;

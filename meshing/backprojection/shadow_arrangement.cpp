@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-// The third step of the arrangement: how many faces cover the directions beside each stretch of an
-// arc. It is found exactly in a few places and counted on from there, crossing by crossing.
+// The third step of the arrangement: how many layers of faces lie over the directions beside each
+// stretch of an arc. Their number is found exactly for a few directions and counted on from there,
+// crossing by crossing.
 
 namespace halfshade {
+
 void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
   view_ = &view;
   outline_ = &outline;
@@ -19,12 +21,12 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     set_box(arc);
     arcs_.push_back(arc);
   }
-  first_cover_ = view.cover({arcs_[0].from, arcs_[0].to, 1});
-  for (const int surface : view.covering())
+  first_layers_ = view.layers_over({arcs_[0].from, arcs_[0].to, 1});
+  for (const int surface : view.layer_surfaces())
     if (is_hidden_by(surface)) {
       crossings_.clear();
       fully_lit = false;
-      place_count = 0;
+      junction_count = 0;
       return;
     }
   collect_silhouettes();
@@ -42,20 +44,21 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
   walk_silhouettes();
   fully_lit = lit == outline.edges.size() && pieces.size() == lit;
   for (std::size_t i = 0; fully_lit && i < lit; ++i)
-    fully_lit = pieces[i].start == place_of(outline.edges[i].from) &&
-                pieces[i].end == place_of(outline.edges[i].to);
-  place_count = place_of(static_cast<int>(view.corners.size()));
+    fully_lit = pieces[i].start == junction_of(outline.edges[i].from) &&
+                pieces[i].end == junction_of(outline.edges[i].to);
+  junction_count = junction_of(static_cast<int>(view.corners.size()));
 }
 
-/// Whether a surface that covers a direction in the pyramid covers all: its border stays outside.
+/// Whether a surface that lies over a direction in the pyramid lies over all: its border stays
+/// outside.
 bool ShadowArrangement::is_hidden_by(int id) {
-  const auto& surface = view_->scene().surfaces[at(id)];
+  const auto& surface = view_->topology().surfaces[at(id)];
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
-    const auto ring = view_->scene().ring(r);
+    const auto ring = view_->topology().ring(r);
     int from = view_->corner_of_vertex(ring.back().vertex);
     for (const auto& next : ring) {
       const int to = view_->corner_of_vertex(next.vertex);
-      if (view_->corners[at(to)].place == Place::beyond ||
+      if (view_->corners[at(to)].side == PlaneSide::beyond ||
           !outline_->pyramid.is_outside(view_->corners[at(from)].direction,
                                         view_->corners[at(to)].direction))
         return false;
@@ -71,13 +74,13 @@ Vec3 ShadowArrangement::position(const Arc& arc, double along) const {
   return along <= 0 ? from : along >= 1 ? to : from + along * (to - from);
 }
 
-/// Adds a stretch of an arc, `cover` faces being on its right, if it bounds the visible part.
-void ShadowArrangement::emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> place,
-                             int cover) {
-  const bool right = cover == 0, left = cover + arc.weight == 0;
+/// Adds a stretch of an arc with so many layers on its right, if it bounds the visible part.
+void ShadowArrangement::emit(const Arc& arc, std::array<double, 2> along,
+                             std::array<int, 2> junctions, int layers) {
+  const bool right = layers == 0, left = layers + arc.weight == 0;
   if (arc.is_outline ? !right : right == left) return;
-  ArrangedPiece piece{position(arc, along[0]), position(arc, along[1]), arc.edge, place[0],
-                      place[1]};
+  ArrangedPiece piece{position(arc, along[0]), position(arc, along[1]), arc.edge, junctions[0],
+                      junctions[1]};
   if (right && !arc.is_outline) {
     std::swap(piece.from, piece.to);
     std::swap(piece.start, piece.end);
@@ -86,30 +89,30 @@ void ShadowArrangement::emit(const Arc& arc, std::array<double, 2> along, std::a
 }
 
 void ShadowArrangement::walk_outline() {
-  int cover = 0, reached = -1;
+  int layers = 0, reached = -1;
   for (std::size_t i = 0; i < outline_->edges.size(); ++i) {
     const int id = static_cast<int>(i);
     const Arc arc = arcs_[i];
     const Meeting& meeting = meetings_[at(arc.from)];
     // Just inside; the count carries over from the edge before unless silhouettes meet here.
     if (i == 0)
-      cover = first_cover_;
+      layers = first_layers_;
     else if (reached != arc.from || meeting.in + meeting.out > 0)
-      cover = view_->cover({arc.from, arc.to, 1});
+      layers = view_->layers_over({arc.from, arc.to, 1});
     double from = 0;
-    int place = place_of(arc.from);
+    int junction = junction_of(arc.from);
     for (int k = arc.first; k < arc.first + arc.count; ++k) {
       Crossing& crossing = crossings_[at(order_[at(k)])];
       const std::size_t side = at(side_of(crossing, id));
       const int next = order_[at(k)];
-      emit(arc, {from, crossing.along[side]}, {place, next}, cover);
-      crossing.cover = std::min(cover, cover + crossing.step[side]);
-      cover += crossing.step[side];
-      is_consistent = is_consistent && cover >= 0;
+      emit(arc, {from, crossing.along[side]}, {junction, next}, layers);
+      crossing.layers = std::min(layers, layers + crossing.step[side]);
+      layers += crossing.step[side];
+      is_consistent = is_consistent && layers >= 0;
       from = crossing.along[side];
-      place = next;
+      junction = next;
     }
-    emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
+    emit(arc, {from, 1}, {junction, junction_of(arc.to)}, layers);
     reached = arc.to;
   }
 }
@@ -124,11 +127,12 @@ bool ShadowArrangement::enters_first(const Arc& arc) const {
   return false;
 }
 
-bool ShadowArrangement::is_inside(const Germ& germ) const {
+bool ShadowArrangement::is_inside(const DirectionBeside& direction) const {
   const int apex = outline_->edges[0].from;
   int sum = 0;
   for (const OutlineEdge& edge : outline_->edges)
-    if (edge.from != apex && edge.to != apex) sum += view_->covers(apex, edge.from, edge.to, germ);
+    if (edge.from != apex && edge.to != apex)
+      sum += view_->winding(apex, edge.from, edge.to, direction);
   return sum > 0;
 }
 
@@ -139,16 +143,16 @@ void ShadowArrangement::walk_silhouettes() {
     if (!arcs_[at(i)].is_done && enters_first(arcs_[at(i)])) walk_chain(i, false, 0);
   for (int i = first; i < count; ++i) {
     if (arcs_[at(i)].is_done) continue;
-    const Germ germ{arcs_[at(i)].from, arcs_[at(i)].to, -1};
-    const bool inside = is_inside(germ);
-    walk_chain(i, inside, inside ? view_->cover(germ) : 0);
+    const DirectionBeside direction{arcs_[at(i)].from, arcs_[at(i)].to, -1};
+    const bool inside = is_inside(direction);
+    walk_chain(i, inside, inside ? view_->layers_over(direction) : 0);
   }
 }
 
 /// Walks an arc and those that continue it, as long as the way leads on inside without a fork.
-void ShadowArrangement::walk_chain(int arc, bool inside, int cover) {
+void ShadowArrangement::walk_chain(int arc, bool inside, int layers) {
   while (true) {
-    inside = walk_arc(arc, inside, cover);
+    inside = walk_arc(arc, inside, layers);
     if (!inside) return;
     const int end = arcs_[at(arc)].to;
     const Meeting& meeting = meetings_[at(end)];
@@ -156,38 +160,39 @@ void ShadowArrangement::walk_chain(int arc, bool inside, int cover) {
     const Arc& next = arcs_[at(meeting.next)];
     if (next.weight != arcs_[at(arc)].weight) return;
     if (next.is_done) {
-      is_consistent = is_consistent && next.start_cover == cover;
+      is_consistent = is_consistent && next.start_layers == layers;
       return;
     }
     arc = meeting.next;
   }
 }
 
-/// Walks one arc; `cover` is that on its right. Returns whether its end is inside the outline.
-bool ShadowArrangement::walk_arc(int id, bool inside, int& cover) {
+/// Walks one arc; `layers` are those on its right. Returns whether its end is inside the outline.
+bool ShadowArrangement::walk_arc(int id, bool inside, int& layers) {
   Arc& arc = arcs_[at(id)];
   arc.is_done = true;
-  arc.start_cover = cover;
+  arc.start_layers = layers;
   double from = 0;
-  int place = place_of(arc.from);
+  int junction = junction_of(arc.from);
   for (int k = arc.first; k < arc.first + arc.count; ++k) {
     const Crossing& crossing = crossings_[at(order_[at(k)])];
     const int side = side_of(crossing, id);
     const int next = order_[at(k)], step = crossing.step[at(side)];
     const double to = crossing.along[at(side)];
-    if (inside) emit(arc, {from, to}, {place, next}, cover);
+    if (inside) emit(arc, {from, to}, {junction, next}, layers);
     from = to;
-    place = next;
+    junction = next;
     if (arcs_[at(crossing.arc[at(1 - side)])].is_outline) {
-      is_consistent = is_consistent && inside == (step < 0) && (!inside || cover == crossing.cover);
+      is_consistent =
+          is_consistent && inside == (step < 0) && (!inside || layers == crossing.layers);
       inside = step > 0;
-      cover = crossing.cover;
+      layers = crossing.layers;
     } else if (inside) {
-      cover += step;
-      is_consistent = is_consistent && cover >= 0;
+      layers += step;
+      is_consistent = is_consistent && layers >= 0;
     }
   }
-  if (inside) emit(arc, {from, 1}, {place, place_of(arc.to)}, cover);
+  if (inside) emit(arc, {from, 1}, {junction, junction_of(arc.to)}, layers);
   return inside;
 }
 

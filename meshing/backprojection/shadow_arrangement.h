@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/emitter_outline.h"
 #include "meshing/backprojection/point_view.h"
 
@@ -8,11 +9,11 @@
 
 namespace halfshade {
 
-/// A piece of the visible part's boundary. `start` and `end` tell the places where pieces meet:
+/// A piece of the visible part's boundary. `start` and `end` are junctions, where pieces meet:
 /// crossings, then corners; the same number is the same direction.
 struct ArrangedPiece {
   Vec3 from, to;
-  int edge;  ///< as in BoundaryPiece
+  EdgeId edge;
   int start, end;
 };
 
@@ -24,9 +25,9 @@ class ShadowArrangement {
   bool fully_lit = false;  ///< the pieces are exactly the outline's edges
   /// False if rounding put three edges that nearly meet in a point in contradictory orders.
   bool is_consistent = true;
-  int place_count = 0;  ///< places are numbered from 0
+  int junction_count = 0;  ///< junctions are numbered from 0
 
-  bool is_crossing(int place) const { return place < static_cast<int>(crossings_.size()); }
+  bool is_crossing(int junction) const { return junction < static_cast<int>(crossings_.size()); }
 
   void build(PointView& view, const EmitterOutline& outline);
 
@@ -34,9 +35,10 @@ class ShadowArrangement {
   /// An arc with `weight` more faces on its left than on its right; for the outline, the emitter is
   /// on the left.
   struct Arc {
-    int from, to, weight, edge;
+    int from, to, weight;
+    EdgeId edge;
     bool is_outline = false, is_done = false;
-    int start_cover = 0;  // on its right, where it starts inside
+    int start_layers = 0;  // on its right, where it starts inside
     Vec2 low = Vec2::Zero(), high = Vec2::Zero();
     int first = 0, count = 0;  // crossings, a range of order_
   };
@@ -46,7 +48,7 @@ class ShadowArrangement {
     std::array<int, 2> arc;
     std::array<double, 2> along;
     std::array<int, 2> step;
-    int cover = 0;  // right of the silhouette, just inside the outline
+    int layers = 0;  // right of the silhouette, just inside the outline
   };
 
   bool is_hidden_by(int surface);
@@ -54,28 +56,28 @@ class ShadowArrangement {
   void collect_cuts();
   void join_repeated(std::size_t first_cut);
   void consider_edge(int edge);
-  void add_arc(int from, int to, int weight, int edge);
+  void add_arc(int from, int to, int weight, EdgeId edge);
   bool set_box(Arc& arc) const;
 
   void find_crossings();
   bool cross(int a, int b);
-  void place_crossing(Crossing& crossing) const;
+  void locate_crossing(Crossing& crossing) const;
   void sort_crossings();
   bool is_before(int arc, int a, int b) const;
 
   void walk_outline();
   void walk_silhouettes();
-  void walk_chain(int arc, bool inside, int cover);
-  bool walk_arc(int arc, bool inside, int& cover);
+  void walk_chain(int arc, bool inside, int layers);
+  bool walk_arc(int arc, bool inside, int& layers);
   bool enters_first(const Arc& arc) const;
-  bool is_inside(const Germ& germ) const;
-  void emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> place, int cover);
+  bool is_inside(const DirectionBeside& direction) const;
+  void emit(const Arc& arc, std::array<double, 2> along, std::array<int, 2> junctions, int layers);
 
-  int place_of(int corner) const { return static_cast<int>(crossings_.size()) + corner; }
+  int junction_of(int corner) const { return static_cast<int>(crossings_.size()) + corner; }
   Vec3 position(const Arc& arc, double along) const;
   int side_of(const Crossing& crossing, int arc) const { return crossing.arc[0] == arc ? 0 : 1; }
 
-  int first_cover_ = 0;  // just inside the outline, after the start of its first edge
+  int first_layers_ = 0;  // just inside the outline, after the start of its first edge
   PointView* view_ = nullptr;
   const EmitterOutline* outline_ = nullptr;
   std::vector<Arc> arcs_;  // the outline's first

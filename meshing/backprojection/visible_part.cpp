@@ -1,6 +1,7 @@
 #include "meshing/backprojection/visible_part.h"
 
 #include "meshing/backprojection/boundary_chains.h"
+#include "meshing/backprojection/rounding.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 #include "meshing/core/error.h"
 
@@ -12,25 +13,16 @@
 namespace halfshade {
 namespace {
 
-// How far the square of a unit normal's length may be from 1.
-constexpr double unit_enough = 1e-6;
-
 // Any fixed numbers.
 constexpr std::uint64_t lit_signature = 0x9d5c31a4e8f07b63;
 constexpr std::uint64_t umbra_signature = 0x3fb86a2c90d7154e;
 constexpr std::uint64_t away_signature = 0x71e40b9d256c8fa3;
 
-// Where rounding gives contradictory answers about edges that meet in a point, the vertices are
-// scattered by this much, relative to the largest coordinate: far enough to part the edges, and
-// little enough for the result to stay right to 1e-13. Four times as far at each further attempt.
-constexpr double least_jitter = 0x1p-46;
-constexpr int most_attempts = 6;
-
-void check(const OpaqueScene::Impl& scene, const Vec3& point, const Vec3& normal, int surface) {
-  if (surface < 0 || static_cast<std::size_t>(surface) >= scene.surfaces.size())
+void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal, int surface) {
+  if (surface < 0 || static_cast<std::size_t>(surface) >= topology.surfaces.size())
     throw Error(ErrorCode::contract, "VisiblePartFinder",
-                fmt::format("there is no surface {} among {}", surface, scene.surfaces.size()));
-  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < unit_enough))
+                fmt::format("there is no surface {} among {}", surface, topology.surfaces.size()));
+  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < rounding::unit_length))
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("the point ({}, {}, {}) must be finite and its normal ({}, {}, {}) of "
                             "length 1",
@@ -48,7 +40,7 @@ void clear(VisiblePart& part) {
 }  // namespace
 
 struct VisiblePartFinder::Impl {
-  explicit Impl(const OpaqueScene::Impl& scene) : view(scene) {}
+  explicit Impl(const OpaqueScene& scene) : view(scene) {}
 
   PointView view;
   EmitterOutline outline;
@@ -78,7 +70,7 @@ void VisiblePartFinder::Impl::fill_unobstructed(VisiblePart& part) const {
 }
 
 VisiblePartFinder::VisiblePartFinder(const OpaqueScene& scene)
-    : impl_(std::make_unique<Impl>(scene.impl())) {}
+    : impl_(std::make_unique<Impl>(scene)) {}
 
 VisiblePartFinder::~VisiblePartFinder() = default;
 VisiblePartFinder::VisiblePartFinder(VisiblePartFinder&&) noexcept = default;
@@ -87,14 +79,14 @@ VisiblePartFinder& VisiblePartFinder::operator=(VisiblePartFinder&&) noexcept = 
 void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
                              VisiblePart& part) {
   Impl& m = *impl_;
-  check(m.view.scene(), point, normal, surface);
+  check(m.view.topology(), point, normal, surface);
   clear(part);
-  const double size = std::max(m.view.scene().magnitude, point.lpNorm<Eigen::Infinity>());
+  const double size = std::max(m.view.topology().magnitude, point.lpNorm<Eigen::Infinity>());
   double jitter = 0;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < rounding::most_attempts; ++attempt) {
     if (!m.try_with(jitter * size, point, normal, surface)) return;
     if (m.arrangement.is_consistent && m.chains.closed) break;
-    jitter = std::max(4 * jitter, least_jitter);
+    jitter = std::max(rounding::jitter_growth * jitter, rounding::least_jitter);
   }
   m.fill_unobstructed(part);
   if (m.arrangement.fully_lit || (!m.chains.pieces.empty() && m.chains.fill(m.outline, m.view))) {

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
+#include "meshing/backprojection/opaque_scene.h"
 #include "meshing/core/sound_scene.h"
 #include "meshing/core/types.h"
 
-#include <array>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -23,13 +23,8 @@ enum class Region : std::uint8_t {
 /// part lies on its left.
 struct BoundaryPiece {
   Vec3 from, to;  ///< end points in the direction of the boundary, on the edge that makes it
-  /// The edge it lies on: an edge id of the opaque scene for an occluder's edge, or
-  /// OpaqueScene::edge_count() + t where its triangle t pierces the emitter's plane; −1 − k for the
-  /// k-th edge of the emitter (rings counted through), `horizon_edge` for the horizon.
-  int edge;
+  EdgeId edge;    ///< the edge it lies on
 };
-
-inline constexpr int horizon_edge = INT32_MIN;
 
 struct VisiblePart {
   Region region = Region::away;
@@ -42,27 +37,6 @@ struct VisiblePart {
   /// Hash of which edges and vertices of emitter and occluders bound the visible part, and how they
   /// follow each other; equal for all points of one cell of the complete discontinuity mesh.
   std::uint64_t signature = 0;
-};
-
-/// All opaque polygons of a scene, prepared for exact visibility: welded vertices, edges with the
-/// faces at them, and a tree that finds the silhouette edges seen from a point without visiting
-/// every face.
-class OpaqueScene {
- public:
-  explicit OpaqueScene(const SoundScene& scene);
-  ~OpaqueScene();
-  OpaqueScene(OpaqueScene&&) noexcept;
-  OpaqueScene& operator=(OpaqueScene&&) noexcept;
-
-  int edge_count() const;
-  /// Where an edge of the scene runs; `edge` is in [0, edge_count()).
-  std::array<Vec3, 2> edge_ends(int edge) const;
-
-  struct Impl;
-  const Impl& impl() const { return *impl_; }
-
- private:
-  std::unique_ptr<Impl> impl_;
 };
 
 /// Finds visible parts. Keeps its buffers between calls, so that in the steady state of a batch

@@ -1,11 +1,11 @@
 #include "meshing/discontinuity/border_events.h"
 
+#include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/planar.h"
-#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/discontinuity/rounding.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -35,14 +35,14 @@ std::vector<std::array<double, 2>> stretches(const Surface& receiver, const Vec2
 }
 
 /// Points of the emitter's plane that can limit what is seen along it.
-std::vector<Vec3> limits_in_plane(const OpaqueScene::Impl& opaque, const EmitterStage& stage) {
+std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterScene& emitter_scene) {
   std::vector<Vec3> points;
   for (const auto& edge : opaque.edges) {
     const Vec3 &from = opaque.vertices[at(edge.from)], &to = opaque.vertices[at(edge.to)];
-    const double a = stage.frame.height(from), b = stage.frame.height(to);
-    if (std::max(a, b) <= stage.slack || std::min(a, b) >= -stage.slack) {
-      if (std::abs(a) <= stage.slack) points.push_back(from);
-      if (std::abs(b) <= stage.slack) points.push_back(to);
+    const double a = emitter_scene.frame.height(from), b = emitter_scene.frame.height(to);
+    if (std::max(a, b) <= emitter_scene.slack || std::min(a, b) >= -emitter_scene.slack) {
+      if (std::abs(a) <= emitter_scene.slack) points.push_back(from);
+      if (std::abs(b) <= emitter_scene.slack) points.push_back(to);
     } else {
       points.push_back(from + a / (a - b) * (to - from));
     }
@@ -52,45 +52,35 @@ std::vector<Vec3> limits_in_plane(const OpaqueScene::Impl& opaque, const Emitter
 
 }  // namespace
 
-double seen_factor(const VisiblePart& part, const Vec3& point, const Vec3& normal) {
-  double sum = 0;
-  for (const BoundaryPiece& piece : part.pieces) {
-    const Vec3 a = piece.from - point, b = piece.to - point, cross = a.cross(b);
-    const double sine = cross.norm();
-    if (sine > 0) sum -= std::atan2(sine, a.dot(b)) / sine * normal.dot(cross);
-  }
-  return sum / (2 * std::numbers::pi);
-}
-
 void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
-                          const EmitterStage& stage, int receiver,
+                          const EmitterScene& emitter_scene, int receiver,
                           std::vector<DiscontinuityCurve>& curves) {
   const Surface& target = scene.surfaces[at(receiver)];
-  const Vec3 direction = target.frame.normal.cross(stage.frame.normal);
-  if (direction.norm() < parallel || receiver == stage.emitter) return;
+  const Vec3 direction = target.frame.normal.cross(emitter_scene.frame.normal);
+  if (direction.norm() < parallel || receiver == emitter_scene.emitter) return;
   // A point of both planes: from the receiver's origin down its steepest line.
   const Vec3 steepest = direction.cross(target.frame.normal);
-  const Vec3 origin = target.frame.origin - stage.frame.height(target.frame.origin) /
-                                                stage.frame.normal.dot(steepest) * steepest;
+  const Vec3 origin = target.frame.origin - emitter_scene.frame.height(target.frame.origin) /
+                                                emitter_scene.frame.normal.dot(steepest) * steepest;
   const Vec2 start = target.frame.to_plane(origin);
   const Vec2 along = target.frame.to_plane(origin + direction.normalized()) - start;
   const auto inside = stretches(target, start, along);
   if (inside.empty()) return;
   std::vector<double> cuts;
-  const std::vector<Vec3> limits = limits_in_plane(opaque.impl(), stage);
+  const std::vector<Vec3> limits = limits_in_plane(opaque.topology(), emitter_scene);
   std::vector<Vec2> apexes;
-  for (const OutlinePoint& corner : stage.corners)
-    apexes.push_back(stage.frame.to_plane(corner.position));
-  const Vec2 p = stage.frame.to_plane(origin);
-  const Vec2 u = stage.frame.to_plane(origin + direction.normalized()) - p;
+  for (const OutlinePoint& corner : emitter_scene.corners)
+    apexes.push_back(emitter_scene.frame.to_plane(corner.position));
+  const Vec2 p = emitter_scene.frame.to_plane(origin);
+  const Vec2 u = emitter_scene.frame.to_plane(origin + direction.normalized()) - p;
   for (const Vec3& limit : limits) {
-    const Vec2 y = stage.frame.to_plane(limit);
+    const Vec2 y = emitter_scene.frame.to_plane(limit);
     for (const Vec2& apex : apexes)
       cuts.push_back(cross_2d(apex - p, y - apex) / cross_2d(u, y - apex));
   }
   // Into the half-space in front of the emitter.
   const Vec3 left3 = target.frame.normal.cross(direction.normalized());
-  const double ahead = stage.frame.normal.dot(left3) > 0 ? 1 : -1;
+  const double ahead = emitter_scene.frame.normal.dot(left3) > 0 ? 1 : -1;
   const double step = side_step(scene, opaque);
   VisiblePartFinder finder(opaque);
   VisiblePart part;
@@ -103,29 +93,30 @@ void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
       if (t[k] - t[k - 1] < 4 * step) continue;
       const double middle = 0.5 * (t[k - 1] + t[k]);
       const Vec3 point = target.frame.to_space(start + middle * along) + ahead * step * left3;
-      finder.find(point, target.frame.normal, stage.emitter, part);
+      finder.find(point, target.frame.normal, emitter_scene.emitter, part);
       if (part.region == Region::umbra || part.region == Region::away) continue;
       if (!curves.empty() && curves.back().receiver == receiver &&
-          curves.back().sources[0].features[0].id == stage.emitter &&
+          curves.back().sources[0].features[0].id == emitter_scene.emitter &&
           (curves.back().arc.to - (start + t[k - 1] * along)).norm() <= step) {
         curves.back().arc = straight_arc(curves.back().arc.from, start + t[k] * along);
         continue;
       }
       DiscontinuityCurve curve;
       curve.receiver = receiver;
-      curve.emitter = stage.emitter;
+      curve.emitter = emitter_scene.emitter;
       curve.kind = CurveKind::face;
       curve.order = 1;
       curve.arc = straight_arc(start + t[k - 1] * along, start + t[k] * along);
-      curve.sight_plane = stage.frame.normal;
-      curve.sources = {{CurveKind::face, {Feature{Feature::Kind::face, stage.emitter}}, 1}};
+      curve.sight_plane = emitter_scene.frame.normal;
+      curve.sources = {{CurveKind::face, {Feature{Feature::Kind::face, emitter_scene.emitter}}, 1}};
       curves.push_back(std::move(curve));
     }
   }
 }
 
-void contact_curves(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
-                    int receiver, std::vector<DiscontinuityCurve>& curves) {
+void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
+                    const EmitterScene& emitter_scene, int receiver,
+                    std::vector<DiscontinuityCurve>& curves) {
   const Surface& target = scene.surfaces[at(receiver)];
   const double step = side_step(scene, opaque);
   VisiblePartFinder finder(opaque);
@@ -134,8 +125,8 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque, const Em
     const Vec2 along = contact[1] - contact[0], left = Vec2(-along.y(), along.x()).normalized();
     const auto factor = [&](const Vec2& p) {
       const Vec3 point = target.frame.to_space(p);
-      finder.find(point, target.frame.normal, stage.emitter, part);
-      return seen_factor(part, point, target.frame.normal);
+      finder.find(point, target.frame.normal, emitter_scene.emitter, part);
+      return enclosed_factor(point, target.frame.normal, part.pieces);
     };
     bool jumps = false;
     for (int k = 0; k < contact_samples && !jumps; ++k) {
@@ -145,7 +136,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque, const Em
     if (!jumps) continue;
     DiscontinuityCurve curve;
     curve.receiver = receiver;
-    curve.emitter = stage.emitter;
+    curve.emitter = emitter_scene.emitter;
     curve.kind = CurveKind::contact;
     curve.order = 0;
     curve.arc = straight_arc(contact[0], contact[1]);

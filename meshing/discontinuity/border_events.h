@@ -1,25 +1,22 @@
 #pragma once
 
-#include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/discontinuity.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <vector>
 
 namespace halfshade {
 
-/// Form factor from a point to what it sees: Lambert's sum over the pieces.
-double seen_factor(const VisiblePart& part, const Vec3& point, const Vec3& normal);
-
 /// Where a receiver crosses the emitter's plane and sees the emitter edge-on: before it the
 /// irradiance grows from zero. Appends straight curves of order 1.
 void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
-                          const EmitterStage& stage, int receiver,
+                          const EmitterScene& emitter_scene, int receiver,
                           std::vector<DiscontinuityCurve>& curves);
 
 /// The contact lines of a receiver at which the irradiance from the emitter jumps. Appends straight
 /// curves of order 0.
-void contact_curves(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
-                    int receiver, std::vector<DiscontinuityCurve>& curves);
+void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
+                    const EmitterScene& emitter_scene, int receiver,
+                    std::vector<DiscontinuityCurve>& curves);
 
 }  // namespace halfshade

@@ -7,40 +7,19 @@
 #include "meshing/discontinuity/swath_tracer.h"
 #include "meshing/events/events.h"
 
+#include <tbb/enumerable_thread_specific.h>
+
 #include <algorithm>
-#include <mutex>
 
 namespace halfshade {
 namespace {
 
 using Curves = std::vector<DiscontinuityCurve>;
 
-/// Lends workers that are costly to make to the threads that need one.
+/// One worker a thread, made when it is first needed. Results do not depend on which thread has
+/// done what, for workers keep nothing between jobs but buffers and counts.
 template <class Worker>
-class Pool {
- public:
-  template <class Make>
-  std::unique_ptr<Worker> take(Make&& make) {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!idle_.empty()) {
-        auto worker = std::move(idle_.back());
-        idle_.pop_back();
-        return worker;
-      }
-    }
-    return make();
-  }
-  void give_back(std::unique_ptr<Worker> worker) {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(worker));
-  }
-  const std::vector<std::unique_ptr<Worker>>& idle() const { return idle_; }
-
- private:
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Worker>> idle_;
-};
+using PerThread = tbb::enumerable_thread_specific<Worker>;
 
 /// The search for one emitter's curves.
 class Search {
@@ -49,35 +28,39 @@ class Search {
          const DiscontinuityOptions& options, const Progress& progress, DiscontinuityReport& report)
       : scene_(scene),
         opaque_(opaque),
-        stage_(scene, opaque, source.surface),
+        emitter_scene_(scene, opaque, source.surface),
         exitance_(source.exitance),
         options_(options),
         progress_(progress),
-        report_(report) {}
+        report_(report),
+        tracers_([this] {
+          return SwathTracer(scene_, opaque_, emitter_scene_,
+                             {options_.irradiance_tolerance / exitance_, options_.max_length});
+        }) {}
 
   Curves run() {
-    report_.silhouette_edges += stage_.edges.size();
-    const auto edge_count = stage_.edges.size();
+    report_.silhouette_edges += emitter_scene_.edges.size();
+    const auto edge_count = emitter_scene_.edges.size();
     if (options_.ev) {
       trace(edge_count, "vertex and edge",
-            [&](int e, const SwathSink& sink) { edge_swaths(stage_, e, sink); });
-      trace(stage_.vertices.size(), "edge and vertex",
-            [&](int v, const SwathSink& sink) { vertex_swaths(stage_, v, sink); });
+            [&](int e, const SwathSink& sink) { edge_swaths(emitter_scene_, e, sink); });
+      trace(emitter_scene_.vertices.size(), "edge and vertex",
+            [&](int v, const SwathSink& sink) { vertex_swaths(emitter_scene_, v, sink); });
     }
     if (options_.face)
       trace(scene_.surfaces.size(), "planes of faces", [&](int r, const SwathSink& sink) {
-        if (r != stage_.emitter && !scene_.surfaces[at(r)].back)
-          face_swaths(scene_, stage_, opaque_, r, sink);
+        if (r != emitter_scene_.emitter && !scene_.surfaces[at(r)].back)
+          face_swaths(scene_, emitter_scene_, opaque_, r, sink);
       });
     if (options_.eee) find_triples();
     for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
       if (progress_.stopped()) break;
-      if (options_.face) emitter_plane_curves(scene_, opaque_, stage_, r, curves_);
-      if (options_.contact) contact_curves(scene_, opaque_, stage_, r, curves_);
+      if (options_.face) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, curves_);
+      if (options_.contact) contact_curves(scene_, opaque_, emitter_scene_, r, curves_);
     }
-    for (const auto& tracer : tracers_.idle()) {
-      report_.swaths += tracer->counts().swaths;
-      report_.pieces += tracer->counts().pieces;
+    for (const SwathTracer& tracer : tracers_) {
+      report_.swaths += tracer.counts().swaths;
+      report_.pieces += tracer.counts().pieces;
     }
     for (const DiscontinuityCurve& curve : curves_)
       ++report_.found[static_cast<std::size_t>(curve.kind)];
@@ -94,14 +77,8 @@ class Search {
     parallel_for(
         count,
         [&](std::size_t i) {
-          auto tracer = tracers_.take([&] {
-            return std::make_unique<SwathTracer>(
-                scene_, opaque_, stage_,
-                TraceLimits{options_.irradiance_tolerance / exitance_, options_.max_length});
-          });
-          generate(static_cast<int>(i),
-                   [&](const Swath& swath) { tracer->trace(swath, found[i]); });
-          tracers_.give_back(std::move(tracer));
+          SwathTracer& tracer = tracers_.local();
+          generate(static_cast<int>(i), [&](const Swath& swath) { tracer.trace(swath, found[i]); });
         },
         progress_, name);
     for (Curves& curves : found)
@@ -110,45 +87,44 @@ class Search {
   }
 
   void find_triples() {
-    const std::size_t count = stage_.edges.size();
+    const std::size_t count = emitter_scene_.edges.size();
     std::vector<std::vector<int>> later(count);
     parallel_for(
-        count, [&](std::size_t e) { later[e] = later_partners(stage_, static_cast<int>(e)); },
+        count,
+        [&](std::size_t e) { later[e] = later_partners(emitter_scene_, static_cast<int>(e)); },
         progress_, "pairs of edges");
     trace(count, "three edges", [&](int a, const SwathSink& sink) {
       std::vector<int> common;
       for (const int b : later[at(a)]) {
-        pair_swaths(stage_, a, b, sink);
+        pair_swaths(emitter_scene_, a, b, sink);
         common.clear();
         std::set_intersection(later[at(a)].begin(), later[at(a)].end(), later[at(b)].begin(),
                               later[at(b)].end(), std::back_inserter(common));
-        for (const int c : common) triple_swath(stage_, a, b, c, sink);
+        for (const int c : common) triple_swath(emitter_scene_, a, b, c, sink);
       }
     });
   }
 
   void predict_jumps() {
-    Pool<JumpPredictor> predictors;
+    PerThread<JumpPredictor> predictors(
+        [this] { return JumpPredictor(scene_, opaque_, emitter_scene_); });
     parallel_for(
         curves_.size(),
         [&](std::size_t i) {
-          auto predictor = predictors.take(
-              [&] { return std::make_unique<JumpPredictor>(scene_, opaque_, stage_); });
-          predictor->predict(curves_[i]);
+          predictors.local().predict(curves_[i]);
           for (double& jump : curves_[i].jump) jump *= exitance_;
-          predictors.give_back(std::move(predictor));
         },
         progress_, "jumps");
   }
 
   const SoundScene& scene_;
   const OpaqueScene& opaque_;
-  const EmitterStage stage_;
+  const EmitterScene emitter_scene_;
   double exitance_;
   const DiscontinuityOptions& options_;
   const Progress& progress_;
   DiscontinuityReport& report_;
-  Pool<SwathTracer> tracers_;
+  PerThread<SwathTracer> tracers_;
   Curves curves_;
 };
 

@@ -8,16 +8,16 @@ namespace {
 
 /// A place where one edge of the group follows another.
 struct Joint {
-  int from, to;      ///< edges
+  EdgeId from, to;
   Vec3 plane, onto;  ///< normals of the planes of the point and the pieces that meet
   Vec3 towards;      ///< direction from the point
   auto key() const { return std::array{from, to}; }
 };
 
-std::vector<Joint> joints_of(const SideView& view, std::span<const int> group) {
+std::vector<Joint> joints_of(const SideView& view, std::span<const EdgeId> group) {
   std::vector<Joint> joints;
   const auto& pieces = view.part.pieces;
-  const auto is_in_group = [&](int edge) {
+  const auto is_in_group = [&](EdgeId edge) {
     return std::binary_search(group.begin(), group.end(), edge);
   };
   const auto plane = [&](const BoundaryPiece& piece) -> Vec3 {
@@ -47,8 +47,8 @@ std::vector<Joint> surplus(const std::vector<Joint>& list, const std::vector<Joi
 }
 
 /// The edge that most joints have a part in.
-int busiest_edge(const std::vector<Joint>& left, const std::vector<Joint>& right) {
-  std::map<int, int> uses;
+EdgeId busiest_edge(const std::vector<Joint>& left, const std::vector<Joint>& right) {
+  std::map<EdgeId, int> uses;
   for (const auto* joints : {&left, &right})
     for (const Joint& joint : *joints) {
       ++uses[joint.from];
@@ -60,7 +60,7 @@ int busiest_edge(const std::vector<Joint>& left, const std::vector<Joint>& right
 }
 
 /// A plane of the point and the edge `edge`, from whichever joint has it.
-Vec3 plane_of(int edge, const std::vector<Joint>& left, const std::vector<Joint>& right) {
+Vec3 plane_of(EdgeId edge, const std::vector<Joint>& left, const std::vector<Joint>& right) {
   for (const auto* joints : {&left, &right})
     for (const Joint& joint : *joints) {
       if (joint.from == edge) return joint.plane;
@@ -81,14 +81,14 @@ int turn(const Vec3& a, const Vec3& b, const Vec3& towards) {
 // sign is −(turn a to r)(turn r to b)(turn a to b). With one edge r for all, the difference between
 // the sides, in which every edge is left as often as it is entered, is a sum of such triangles.
 EventEvidence compare_sides(const SideView& left, const SideView& right,
-                            std::span<const int> group) {
+                            std::span<const EdgeId> group) {
   const std::vector<Joint> all_left = joints_of(left, group), all_right = joints_of(right, group);
   const std::vector<Joint> only_left = surplus(all_left, all_right);
   const std::vector<Joint> only_right = surplus(all_right, all_left);
   EventEvidence evidence;
   evidence.differs = !only_left.empty() || !only_right.empty();
   if (!evidence.differs) return evidence;
-  const int middle = busiest_edge(only_left, only_right);
+  const EdgeId middle = busiest_edge(only_left, only_right);
   const Vec3 plane = plane_of(middle, only_left, only_right);
   const auto add = [&](const Joint& joint, int sign) {
     if (joint.from == middle || joint.to == middle) return;

@@ -24,6 +24,6 @@ struct SideView {
 
 /// Compares the places where one edge of `group` (sorted) follows another along the boundary.
 EventEvidence compare_sides(const SideView& left, const SideView& right,
-                            std::span<const int> group);
+                            std::span<const EdgeId> group);
 
 }  // namespace halfshade

@@ -1,8 +1,8 @@
 #include "meshing/discontinuity/predict_jump.h"
 
-#include "meshing/discontinuity/border_events.h"
+#include "meshing/backprojection/edge_sum.h"
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/discontinuity/rounding.h"
 
 #include <cmath>
 
@@ -18,10 +18,10 @@ constexpr double least_share = 1e-6;
 }  // namespace
 
 JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
-                             const EmitterStage& stage)
+                             const EmitterScene& emitter_scene)
     : scene_(scene),
       opaque_(opaque),
-      stage_(stage),
+      emitter_scene_(emitter_scene),
       step_(side_step(scene, opaque)),
       finder_(opaque) {}
 
@@ -43,8 +43,8 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
   const Vec3 left = -tangent.y() * plane.e1 + tangent.x() * plane.e2;
   if (curve.order == 2) return curvature_jump(curve, point, left, plane.normal);
   const auto at_step = [&](double step) {
-    finder_.find(point + step * left, plane.normal, stage_.emitter, left_);
-    finder_.find(point - step * left, plane.normal, stage_.emitter, right_);
+    finder_.find(point + step * left, plane.normal, emitter_scene_.emitter, left_);
+    finder_.find(point - step * left, plane.normal, emitter_scene_.emitter, right_);
     return curve.order == 0 ? value_jump(point, step * left, plane.normal)
                             : slope_jump(curve, point, step * left, plane.normal);
   };
@@ -57,20 +57,23 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
 }
 
 double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const {
-  return seen_factor(left_, point + step, normal) - seen_factor(right_, point - step, normal);
+  return enclosed_factor(point + step, normal, left_.pieces) -
+         enclosed_factor(point - step, normal, right_.pieces);
 }
 
 double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& point,
                                  const Vec3& step, const Vec3& normal) const {
-  if (std::abs(stage_.frame.height(point)) <= step_)  // the emitter is seen edge-on
-    return (seen_factor(left_, point + step, normal) + seen_factor(right_, point - step, normal)) /
+  if (std::abs(emitter_scene_.frame.height(point)) <= step_)  // the emitter is seen edge-on
+    return (enclosed_factor(point + step, normal, left_.pieces) +
+            enclosed_factor(point - step, normal, right_.pieces)) /
            step.norm();
   const ReceivingPoint receiving = {point, normal, step.normalized()};
   double jump = 0, whole = 0;
   const auto add = [&](const VisiblePart& part, double sign) {
     for (const BoundaryPiece& piece : part.pieces) {
-      if (piece.edge == horizon_edge || !lies_in_sight_plane(curve, point, piece.edge)) continue;
-      const double motion = boundary_motion(receiving, stage_.frame, piece.from, piece.to);
+      if (piece.edge == EdgeId::horizon() || !lies_in_sight_plane(curve, point, piece.edge))
+        continue;
+      const double motion = boundary_motion(receiving, emitter_scene_.frame, piece.from, piece.to);
       jump += sign * motion;
       whole += std::abs(motion);
     }
@@ -81,9 +84,9 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 }
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
-                                        int edge) const {
-  const Line3 line = line_of(stage_, opaque_.impl(), edge);
-  const double slack = in_plane * stage_.joined;
+                                        EdgeId edge) const {
+  const Line3 line = line_of(emitter_scene_, opaque_.topology(), edge);
+  const double slack = in_plane * emitter_scene_.joined;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }
@@ -92,10 +95,11 @@ double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3
                                      const Vec3& left, const Vec3& normal) const {
   double jump = 0;
   for (const EdgeTriple& triple : curve.triples) {
-    const double size = triangle_jump({point, normal, left}, stage_.frame,
-                                      {line_of(stage_, opaque_.impl(), triple.edges[0]),
-                                       line_of(stage_, opaque_.impl(), triple.edges[1]),
-                                       line_of(stage_, opaque_.impl(), triple.edges[2])});
+    const double size =
+        triangle_jump({point, normal, left}, emitter_scene_.frame,
+                      {line_of(emitter_scene_, opaque_.topology(), triple.edges[0]),
+                       line_of(emitter_scene_, opaque_.topology(), triple.edges[1]),
+                       line_of(emitter_scene_, opaque_.topology(), triple.edges[2])});
     if (std::isfinite(size)) jump += triple.sign * size;
   }
   return jump;

@@ -2,7 +2,7 @@
 
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/discontinuity.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/events/emitter_scene.h"
 
 namespace halfshade {
 
@@ -10,7 +10,8 @@ namespace halfshade {
 class JumpPredictor {
  public:
   /// All must outlive the predictor.
-  JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage);
+  JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
+                const EmitterScene& emitter_scene);
 
   /// Fills order and jump, for a source of unit exitance. The order may turn out to be higher than
   /// that given: where edges that line up do not move past each other in sight, nothing jumps.
@@ -24,11 +25,11 @@ class JumpPredictor {
                     const Vec3& normal) const;
   double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
                         const Vec3& normal) const;
-  bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, int edge) const;
+  bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, EdgeId edge) const;
 
   const SoundScene& scene_;
   const OpaqueScene& opaque_;
-  const EmitterStage& stage_;
+  const EmitterScene& emitter_scene_;
   double step_;  ///< see side_step
   VisiblePartFinder finder_;
   VisiblePart left_, right_;

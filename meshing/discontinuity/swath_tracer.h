@@ -1,20 +1,17 @@
 #pragma once
 
-#include "meshing/backprojection/visible_part.h"
 #include "meshing/discontinuity/discontinuity.h"
-#include "meshing/discontinuity/event_jump.h"
-#include "meshing/events/emitter_stage.h"
+#include "meshing/discontinuity/event_culling.h"
+#include "meshing/discontinuity/event_decision.h"
+#include "meshing/discontinuity/known_pieces.h"
+#include "meshing/discontinuity/sight_casting.h"
+#include "meshing/discontinuity/swath_cuts.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <cstddef>
 #include <vector>
 
 namespace halfshade {
-
-/// What is not worth following.
-struct TraceLimits {
-  double least_change = 0;  ///< of the form factor over an element
-  double max_length = 0;    ///< see element_size
-};
 
 /// Counts of what a tracer did.
 struct TraceCounts {
@@ -30,63 +27,40 @@ struct TraceCounts {
 class SwathTracer {
  public:
   /// All must outlive the tracer.
-  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterStage& stage,
+  SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterScene& emitter_scene,
               const TraceLimits& limits = {});
 
   /// Appends the pieces of curve that a swath makes.
   void trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves);
 
   const TraceCounts& counts() const { return counts_; }
-  const EmitterStage& stage() const { return stage_; }
+  const EmitterScene& emitter_scene() const { return emitter_scene_; }
 
  private:
-  struct Crossing {
-    double distance;  ///< along the line, from its start
-    int triangle;
-    bool is_clear;  ///< well inside the triangle and not along it
-  };
-  struct Open;
-  struct KnownPiece {
+  /// A piece of curve on a receiver.
+  struct Piece {
     int receiver;
-    Vec3 from, to;
+    double t0, t1;
+    std::vector<EdgeTriple> triples;
   };
 
-  void add_silhouette_limits(const Swath& swath, std::vector<double>& parameters) const;
-  void cut(const Swath& swath, double t0, double t1);
-  void trace_piece(const Swath& swath, double t0, double t1, std::vector<Open>& open);
-  void find_crossings(const SightLine& line);
-  bool may_be_event(const Swath& swath, const SightLine& line) const;
-  void collect_receivers(const SightLine& line);
-  void try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0, double t1,
-                    std::vector<Open>& open);
-  bool may_matter(const Swath& swath, const SightLine& line, int receiver,
-                  const ReceivingPoint& at) const;
-  bool is_known(const Swath& swath, int receiver, const Vec3& from, const Vec3& to);
-  void finish(const Swath& swath, const Open& piece, std::vector<DiscontinuityCurve>& curves) const;
+  void trace_piece(const Swath& swath, double t0, double t1);
+  void try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0, double t1);
+  void add_piece(int receiver, double t0, double t1, std::vector<EdgeTriple> triples);
+  void append_curves(const Swath& swath, const Piece& piece,
+                     std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
-  const OpaqueScene::Impl& opaque_;
-  const EmitterStage& stage_;
-  TraceLimits limits_;
-  std::vector<double> receiver_size_;    ///< diagonals of the bounding boxes
-  std::vector<std::vector<int>> backs_;  ///< plane → surfaces that are backs
-  std::vector<Span3> contacts_;          ///< of all surfaces
-  FlatTree contact_tree_;                ///< over them
-  std::vector<bool> is_inner_;           ///< edges between two triangles of one receiver
-  VisiblePartFinder finder_;
-  VisiblePart left_, right_;
+  const EmitterScene& emitter_scene_;
   double step_;  ///< see side_step
+  SwathCuts cuts_;
+  SightCaster caster_;
+  EventCulling culling_;
+  EventDecider decider_;
   std::vector<double> parameters_;
-  std::vector<Crossing> crossings_;
-  std::vector<int> reached_;
-  bool has_fine_detail_ = false;
-  CurveSource known_source_;       ///< what made the pieces below
-  std::vector<KnownPiece> known_;  ///< of the plane of one face
+  std::vector<Piece> pieces_;  ///< of the swath that is being traced
+  KnownPieces known_;
   TraceCounts counts_;
 };
-
-/// How far to the sides of a curve it is tested what is seen there: far above rounding, far below
-/// the size of anything. A length.
-double side_step(const SoundScene& scene, const OpaqueScene& opaque);
 
 }  // namespace halfshade

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "meshing/backprojection/edge_id.h"
+
 #include <array>
 #include <compare>
 #include <cstdint>
@@ -28,12 +30,16 @@ struct Feature {
   auto operator<=>(const Feature&) const = default;
 };
 
+/// An edge of the emitter or of the opaque scene as a feature. Error(contract) for the others: a
+/// cut is made by a face, which only the scene knows, and the horizon makes no curve.
+Feature feature_of(EdgeId edge);
+
 /// Three edges that line up at the curve, seen from its points: on each side of it they bound a
 /// small triangle of the emitter. `sign` is that with which the triangle's area is part of the jump
 /// of the second derivative from right to left: +1 if it is visible on the left only, or hidden on
 /// the right only.
 struct EdgeTriple {
-  std::array<int, 3> edges{};  ///< as BoundaryPiece::edge
+  std::array<EdgeId, 3> edges{};
   int sign = 0;
   auto operator<=>(const EdgeTriple&) const = default;
 };

@@ -17,18 +17,18 @@ constexpr int most_halvings = 6;
 constexpr double parallel = 1e-12;
 
 /// False only if the convex hull of four points misses that of the emitter.
-bool hull_meets(const EmitterStage& stage, const std::array<Vec2, 4>& points) {
+bool hull_meets(const EmitterScene& emitter_scene, const std::array<Vec2, 4>& points) {
   const auto parts = [&](const Vec2& normal) {
     double low_a = HUGE_VAL, high_a = -HUGE_VAL, low_b = HUGE_VAL, high_b = -HUGE_VAL;
     for (const Vec2& p : points) {
       low_a = std::min(low_a, normal.dot(p));
       high_a = std::max(high_a, normal.dot(p));
     }
-    for (const Vec2& p : stage.hull) {
+    for (const Vec2& p : emitter_scene.hull) {
       low_b = std::min(low_b, normal.dot(p));
       high_b = std::max(high_b, normal.dot(p));
     }
-    const double slack = stage.slack * normal.norm();
+    const double slack = emitter_scene.slack * normal.norm();
     return low_a > high_b + slack || high_a < low_b - slack;
   };
   for (std::size_t i = 0; i < 4; ++i)
@@ -36,8 +36,9 @@ bool hull_meets(const EmitterStage& stage, const std::array<Vec2, 4>& points) {
       const Vec2 along = points[j] - points[i];
       if (parts({along.y(), -along.x()})) return false;
     }
-  for (std::size_t k = 0; k < stage.hull.size(); ++k) {
-    const Vec2 along = stage.hull[(k + 1) % stage.hull.size()] - stage.hull[k];
+  for (std::size_t k = 0; k < emitter_scene.hull.size(); ++k) {
+    const Vec2 along =
+        emitter_scene.hull[(k + 1) % emitter_scene.hull.size()] - emitter_scene.hull[k];
     if (parts({along.y(), -along.x()})) return false;
   }
   return true;
@@ -49,44 +50,44 @@ struct Heights {
   double high() const { return std::max(from, to); }
 };
 
-Heights heights(const EmitterStage& stage, const Span3& span) {
-  return {stage.frame.height(span.from), stage.frame.height(span.to)};
+Heights heights(const EmitterScene& emitter_scene, const Span3& span) {
+  return {emitter_scene.frame.height(span.from), emitter_scene.frame.height(span.to)};
 }
 
 /// Lines through spans of nearly the same height are too flat to reach the emitter.
-bool is_too_flat(const EmitterStage& stage, const Span3& a, const Heights& ha, const Span3& b,
-                 const Heights& hb) {
+bool is_too_flat(const EmitterScene& emitter_scene, const Span3& a, const Heights& ha,
+                 const Span3& b, const Heights& hb) {
   const auto low = [&](const Span3& s) -> Vec2 {
-    return stage.frame.to_plane(s.from).cwiseMin(stage.frame.to_plane(s.to));
+    return emitter_scene.frame.to_plane(s.from).cwiseMin(emitter_scene.frame.to_plane(s.to));
   };
   const auto high = [&](const Span3& s) -> Vec2 {
-    return stage.frame.to_plane(s.from).cwiseMax(stage.frame.to_plane(s.to));
+    return emitter_scene.frame.to_plane(s.from).cwiseMax(emitter_scene.frame.to_plane(s.to));
   };
   const Vec2 gaps = (low(a) - high(b)).cwiseMax(low(b) - high(a)).cwiseMax(0);
   const double steepest = std::max(ha.high() - hb.low(), hb.high() - ha.low());
   double farthest = 0;
-  for (const Vec2& corner : stage.hull)
+  for (const Vec2& corner : emitter_scene.hull)
     for (const Vec3& p : {a.from, a.to, b.from, b.to})
-      farthest = std::max(farthest, (stage.frame.to_plane(p) - corner).norm());
+      farthest = std::max(farthest, (emitter_scene.frame.to_plane(p) - corner).norm());
   const double nearest = std::min(ha.low(), hb.low());
   return gaps.norm() * nearest > farthest * steepest;
 }
 
-bool lines_up(const EmitterStage& stage, const Span3& a, const Span3& b, int halvings) {
-  const Heights ha = heights(stage, a), hb = heights(stage, b);
+bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b, int halvings) {
+  const Heights ha = heights(emitter_scene, a), hb = heights(emitter_scene, b);
   const auto images = [&](const Span3& near, const Span3& far) {
     std::array<Vec2, 4> points;
     std::size_t count = 0;
     for (const Vec3& p : {near.from, near.to})
       for (const Vec3& q : {far.from, far.to}) {
-        const double h = stage.frame.height(p), g = stage.frame.height(q);
-        points[count++] = stage.frame.to_plane(q + g / (g - h) * (p - q));
+        const double h = emitter_scene.frame.height(p), g = emitter_scene.frame.height(q);
+        points[count++] = emitter_scene.frame.to_plane(q + g / (g - h) * (p - q));
       }
     return points;
   };
-  if (ha.high() < hb.low() - stage.slack) return hull_meets(stage, images(a, b));
-  if (hb.high() < ha.low() - stage.slack) return hull_meets(stage, images(b, a));
-  if (is_too_flat(stage, a, ha, b, hb)) return false;
+  if (ha.high() < hb.low() - emitter_scene.slack) return hull_meets(emitter_scene, images(a, b));
+  if (hb.high() < ha.low() - emitter_scene.slack) return hull_meets(emitter_scene, images(b, a));
+  if (is_too_flat(emitter_scene, a, ha, b, hb)) return false;
   if (halvings == 0) return true;
   const auto halves = [](const Span3& s) {
     const Vec3 middle = s.at(0.5);
@@ -94,10 +95,12 @@ bool lines_up(const EmitterStage& stage, const Span3& a, const Span3& b, int hal
   };
   if (ha.high() - ha.low() > hb.high() - hb.low()) {
     const auto parts = halves(a);
-    return lines_up(stage, parts[0], b, halvings - 1) || lines_up(stage, parts[1], b, halvings - 1);
+    return lines_up(emitter_scene, parts[0], b, halvings - 1) ||
+           lines_up(emitter_scene, parts[1], b, halvings - 1);
   }
   const auto parts = halves(b);
-  return lines_up(stage, a, parts[0], halvings - 1) || lines_up(stage, a, parts[1], halvings - 1);
+  return lines_up(emitter_scene, a, parts[0], halvings - 1) ||
+         lines_up(emitter_scene, a, parts[1], halvings - 1);
 }
 
 bool are_collinear(const Span3& a, const Span3& b, double slack) {
@@ -128,12 +131,13 @@ bool are_coplanar(const Span3& a, const Span3& b, double slack) {
 }
 
 /// Lines in the plane of two spans through the point where a third crosses it.
-void coplanar_swath(const EmitterStage& stage, Swath swath, const Span3& base, const Span3& other,
-                    const Span3& third, const SwathSink& sink) {
-  if (are_collinear(base, other, stage.joined)) return;
+void coplanar_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& base,
+                    const Span3& other, const Span3& third, const SwathSink& sink) {
+  if (are_collinear(base, other, emitter_scene.joined)) return;
   const Vec3 normal = common_normal(base, other);
   const double a = normal.dot(third.from - base.from), b = normal.dot(third.to - base.from);
-  const bool crosses = (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > stage.slack;
+  const bool crosses =
+      (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > emitter_scene.slack;
   if (!crosses) return;
   swath.is_planar = true;
   swath.may_be_first_order = true;
@@ -141,12 +145,12 @@ void coplanar_swath(const EmitterStage& stage, Swath swath, const Span3& base, c
   swath.apex = third.at(a / (a - b));
   swath.base = base;
   const Vec3 along = base.direction().normalized(), to = swath.apex - base.from;
-  if ((to - along.dot(to) * along).norm() > stage.slack) sink(swath);
+  if ((to - along.dot(to) * along).norm() > emitter_scene.slack) sink(swath);
 }
 
 /// Lines through the point where two spans cross, if they do so other than at their ends, and a
 /// third span.
-void crossing_swath(const EmitterStage& stage, Swath swath, const Span3& a, const Span3& b,
+void crossing_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& a, const Span3& b,
                     const Span3& third, const SwathSink& sink) {
   const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
   if (!(normal.norm() > parallel * u.norm() * v.norm())) return;
@@ -154,26 +158,27 @@ void crossing_swath(const EmitterStage& stage, Swath swath, const Span3& a, cons
   const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
   if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;
   const auto is_end = [&](const Span3& span, const Vec3& p) {
-    return (p - span.from).norm() <= stage.slack || (p - span.to).norm() <= stage.slack;
+    return (p - span.from).norm() <= emitter_scene.slack ||
+           (p - span.to).norm() <= emitter_scene.slack;
   };
   swath.apex = a.at(s);
   if (is_end(a, swath.apex) && is_end(b, swath.apex)) return;  // events with a vertex
   const Vec3 along = third.direction().normalized(), to = swath.apex - third.from;
-  if ((to - along.dot(to) * along).norm() <= stage.slack) return;
+  if ((to - along.dot(to) * along).norm() <= emitter_scene.slack) return;
   swath.is_planar = true;
   swath.base = third;
   sink(swath);
 }
 
 /// Sends the swath through three spans, in whatever shape it has.
-void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& spans,
+void send(const EmitterScene& emitter_scene, Swath& swath, const std::array<Span3, 3>& spans,
           const SwathSink& sink) {
   bool splits = false;
   for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1}})
-    if (are_coplanar(spans[at(i)], spans[at(j)], stage.joined)) {
+    if (are_coplanar(spans[at(i)], spans[at(j)], emitter_scene.joined)) {
       splits = true;
-      coplanar_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
-      crossing_swath(stage, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
+      coplanar_swath(emitter_scene, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
+      crossing_swath(emitter_scene, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
     }
   if (splits) return;
   set_edges(swath, spans);
@@ -182,48 +187,50 @@ void send(const EmitterStage& stage, Swath& swath, const std::array<Span3, 3>& s
 
 }  // namespace
 
-bool may_line_up(const EmitterStage& stage, const Span3& a, const Span3& b) {
-  return lines_up(stage, a, b, most_halvings);
+bool may_line_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b) {
+  return lines_up(emitter_scene, a, b, most_halvings);
 }
 
-std::vector<int> later_partners(const EmitterStage& stage, int edge) {
+std::vector<int> later_partners(const EmitterScene& emitter_scene, int edge) {
   std::vector<int> partners;
-  const Span3& span = stage.edges[at(edge)].front;
-  for (int other = edge + 1; other < static_cast<int>(stage.edges.size()); ++other)
-    if (may_line_up(stage, span, stage.edges[at(other)].front)) partners.push_back(other);
+  const Span3& span = emitter_scene.edges[at(edge)].front;
+  for (int other = edge + 1; other < static_cast<int>(emitter_scene.edges.size()); ++other)
+    if (may_line_up(emitter_scene, span, emitter_scene.edges[at(other)].front))
+      partners.push_back(other);
   return partners;
 }
 
-void pair_swaths(const EmitterStage& stage, int a, int b, const SwathSink& sink) {
-  const StageEdge &first = stage.edges[at(a)], &second = stage.edges[at(b)];
-  for (const OutlinePiece& piece : stage.outline) {
+void pair_swaths(const EmitterScene& emitter_scene, int a, int b, const SwathSink& sink) {
+  const SilhouetteEdge &first = emitter_scene.edges[at(a)], &second = emitter_scene.edges[at(b)];
+  for (const OutlinePiece& piece : emitter_scene.outline) {
     Swath swath;
     swath.source = {
         CurveKind::eee,
         {piece.feature, {Feature::Kind::edge, first.id}, {Feature::Kind::edge, second.id}},
         3};
-    swath.group = {piece.id, first.id, second.id};
+    swath.group = {piece.id, EdgeId::edge(first.id), EdgeId::edge(second.id)};
     std::sort(swath.group.begin(), swath.group.end());
     swath.silhouettes = {a, b, -1};
     swath.ends_on_outline = true;
-    send(stage, swath, {piece.span, first.front, second.front}, sink);
+    send(emitter_scene, swath, {piece.span, first.front, second.front}, sink);
   }
 }
 
-void triple_swath(const EmitterStage& stage, int a, int b, int c, const SwathSink& sink) {
+void triple_swath(const EmitterScene& emitter_scene, int a, int b, int c, const SwathSink& sink) {
   Swath swath;
   swath.source.kind = CurveKind::eee;
   swath.source.feature_count = 3;
   std::array<Span3, 3> spans;
   std::size_t k = 0;
   for (const int e : {a, b, c}) {
-    swath.source.features[k] = {Feature::Kind::edge, stage.edges[at(e)].id};
-    swath.group.push_back(stage.edges[at(e)].id);
-    spans[k++] = stage.edges[at(e)].front;
+    const EdgeId id = EdgeId::edge(emitter_scene.edges[at(e)].id);
+    swath.source.features[k] = feature_of(id);
+    swath.group.push_back(id);
+    spans[k++] = emitter_scene.edges[at(e)].front;
   }
   std::sort(swath.group.begin(), swath.group.end());
   swath.silhouettes = {a, b, c};
-  send(stage, swath, spans, sink);
+  send(emitter_scene, swath, spans, sink);
 }
 
 }  // namespace halfshade

@@ -20,24 +20,24 @@ double distance_to_line(const Vec3& p, const Span3& span) {
   return (p - span.from - along.dot(p - span.from) * along).norm();
 }
 
-void normalize(std::vector<int>& group) {
+void normalize(std::vector<EdgeId>& group) {
   std::sort(group.begin(), group.end());
   group.erase(std::unique(group.begin(), group.end()), group.end());
 }
 
-std::vector<int> ids_at(const EmitterStage& stage, const StageVertex& vertex) {
-  std::vector<int> ids;
-  for (const int e : vertex.edges) ids.push_back(stage.edges[at(e)].id);
+std::vector<EdgeId> ids_at(const EmitterScene& emitter_scene, const SilhouetteVertex& vertex) {
+  std::vector<EdgeId> ids;
+  for (const int e : vertex.edges) ids.push_back(EdgeId::edge(emitter_scene.edges[at(e)].id));
   return ids;
 }
 
-/// How many of the stage's edges at a vertex lie in the plane of a planar swath.
-int count_in_plane(const EmitterStage& stage, const Swath& swath, const StageVertex& vertex,
-                   double slack) {
-  const Vec3 normal = hull_of(swath, 0, 1).normal;
+/// How many of the silhouette edges at a vertex lie in the plane of a planar swath.
+int count_in_plane(const EmitterScene& emitter_scene, const Swath& swath,
+                   const SilhouetteVertex& vertex, double slack) {
+  const Vec3 normal = plane_normal(swath);
   int count = 0;
   for (const int e : vertex.edges) {
-    const Span3& span = stage.edges[at(e)].whole;
+    const Span3& span = emitter_scene.edges[at(e)].whole;
     if (std::abs(normal.dot(span.from - swath.apex)) <= slack &&
         std::abs(normal.dot(span.to - swath.apex)) <= slack)
       ++count;
@@ -46,36 +46,37 @@ int count_in_plane(const EmitterStage& stage, const Swath& swath, const StageVer
 }
 
 /// Whether one of the outline's pieces at a corner lies in the swath's plane.
-bool outline_in_plane(const EmitterStage& stage, const Swath& swath, const OutlinePoint& corner) {
-  const Vec3 normal = hull_of(swath, 0, 1).normal;
-  for (const OutlinePiece& piece : stage.outline)
+bool outline_in_plane(const EmitterScene& emitter_scene, const Swath& swath,
+                      const OutlinePoint& corner) {
+  const Vec3 normal = plane_normal(swath);
+  for (const OutlinePiece& piece : emitter_scene.outline)
     if (std::find(corner.edges.begin(), corner.edges.end(), piece.id) != corner.edges.end() &&
-        std::abs(normal.dot(piece.span.from - swath.apex)) <= stage.joined &&
-        std::abs(normal.dot(piece.span.to - swath.apex)) <= stage.joined)
+        std::abs(normal.dot(piece.span.from - swath.apex)) <= emitter_scene.joined &&
+        std::abs(normal.dot(piece.span.to - swath.apex)) <= emitter_scene.joined)
       return true;
   return false;
 }
 
 /// Where lines from a vertex through the points of a span meet the emitter's plane, if both lie in
 /// front of it and the span stays on one side of the vertex: the image is straight.
-std::array<Vec2, 2> image_of(const EmitterStage& stage, const Vec3& vertex, double height,
+std::array<Vec2, 2> image_of(const EmitterScene& emitter_scene, const Vec3& vertex, double height,
                              const Span3& span) {
   const auto project = [&](const Vec3& p) {
-    const double h = stage.frame.height(p);
-    return stage.frame.to_plane(vertex + height / (height - h) * (p - vertex));
+    const double h = emitter_scene.frame.height(p);
+    return emitter_scene.frame.to_plane(vertex + height / (height - h) * (p - vertex));
   };
   return {project(span.from), project(span.to)};
 }
 
 /// False only if a segment misses the emitter's hull.
-bool meets_hull(const EmitterStage& stage, const std::array<Vec2, 2>& segment) {
+bool meets_hull(const EmitterScene& emitter_scene, const std::array<Vec2, 2>& segment) {
   double t0 = 0, t1 = 1;
   const Vec2 along = segment[1] - segment[0];
-  for (std::size_t k = 0; k < stage.hull.size(); ++k) {
-    const Vec2& a = stage.hull[k];
-    const Vec2 side = stage.hull[(k + 1) % stage.hull.size()] - a;
+  for (std::size_t k = 0; k < emitter_scene.hull.size(); ++k) {
+    const Vec2& a = emitter_scene.hull[k];
+    const Vec2 side = emitter_scene.hull[(k + 1) % emitter_scene.hull.size()] - a;
     // inside: cross(side, p − a) ≥ 0
-    const double from = cross_2d(side, segment[0] - a) + stage.slack * side.norm();
+    const double from = cross_2d(side, segment[0] - a) + emitter_scene.slack * side.norm();
     const double slope = cross_2d(side, along);
     if (slope > 0)
       t0 = std::max(t0, -from / slope);
@@ -87,34 +88,37 @@ bool meets_hull(const EmitterStage& stage, const std::array<Vec2, 2>& segment) {
   return t0 <= t1;
 }
 
-void non_emitter_swaths(const EmitterStage& stage, int edge, const SwathSink& sink) {
-  const StageEdge& e = stage.edges[at(edge)];
-  const double h0 = stage.frame.height(e.front.from), h1 = stage.frame.height(e.front.to);
-  for (std::size_t w = 0; w < stage.vertices.size(); ++w) {
-    const StageVertex& vertex = stage.vertices[w];
-    if (is_end(vertex.position, e.whole, stage.slack) ||
-        distance_to_line(vertex.position, e.whole) <= stage.slack)
+void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& sink) {
+  const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
+  const double h0 = emitter_scene.frame.height(e.front.from),
+               h1 = emitter_scene.frame.height(e.front.to);
+  for (std::size_t w = 0; w < emitter_scene.vertices.size(); ++w) {
+    const SilhouetteVertex& vertex = emitter_scene.vertices[w];
+    if (is_end(vertex.position, e.whole, emitter_scene.slack) ||
+        distance_to_line(vertex.position, e.whole) <= emitter_scene.slack)
       continue;
     // The parts of the edge nearer to the emitter than the vertex, and farther from it.
     for (const double side : {-1., 1.}) {
       const double a = side * (h0 - vertex.height), b = side * (h1 - vertex.height);
-      if (a <= stage.slack && b <= stage.slack) continue;
+      if (a <= emitter_scene.slack && b <= emitter_scene.slack) continue;
       Span3 part = e.front;
-      if (a < stage.slack) part.from = e.front.at((stage.slack - a) / (b - a));
-      if (b < stage.slack) part.to = e.front.at((a - stage.slack) / (a - b));
-      if (!meets_hull(stage, image_of(stage, vertex.position, vertex.height, part))) continue;
+      if (a < emitter_scene.slack) part.from = e.front.at((emitter_scene.slack - a) / (b - a));
+      if (b < emitter_scene.slack) part.to = e.front.at((a - emitter_scene.slack) / (a - b));
+      if (!meets_hull(emitter_scene, image_of(emitter_scene, vertex.position, vertex.height, part)))
+        continue;
       Swath swath;
       swath.source = {CurveKind::ev,
                       {Feature{Feature::Kind::vertex, vertex.id}, {Feature::Kind::edge, e.id}},
                       2};
       swath.apex = vertex.position;
       swath.base = part;
-      swath.group = ids_at(stage, vertex);
-      swath.group.push_back(e.id);
+      swath.group = ids_at(emitter_scene, vertex);
+      swath.group.push_back(EdgeId::edge(e.id));
       normalize(swath.group);
       swath.silhouettes[0] = edge;
       swath.corner = static_cast<int>(w);
-      swath.may_be_first_order = count_in_plane(stage, swath, vertex, stage.joined) > 0;
+      swath.may_be_first_order =
+          count_in_plane(emitter_scene, swath, vertex, emitter_scene.joined) > 0;
       sink(swath);
     }
   }
@@ -122,38 +126,38 @@ void non_emitter_swaths(const EmitterStage& stage, int edge, const SwathSink& si
 
 }  // namespace
 
-void edge_swaths(const EmitterStage& stage, int edge, const SwathSink& sink) {
-  const StageEdge& e = stage.edges[at(edge)];
-  for (const OutlinePoint& corner : stage.corners) {
-    if (distance_to_line(corner.position, e.whole) <= stage.slack) continue;
+void edge_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& sink) {
+  const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
+  for (const OutlinePoint& corner : emitter_scene.corners) {
+    if (distance_to_line(corner.position, e.whole) <= emitter_scene.slack) continue;
     Swath swath;
     swath.source = {CurveKind::ev, {corner.feature, {Feature::Kind::edge, e.id}}, 2};
     swath.apex = corner.position;
     swath.base = e.front;
     swath.group = corner.edges;
-    swath.group.push_back(e.id);
+    swath.group.push_back(EdgeId::edge(e.id));
     normalize(swath.group);
     swath.silhouettes[0] = edge;
     swath.ends_on_outline = true;
-    swath.may_be_first_order = outline_in_plane(stage, swath, corner);
+    swath.may_be_first_order = outline_in_plane(emitter_scene, swath, corner);
     sink(swath);
   }
-  non_emitter_swaths(stage, edge, sink);
+  non_emitter_swaths(emitter_scene, edge, sink);
 }
 
-void vertex_swaths(const EmitterStage& stage, int vertex, const SwathSink& sink) {
-  const StageVertex& w = stage.vertices[at(vertex)];
-  for (const OutlinePiece& piece : stage.outline) {
+void vertex_swaths(const EmitterScene& emitter_scene, int vertex, const SwathSink& sink) {
+  const SilhouetteVertex& w = emitter_scene.vertices[at(vertex)];
+  for (const OutlinePiece& piece : emitter_scene.outline) {
     Swath swath;
     swath.source = {CurveKind::ev, {Feature{Feature::Kind::vertex, w.id}, piece.feature}, 2};
     swath.apex = w.position;
     swath.base = piece.span;
-    swath.group = ids_at(stage, w);
+    swath.group = ids_at(emitter_scene, w);
     swath.group.push_back(piece.id);
     normalize(swath.group);
     swath.corner = vertex;
     swath.ends_on_outline = true;
-    swath.may_be_first_order = count_in_plane(stage, swath, w, stage.joined) > 0;
+    swath.may_be_first_order = count_in_plane(emitter_scene, swath, w, emitter_scene.joined) > 0;
     sink(swath);
   }
 }
@@ -164,10 +168,11 @@ namespace {
 struct FaceEdges {
   std::vector<Span3> spans;  // in front of the emitter
   std::vector<Vec3> ends;
-  std::vector<int> ids;  // all on its border
+  std::vector<EdgeId> ids;  // all on its border
 };
 
-FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaque, int receiver) {
+FaceEdges edges_of_face(const EmitterScene& emitter_scene, const OpaqueTopology& opaque,
+                        int receiver) {
   std::vector<int> count_once;
   for (const auto& triangle : opaque.triangles)
     if (triangle.surface == receiver)
@@ -178,13 +183,13 @@ FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaq
     const bool again = (i > 0 && count_once[i - 1] == count_once[i]) ||
                        (i + 1 < count_once.size() && count_once[i + 1] == count_once[i]);
     if (again) continue;
-    face.ids.push_back(count_once[i]);
+    face.ids.push_back(EdgeId::edge(count_once[i]));
     const auto& edge = opaque.edges[at(count_once[i])];
     Span3 span = {opaque.vertices[at(edge.from)], opaque.vertices[at(edge.to)]};
-    const double a = stage.frame.height(span.from), b = stage.frame.height(span.to);
-    if (a <= stage.slack && b <= stage.slack) continue;
+    const double a = emitter_scene.frame.height(span.from), b = emitter_scene.frame.height(span.to);
+    if (a <= emitter_scene.slack && b <= emitter_scene.slack) continue;
     for (const auto& [h, p] : {std::pair{a, span.from}, std::pair{b, span.to}})
-      if (h > stage.slack) face.ends.push_back(p);
+      if (h > emitter_scene.slack) face.ends.push_back(p);
     const Span3 whole = span;
     if (a < 0) span.from = whole.at(a / (a - b));
     if (b < 0) span.to = whole.at(a / (a - b));
@@ -195,41 +200,41 @@ FaceEdges edges_of_face(const EmitterStage& stage, const OpaqueScene::Impl& opaq
 
 }  // namespace
 
-void face_swaths(const SoundScene& scene, const EmitterStage& stage, const OpaqueScene& opaque,
-                 int receiver, const SwathSink& sink) {
+void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
+                 const OpaqueScene& opaque, int receiver, const SwathSink& sink) {
   const PlaneFrame& plane = scene.surfaces[at(receiver)].frame;
   std::vector<Vec3> entries;
   bool above = false, below = false;
-  for (const OutlinePiece& piece : stage.outline) {
+  for (const OutlinePiece& piece : emitter_scene.outline) {
     const double a = plane.height(piece.span.from), b = plane.height(piece.span.to);
-    above = above || std::max(a, b) > stage.slack;
-    below = below || std::min(a, b) < -stage.slack;
+    above = above || std::max(a, b) > emitter_scene.slack;
+    below = below || std::min(a, b) < -emitter_scene.slack;
     if ((a > 0) != (b > 0)) entries.push_back(piece.span.at(a / (a - b)));
   }
   if (!above || !below || entries.size() < 2) return;
-  const FaceEdges face = edges_of_face(stage, opaque.impl(), receiver);
+  const FaceEdges face = edges_of_face(emitter_scene, opaque.topology(), receiver);
   if (face.spans.empty()) return;
   Swath swath;
   swath.source = {CurveKind::face, {Feature{Feature::Kind::face, receiver}}, 1};
   swath.group = face.ids;
   swath.may_be_first_order = true;
   const auto send = [&](const Vec3& apex, const Span3& base) {
-    if (distance_to_line(apex, base) <= stage.slack) return;
+    if (distance_to_line(apex, base) <= emitter_scene.slack) return;
     swath.apex = apex;
     swath.base = base;
     sink(swath);
   };
-  const Vec3 along = plane.normal.cross(stage.frame.normal);
+  const Vec3 along = plane.normal.cross(emitter_scene.frame.normal);
   const auto [first, last] = std::minmax_element(
       entries.begin(), entries.end(),
       [&](const Vec3& a, const Vec3& b) { return along.dot(a) < along.dot(b); });
   for (const Vec3& end : face.ends) send(end, {*first, *last});
   for (const Span3& span : face.spans) {
     for (const Vec3& entry : entries) send(entry, span);
-    for (const StageEdge& edge : stage.edges) {
+    for (const SilhouetteEdge& edge : emitter_scene.edges) {
       const double a = plane.height(edge.front.from), b = plane.height(edge.front.to);
-      const bool crosses =
-          (a > stage.slack && b < -stage.slack) || (a < -stage.slack && b > stage.slack);
+      const bool crosses = (a > emitter_scene.slack && b < -emitter_scene.slack) ||
+                           (a < -emitter_scene.slack && b > emitter_scene.slack);
       if (crosses) send(edge.front.at(a / (a - b)), span);
     }
   }

@@ -102,7 +102,7 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
     add_roots(meeting(swath.family, {edge.from, edge.direction()}), parameters);
     return;
   }
-  const Vec3 normal = plane_through(swath.apex, swath.base).normalized();
+  const Vec3 normal = plane_normal(swath);
   const double from = normal.dot(edge.from - swath.apex), to = normal.dot(edge.to - swath.apex);
   if (std::abs(from) <= slack) add_direction(swath, normal, edge.from, slack, parameters);
   if (std::abs(to) <= slack) add_direction(swath, normal, edge.to, slack, parameters);
@@ -126,16 +126,18 @@ void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<doub
     add_roots(direction_along(swath.family, normal), parameters);
 }
 
-SwathHull hull_of(const Swath& swath, double t0, double t1) {
-  SwathHull hull;
+Vec3 plane_normal(const Swath& swath) { return plane_through(swath.apex, swath.base).normalized(); }
+
+SwathBounds bounds_of(const Swath& swath, double t0, double t1) {
+  SwathBounds bounds;
   if (swath.is_planar) {
-    hull.near = box_of(swath.apex, swath.apex);
-    hull.far = box_of(swath.base.at(t0), swath.base.at(t1));
-    hull.normal = plane_through(swath.apex, swath.base).normalized();
-    hull.point = swath.apex;
-    return hull;
+    bounds.near = box_of(swath.apex, swath.apex);
+    bounds.far = box_of(swath.base.at(t0), swath.base.at(t1));
+    bounds.normal = plane_normal(swath);
+    bounds.point = swath.apex;
+    return bounds;
   }
-  hull.near = box_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
+  bounds.near = box_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
   const auto reach = [&](int i) {
     const LinearRatio ratio = parameter_on(swath.family, i);
     const Span3& edge = swath.edges[static_cast<std::size_t>(i)];
@@ -143,12 +145,12 @@ SwathHull hull_of(const Swath& swath, double t0, double t1) {
                   edge.at(std::clamp(value(ratio, t1), 0., 1.)));
   };
   const Eigen::AlignedBox3d second = reach(1), third = reach(2);
-  const Vec3 x = hull.near.center();
-  hull.far = (second.center() - x).norm() > (third.center() - x).norm() ? second : third;
-  return hull;
+  const Vec3 x = bounds.near.center();
+  bounds.far = (second.center() - x).norm() > (third.center() - x).norm() ? second : third;
+  return bounds;
 }
 
-bool SwathHull::meets(const Vec3& low, const Vec3& high, double slack) const {
+bool SwathBounds::meets(const Vec3& low, const Vec3& high, double slack) const {
   if (!normal.isZero()) {
     const Vec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
     if (std::abs(normal.dot(centre - point)) > normal.cwiseAbs().dot(half) + slack) return false;

@@ -15,10 +15,9 @@ namespace halfshade {
 /// of the point on the base, or on the first of the three edges.
 struct Swath {
   CurveSource source;
-  std::vector<int> group;  ///< edges whose images change their order here, sorted; as
-                           ///< BoundaryPiece::edge
-  /// Edges of the stage that must be silhouettes for every line, −1: none; and a vertex of the
-  /// stage with at least two edges that are, or −1.
+  std::vector<EdgeId> group;  ///< edges whose images change their order here, sorted
+  /// Edges of the EmitterScene that must be silhouettes for every line, −1: none; and a vertex of
+  /// it with at least two edges that are, or −1.
   std::array<int, 3> silhouettes = {-1, -1, -1};
   int corner = -1;
   bool ends_on_outline = false;     ///< its lines start on the emitter's border, not inside
@@ -54,18 +53,21 @@ void own_limits(const Swath& swath, std::vector<double>& parameters);
 /// Parameters in (0,1) at which the line runs along a plane with a normal.
 void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters);
 
+/// Unit normal of the plane of a planar swath.
+Vec3 plane_normal(const Swath& swath);
+
 /// Boxes that contain the lines with parameters in a range where they leave two of the features:
 /// every line runs through both.
-struct SwathHull {
+struct SwathBounds {
   Eigen::AlignedBox3d near, far;  ///< in no particular order
   Vec3 normal = Vec3::Zero();     ///< of the plane of a planar swath, unit length; else zero
   Vec3 point = Vec3::Zero();      ///< of that plane
 
-  /// False only if no line of the hull meets the box; `slack` is added to the box.
+  /// False only if no line of the swath meets the box; `slack` is added to the box.
   bool meets(const Vec3& low, const Vec3& high, double slack) const;
 };
 /// Precondition: no own limit of the swath lies between t0 and t1.
-SwathHull hull_of(const Swath& swath, double t0, double t1);
+SwathBounds bounds_of(const Swath& swath, double t0, double t1);
 
 /// A swath through three edges, no two of which lie in a plane.
 void set_edges(Swath& swath, const std::array<Span3, 3>& edges);

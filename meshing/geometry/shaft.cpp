@@ -1,6 +1,8 @@
 #include "meshing/geometry/shaft.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/core/plane_frame.h"
+#include "meshing/geometry/convex_hull.h"
 
 #include <Eigen/Geometry>
 
@@ -8,7 +10,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace halfshade {
@@ -25,30 +26,6 @@ constexpr double tightness = 1e-9;
 constexpr double same_normal_sine = 1e-26;
 
 using Edge = std::pair<Vec3, Vec3>;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// Indices of the corners of the convex hull in a plane (Andrew 1979).
-std::vector<std::size_t> convex_hull(const std::vector<Vec2>& points) {
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-    return std::pair(points[i].x(), points[i].y()) < std::pair(points[j].x(), points[j].y());
-  });
-  std::vector<std::size_t> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t base = hull.size();
-    for (const std::size_t i : order) {
-      while (hull.size() >= base + 2 && cross(points[hull.back()] - points[hull[hull.size() - 2]],
-                                              points[i] - points[hull[hull.size() - 2]]) <= 0)
-        hull.pop_back();
-      hull.push_back(i);
-    }
-    hull.pop_back();  // the other pass begins with it
-    std::reverse(order.begin(), order.end());
-  }
-  return hull;
-}
 
 /// The edges of a polygon's convex hull: none for a point, one for a polygon without area.
 std::vector<Edge> hull_edges(std::span<const Vec3> polygon) {
@@ -76,7 +53,7 @@ std::vector<Edge> hull_edges(std::span<const Vec3> polygon) {
 
 /// Grows with the angle from `axis` to v, from −2 to 2, without trigonometric functions.
 double pseudo_angle(const Vec2& axis, const Vec2& v) {
-  const double s = cross(axis, v), c = axis.dot(v);
+  const double s = cross_2d(axis, v), c = axis.dot(v);
   const double t = s / (std::abs(s) + std::abs(c));
   return c >= 0 ? t : (s >= 0 ? 2 : -2) - t;
 }

@@ -7,9 +7,9 @@
 #include "solver/elements/quadrature.h"
 
 #include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <mutex>
 
 namespace halfshade {
 namespace {
@@ -58,53 +58,10 @@ bool is_clearly_away(const Target& target, const SurfacePoint& point) {
   return highest < -margin;
 }
 
+/// What each thread keeps between calls.
 struct Worker {
   VisiblePartFinder finder;
   VisiblePart part;
-};
-
-/// Finders that are not in use. Grows to the number of threads that work at the same time.
-class WorkerPool {
- public:
-  explicit WorkerPool(const OpaqueScene& scene) : scene_(scene) {}
-
-  std::unique_ptr<Worker> take() {
-    const std::lock_guard lock(mutex_);
-    if (free_.empty())
-      return std::make_unique<Worker>(Worker{VisiblePartFinder(scene_), VisiblePart()});
-    std::unique_ptr<Worker> worker = std::move(free_.back());
-    free_.pop_back();
-    return worker;
-  }
-
-  void give_back(std::unique_ptr<Worker> worker) {
-    const std::lock_guard lock(mutex_);
-    free_.push_back(std::move(worker));
-  }
-
- private:
-  const OpaqueScene& scene_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Worker>> free_;
-};
-
-/// A worker on loan. One whose job has thrown is not given back.
-class Loan {
- public:
-  explicit Loan(WorkerPool& pool)
-      : pool_(pool), worker_(pool.take()), exceptions_(std::uncaught_exceptions()) {}
-  ~Loan() {
-    if (std::uncaught_exceptions() == exceptions_) pool_.give_back(std::move(worker_));
-  }
-  Loan(const Loan&) = delete;
-  Loan& operator=(const Loan&) = delete;
-  Worker* operator->() const { return worker_.get(); }
-  Worker& operator*() const { return *worker_; }
-
- private:
-  WorkerPool& pool_;
-  std::unique_ptr<Worker> worker_;
-  int exceptions_;
 };
 
 /// Leaves the boundary in worker.part.
@@ -128,10 +85,12 @@ struct DirectLightIndex::Impl {
   std::shared_ptr<const OpaqueScene> opaque;
   std::vector<Target> targets;  // by surface
   std::vector<int> emitters;
-  WorkerPool pool;
+  tbb::enumerable_thread_specific<Worker> workers;
 
   Impl(const SoundScene& scene, std::shared_ptr<const OpaqueScene> shared)
-      : opaque(std::move(shared)), pool(*opaque) {
+      : opaque(std::move(shared)), workers([this] {
+          return Worker{VisiblePartFinder(*opaque), {}};
+        }) {
     for (const Surface& surface : scene.surfaces) {
       targets.push_back(make_target(scene, surface));
       if (targets.back().strength > 0) emitters.push_back(static_cast<int>(targets.size()) - 1);
@@ -179,18 +138,18 @@ std::span<const int> DirectLightIndex::emitters() const { return impl_->emitters
 PointFactor DirectLightIndex::factor(const SurfacePoint& point, int emitter) const {
   const Target& target = impl_->target(emitter);
   if (is_clearly_away(target, point)) return {};
-  const Loan worker(impl_->pool);
-  return find_factor(*worker, target, point, emitter);
+  Worker& worker = impl_->workers.local();
+  return find_factor(worker, target, point, emitter);
 }
 
 PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& point,
                                                             int emitter) const {
   const Target& target = impl_->target(emitter);
   if (is_clearly_away(target, point)) return {};
-  const Loan worker(impl_->pool);
+  Worker& worker = impl_->workers.local();
   PointFactorDerivatives result;
-  result.factor = find_factor(*worker, target, point, emitter);
-  const EdgeDerivatives derivatives = edge_derivatives(point.position, point.normal, worker->part);
+  result.factor = find_factor(worker, target, point, emitter);
+  const EdgeDerivatives derivatives = edge_derivatives(point.position, point.normal, worker.part);
   result.gradient = derivatives.gradient;
   result.hessian = derivatives.hessian;
   return result;
@@ -199,13 +158,13 @@ PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& 
 void DirectLightIndex::visible_part(const SurfacePoint& point, int surface,
                                     VisiblePart& part) const {
   impl_->target(surface);
-  const Loan worker(impl_->pool);
-  worker->finder.find(point.position, point.normal, surface, part);
+  Worker& worker = impl_->workers.local();
+  worker.finder.find(point.position, point.normal, surface, part);
 }
 
 DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
-  const Loan worker(impl_->pool);
-  return impl_->gather(*worker, point);
+  Worker& worker = impl_->workers.local();
+  return impl_->gather(worker, point);
 }
 
 std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
@@ -213,10 +172,10 @@ std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoi
   std::vector<DirectLight> light(points.size());
   parallel_for((points.size() + chunk - 1) / chunk,
                [&](std::size_t c) {
-                 const Loan worker(impl_->pool);
+                 Worker& worker = impl_->workers.local();
                  const std::size_t end = std::min(points.size(), (c + 1) * chunk);
                  for (std::size_t k = c * chunk; k < end; ++k)
-                   light[k] = impl_->gather(*worker, points[k]);
+                   light[k] = impl_->gather(worker, points[k]);
                },
                progress, "direct light");
   return light;

@@ -122,10 +122,10 @@ EdgeDerivatives edge_derivatives(const Vec3& point, const Vec3& normal, const Vi
       const BoundaryPiece& piece = part.pieces[k];
       const BoundaryPiece& next = part.pieces[k + 1 < end ? k + 1 : start];
       // Along the horizon n·p vanishes, at the ends of its pieces, too.
-      if (piece.edge == horizon_edge) continue;
+      if (piece.edge == EdgeId::horizon()) continue;
       const Sight sight(piece, point);
       derivatives.add_piece(sight);
-      if (next.edge != horizon_edge) derivatives.add_end(sight, Sight(next, point));
+      if (next.edge != EdgeId::horizon()) derivatives.add_end(sight, Sight(next, point));
     }
     start = end;
   }

@@ -188,6 +188,9 @@ bool straddles(std::span<const Vec3> polygon, const Vec3& point, const Vec3& nor
 
 }  // namespace
 
+// The plain sum, not EdgeSum: what cancels is 1e-16 of a few radians, far below the tolerance of
+// any factor, and a triangle takes 0.11 µs instead of 0.26 µs, which is a quarter of the whole
+// exchange.
 double lambert_sum(const Vec3& point, const Vec3& normal, std::span<const Vec3> polygon) {
   double sum = 0;
   Vec3 a = polygon.back() - point;

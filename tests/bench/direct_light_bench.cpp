@@ -1,5 +1,6 @@
 #include "io/read/read_scene.h"
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/mix_bits.h"
 #include "meshing/rays/visibility.h"
 #include "meshing/repair/repair.h"
 #include "solver/direct/direct_light.h"
@@ -62,10 +63,9 @@ class ShadowRays {
     const Vec3 b = light.frame.to_space(ring[3]) - origin;
     std::uint64_t state = seed;
     const auto random = [&state] {  // splitmix64
-      std::uint64_t z = (state += 0x9e3779b97f4a7c15);
-      z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-      z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-      return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+      const std::uint64_t z = mix_bits(state);
+      state += splitmix_step;
+      return static_cast<double>(z >> 11) * 0x1p-53;
     };
     for (int tile_j = 0; tile_j < cells; tile_j += 4)
       for (int tile_i = 0; tile_i < cells; tile_i += 4)

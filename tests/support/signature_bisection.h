@@ -66,7 +66,7 @@ class SegmentAuditor {
         finder_(opaque),
         curves_(curves),
         size_(scene.tolerance.scene_size),
-        limit_(accepted * size_ + rounding * opaque.impl().magnitude) {}
+        limit_(accepted * size_ + rounding * opaque.topology().magnitude) {}
 
   /// `count` segments on surfaces chosen at random among those where something can be seen.
   SegmentAudit run(std::span<const int> emitters, int count, std::uint64_t seed) {
@@ -134,10 +134,10 @@ class SegmentAuditor {
   /// there is a triangle along one side of which the kernel vanishes: third order. Edges that
   /// coincide are another matter.
   bool is_at_horizon(const SignatureChange& change) const {
-    std::set<int> edges;
+    std::set<EdgeId> edges;
     for (const Signature* list : {&change.lost, &change.gained})
       for (const Junction& j : *list) edges.insert({j.from, j.to});
-    if (edges.erase(horizon_edge) == 0 || edges.size() > 2) return false;
+    if (edges.erase(EdgeId::horizon()) == 0 || edges.size() > 2) return false;
     if (edges.size() < 2) return true;
     const Vec3 at = scene_.surfaces[static_cast<std::size_t>(change.receiver)].frame.to_space(
         0.5 * (change.before + change.after));

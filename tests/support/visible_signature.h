@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/opaque_topology.h"
 #include "meshing/backprojection/visible_part.h"
 
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ namespace halfshade::test {
 /// A place on the boundary of a visible part where one edge follows another. Edges that lie on one
 /// line and share a vertex count as one: going over from one to the other changes nothing.
 struct Junction {
-  int from = 0, to = 0;  ///< as BoundaryPiece::edge, but for the cuts through the emitter's plane
+  EdgeId from, to;  ///< the first of those on its line; of a cut the id is that of the face's plane
   auto operator<=>(const Junction&) const = default;
 };
 
@@ -36,20 +36,20 @@ class Signer {
       : scene_(scene),
         opaque_(opaque),
         line_of_edge_(join_lines(opaque)),
-        rounding_(1e-12 * scene.tolerance.scene_size + 0x1p-46 * opaque.impl().magnitude) {}
+        rounding_(1e-12 * scene.tolerance.scene_size + 0x1p-46 * opaque.topology().magnitude) {}
 
   /// `normal`: of the surface that the point lies on.
   Signature operator()(const VisiblePart& part, const Vec3& point, const Vec3& normal,
                        int emitter) const {
     Signature signature;
-    std::vector<int> chain;
+    std::vector<EdgeId> chain;
     std::size_t first = 0;
     for (const int chain_end : part.chain_ends) {
       const auto end = static_cast<std::size_t>(chain_end);
       chain.clear();
       for (std::size_t i = first; i < end; ++i)
         if (const BoundaryPiece& piece = part.pieces[i]; (piece.to - piece.from).norm() > rounding_)
-          chain.push_back(on_horizon(piece, point, normal) ? horizon_edge
+          chain.push_back(on_horizon(piece, point, normal) ? EdgeId::horizon()
                                                            : line(piece.edge, emitter));
       for (std::size_t i = 0; i < chain.size(); ++i)
         if (const Junction j{chain[i], chain[i + 1 < chain.size() ? i + 1 : 0]}; j.from != j.to)
@@ -61,10 +61,10 @@ class Signer {
   }
 
   /// Unit normal of the plane through a point and a line.
-  Vec3 plane_through(int line, int emitter, const Vec3& point) const {
-    if (line >= first_plane()) {  // where a surface's plane cuts the emitter's
+  Vec3 plane_through(EdgeId line, int emitter, const Vec3& point) const {
+    if (line.kind == EdgeId::Kind::cut) {  // where a surface's plane cuts the emitter's
       for (const Surface& r : scene_.surfaces)
-        if (r.plane == line - first_plane()) {
+        if (r.plane == line.id) {
           const PlaneFrame& light = scene_.surfaces[static_cast<std::size_t>(emitter)].frame;
           const Vec3 along = r.frame.normal.cross(light.normal);
           const Vec3 inwards = light.normal.cross(along);
@@ -78,31 +78,28 @@ class Signer {
   }
 
   /// Name and ends, for messages.
-  std::string describe(int line, int emitter) const {
-    if (line == horizon_edge) return "horizon";
-    if (line >= first_plane()) return fmt::format("cut of plane {}", line - first_plane());
+  std::string describe(EdgeId line, int emitter) const {
+    if (line == EdgeId::horizon()) return "horizon";
+    if (line.kind == EdgeId::Kind::cut) return fmt::format("cut of plane {}", line.id);
     const auto [a, b] = ends_of(line, emitter);
     return fmt::format("{} {} ({:.10g}, {:.10g}, {:.10g}) ({:.10g}, {:.10g}, {:.10g})",
-                       line < 0 ? "light edge" : "edge", line < 0 ? -1 - line : line, a.x(), a.y(),
-                       a.z(), b.x(), b.y(), b.z());
+                       line.kind == EdgeId::Kind::emitter_edge ? "light edge" : "edge", line.id,
+                       a.x(), a.y(), a.z(), b.x(), b.y(), b.z());
   }
 
  private:
-  int first_plane() const {
-    return opaque_.edge_count() + static_cast<int>(opaque_.impl().triangles.size());
-  }
-
   bool on_horizon(const BoundaryPiece& piece, const Vec3& point, const Vec3& normal) const {
-    return piece.edge == horizon_edge || (std::abs(normal.dot(piece.from - point)) < rounding_ &&
-                                          std::abs(normal.dot(piece.to - point)) < rounding_);
+    return piece.edge == EdgeId::horizon() ||
+           (std::abs(normal.dot(piece.from - point)) < rounding_ &&
+            std::abs(normal.dot(piece.to - point)) < rounding_);
   }
 
-  int line(int edge, int emitter) const {
-    if (edge < 0) return line_of_outline(edge, emitter);
-    if (edge < opaque_.edge_count()) return line_of_edge_[static_cast<std::size_t>(edge)];
-    const auto triangle = static_cast<std::size_t>(edge - opaque_.edge_count());
-    const int surface = opaque_.impl().triangles[triangle].surface;
-    return first_plane() + scene_.surfaces[static_cast<std::size_t>(surface)].plane;
+  EdgeId line(EdgeId edge, int emitter) const {
+    if (edge.kind == EdgeId::Kind::emitter_edge)
+      return EdgeId::emitter_edge(line_of_outline(edge.id, emitter));
+    if (edge.kind == EdgeId::Kind::edge) return EdgeId::edge(line_of_edge_[at(edge.id)]);
+    const int surface = opaque_.topology().triangles[at(edge.id)].surface;
+    return EdgeId::cut(scene_.surfaces[at(surface)].plane);
   }
 
   static bool straight_on(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -112,7 +109,7 @@ class Signer {
 
   /// The first edge of the emitter's straight stretch.
   int line_of_outline(int edge, int emitter) const {
-    int k = -1 - edge;
+    int k = edge;
     for (const Ring& ring : scene_.surfaces[static_cast<std::size_t>(emitter)].rings) {
       const int count = static_cast<int>(ring.size());
       if (k >= count) {
@@ -125,15 +122,15 @@ class Signer {
       };
       int start = k;
       while (start > k - count && straight_on(at(start - 1), at(start), at(start + 1))) --start;
-      return edge - ((start + count) % count - k);
+      return edge + (start + count) % count - k;
     }
     return edge;
   }
 
-  std::array<Vec3, 2> ends_of(int line, int emitter) const {
-    if (line >= 0) return opaque_.edge_ends(line);
+  std::array<Vec3, 2> ends_of(EdgeId line, int emitter) const {
+    if (line.kind == EdgeId::Kind::edge) return opaque_.edge_ends(line.id);
     const Surface& light = scene_.surfaces[static_cast<std::size_t>(emitter)];
-    auto k = static_cast<std::size_t>(-1 - line);
+    auto k = at(line.id);
     for (const Ring& ring : light.rings) {
       if (k < ring.size())
         return {light.frame.to_space(ring[k]), light.frame.to_space(ring[(k + 1) % ring.size()])};
@@ -144,8 +141,8 @@ class Signer {
 
   /// The lowest edge of those on one line that share vertices.
   static std::vector<int> join_lines(const OpaqueScene& opaque) {
-    const auto& edges = opaque.impl().edges;
-    std::vector<std::vector<int>> at_vertex(opaque.impl().vertices.size());
+    const auto& edges = opaque.topology().edges;
+    std::vector<std::vector<int>> at_vertex(opaque.topology().vertices.size());
     std::vector<int> line(edges.size());
     std::iota(line.begin(), line.end(), 0);
     const auto root = [&](int e) {
@@ -156,7 +153,7 @@ class Signer {
       for (const int v : {edges[e].from, edges[e].to})
         at_vertex[static_cast<std::size_t>(v)].push_back(static_cast<int>(e));
     const auto position = [&](int v) -> const Vec3& {
-      return opaque.impl().vertices[static_cast<std::size_t>(v)];
+      return opaque.topology().vertices[static_cast<std::size_t>(v)];
     };
     const auto far_end = [&](int e, int v) {
       const auto& edge = edges[static_cast<std::size_t>(e)];

@@ -1,4 +1,3 @@
-#include "meshing/backprojection/opaque_scene.h"
 #include "meshing/backprojection/visible_part.h"
 #include "tests/support/allocations.h"
 #include "tests/support/surfaces.h"
@@ -103,25 +102,6 @@ TEST(VisiblePartFinder, ASpheresHiddenPartIsThatOfItsOutline) {
                         test::lambert(part.pieces, Vec3::Zero(), Vec3::UnitZ());
   EXPECT_NEAR(hidden, .09, .09 * 2e-3);
   EXPECT_LT(hidden, .09);
-}
-
-TEST(OpaqueScene, JoinsCornersAndSplitsEdgesAtTJunctions) {
-  SoundScene scene;
-  test::add_surface(scene, facing_down(0, 2, 0, 1, 1), 1);
-  test::add_surface(scene, facing_down(0, 1, 1, 2, 1));
-  test::add_surface(scene, facing_down(1, 2, 1, 2, 1));
-  test::finish(scene);
-  const OpaqueScene opaque(scene);
-  const auto& impl = opaque.impl();
-  EXPECT_EQ(impl.vertices.size(), 8u);
-  EXPECT_EQ(impl.ring(0).size(), 5u);  // with the corner (1, 1)
-  EXPECT_EQ(impl.triangles.size(), 7u);
-  int borders = 0;
-  for (const auto& edge : impl.edges) borders += edge.count == 1 ? 1 : 0;
-  EXPECT_EQ(borders, 7);
-  // Euler's formula for a disk: vertices − edges + faces = 1.
-  EXPECT_EQ(static_cast<int>(impl.vertices.size() + impl.triangles.size()) - opaque.edge_count(),
-            1);
 }
 
 }  // namespace

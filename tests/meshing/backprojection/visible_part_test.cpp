@@ -66,7 +66,7 @@ TEST(VisiblePart, LitPartIsTheWholeOutlineToTheBit) {
   ASSERT_EQ(part.pieces.size(), 4u);
   ASSERT_EQ(part.unobstructed.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(part.pieces[k].edge, -1 - static_cast<int>(k));
+    EXPECT_EQ(part.pieces[k].edge, EdgeId::emitter_edge(static_cast<int>(k)));
     EXPECT_EQ(part.pieces[k].from, part.unobstructed[k].from);
     EXPECT_EQ(part.pieces[k].to, part.unobstructed[k].to);
   }
@@ -238,14 +238,14 @@ TEST(VisiblePart, PiecesLieOnTheEdgesTheyName) {
   int occluded = 0;
   for (const BoundaryPiece& piece : part.pieces) {
     std::array<Vec3, 2> ends;
-    if (piece.edge < 0) {
+    if (piece.edge.kind == EdgeId::Kind::emitter_edge) {
       const Ring& ring = scene.surfaces[0].rings[0];
-      const auto k = static_cast<std::size_t>(-1 - piece.edge);
+      const std::size_t k = at(piece.edge.id);
       ends = {scene.surfaces[0].frame.to_space(ring[k]),
               scene.surfaces[0].frame.to_space(ring[(k + 1) % ring.size()])};
     } else {
-      ASSERT_LT(piece.edge, opaque.edge_count());
-      ends = opaque.edge_ends(piece.edge);
+      ASSERT_EQ(piece.edge.kind, EdgeId::Kind::edge);
+      ends = opaque.edge_ends(piece.edge.id);
       ++occluded;
     }
     for (const Vec3& p : {piece.from, piece.to})

@@ -1,8 +1,7 @@
 #include "meshing/discontinuity/border_events.h"
 
-#include "meshing/core/light_source.h"
-#include "tests/support/analytic.h"
 #include "tests/support/discontinuity_scenes.h"
+#include "tests/support/lit_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -13,16 +12,12 @@
 namespace halfshade {
 namespace {
 
-using test::Random;
 using test::SceneMaker;
 
 const Vec3 up = Vec3::UnitZ();
 
-struct Staged {
-  explicit Staged(const SceneMaker& maker)
-      : scene(maker.sound()),
-        opaque(scene),
-        stage(scene, opaque, light_sources(scene)[0].surface) {}
+struct BorderScene : test::LitScene {
+  using LitScene::LitScene;
 
   /// The receiver that an input face became.
   int surface_of(int face) const {
@@ -34,73 +29,19 @@ struct Staged {
   }
   std::vector<DiscontinuityCurve> plane_curves(int face) const {
     std::vector<DiscontinuityCurve> curves;
-    emitter_plane_curves(scene, opaque, stage, surface_of(face), curves);
+    emitter_plane_curves(scene, opaque, emitter_scene, surface_of(face), curves);
     return curves;
   }
   std::vector<DiscontinuityCurve> contacts(int face) const {
     std::vector<DiscontinuityCurve> curves;
-    contact_curves(scene, opaque, stage, surface_of(face), curves);
+    contact_curves(scene, opaque, emitter_scene, surface_of(face), curves);
     return curves;
   }
   Span3 ends(const DiscontinuityCurve& curve) const {
     const PlaneFrame& frame = scene.surfaces[static_cast<std::size_t>(curve.receiver)].frame;
     return {frame.to_space(curve.arc.from), frame.to_space(curve.arc.to)};
   }
-  double factor(const Vec3& point, const Vec3& normal) const {
-    VisiblePartFinder finder(opaque);
-    VisiblePart part;
-    finder.find(point, normal, stage.emitter, part);
-    return seen_factor(part, point, normal);
-  }
-
-  SoundScene scene;
-  OpaqueScene opaque;
-  EmitterStage stage;
 };
-
-TEST(SeenFactor, OfAParallelRectangleIsTheClosedForm) {
-  for (const auto& [a, b, c] : {std::array{1., 1., 2.}, {0.3, 2., 0.7}, {5., 0.1, 1.}}) {
-    const Staged staged(SceneMaker().down({0, 0}, {a, b}, c, test::white_light));
-    EXPECT_NEAR(staged.factor(Vec3::Zero(), up), test::point_parallel_rectangle(a, b, c), 1e-13);
-    EXPECT_EQ(staged.factor(Vec3::Zero(), -up), 0);
-  }
-}
-
-TEST(SeenFactor, OfAWallIsTheClosedFormAndItsPartBelowTheHorizonDoesNotCount) {
-  for (const auto& [a, b, c] : {std::array{1., 1., 2.}, {0.3, 2., 0.7}, {2., 0.5, 1.}})
-    for (const double low : {0., -0.4, -3.}) {
-      const Staged staged(SceneMaker().polygon({{c, 0, low}, {c, 0, a}, {c, b, a}, {c, b, low}},
-                                               test::white_light));
-      EXPECT_NEAR(staged.factor(Vec3::Zero(), up), test::point_perpendicular_rectangle(a, b, c),
-                  1e-13);
-    }
-}
-
-TEST(SeenFactor, BehindAnOccluderIsTheRest) {
-  // The occluder at half height hides [0,.6] × [0,.4] of the light.
-  const Staged staged(
-      SceneMaker().down({0, 0}, {1, 1}, 2, test::white_light).up({-0.5, -0.7}, {0.3, 0.2}, 1));
-  const double expected =
-      test::point_parallel_rectangle(1, 1, 2) - test::point_parallel_rectangle(0.6, 0.4, 2);
-  EXPECT_NEAR(staged.factor(Vec3::Zero(), up), expected, 1e-13);
-}
-
-TEST(SeenFactor, OfPiecesDoesNotDependOnWhereTheyLieOnTheirRays) {
-  Random random(1);
-  const std::vector<Vec3> corners = {{-1, 0, 2}, {0, 1.5, 2}, {1, 0.5, 2}};  // clockwise from above
-  for (int round = 0; round < 50; ++round) {
-    VisiblePart plain, scaled;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = corners[k], &b = corners[(k + 1) % 3];
-      plain.pieces.push_back({a, b, 0});
-      scaled.pieces.push_back({random(0.2, 3) * a, random(0.2, 3) * b, 0});
-    }
-    const double factor = seen_factor(plain, Vec3::Zero(), up);
-    EXPECT_GT(factor, 0);
-    EXPECT_NEAR(seen_factor(scaled, Vec3::Zero(), up), factor, 1e-14);
-  }
-  EXPECT_EQ(seen_factor({}, Vec3::Zero(), up), 0);
-}
 
 /// A wall in x = 1.5 beside the light [−.5,.5]² at z = 2; face 1.
 SceneMaker lamp_and_wall(double top) {
@@ -109,26 +50,26 @@ SceneMaker lamp_and_wall(double top) {
 }
 
 TEST(EmitterPlaneCurves, RunWhereAWallCrossesThePlaneOfALamp) {
-  const Staged staged(lamp_and_wall(3));
-  const auto curves = staged.plane_curves(1);
+  const BorderScene lit(lamp_and_wall(3));
+  const auto curves = lit.plane_curves(1);
   ASSERT_EQ(curves.size(), 1u);
   EXPECT_EQ(curves[0].order, 1);
   EXPECT_EQ(curves[0].kind, CurveKind::face);
-  EXPECT_EQ(curves[0].emitter, staged.stage.emitter);
+  EXPECT_EQ(curves[0].emitter, lit.emitter_scene.emitter);
   EXPECT_NEAR(std::abs(curves[0].sight_plane.z()), 1, 1e-12);
-  const Span3 ends = staged.ends(curves[0]);
+  const Span3 ends = lit.ends(curves[0]);
   EXPECT_NEAR(ends.direction().norm(), 2, 1e-9);
   for (const Vec3& p : {ends.from, ends.to})
     EXPECT_NEAR((p - Vec3(1.5, p.y() < 0 ? -1 : 1, 2)).norm(), 0, 1e-9);
 }
 
 TEST(EmitterPlaneCurves, AreWhereTheIrradianceStartsToGrow) {
-  const Staged staged(lamp_and_wall(3));
+  const BorderScene lit(lamp_and_wall(3));
   const Vec3 normal = -Vec3::UnitX();
   double before = 0;
   for (const double depth : {1e-4, 1e-3, 1e-2}) {
-    EXPECT_EQ(staged.factor({1.5, 0.3, 2 + depth}, normal), 0);
-    const double slope = staged.factor({1.5, 0.3, 2 - depth}, normal) / depth;
+    EXPECT_EQ(lit.factor({1.5, 0.3, 2 + depth}, normal), 0);
+    const double slope = lit.factor({1.5, 0.3, 2 - depth}, normal) / depth;
     EXPECT_GT(slope, 0.01) << "of order one";
     if (before > 0) {
       EXPECT_NEAR(slope / before, 1, 0.02);
@@ -138,21 +79,21 @@ TEST(EmitterPlaneCurves, AreWhereTheIrradianceStartsToGrow) {
 }
 
 TEST(EmitterPlaneCurves, AreNoneOnWhatDoesNotReachThePlaneOrLooksAway) {
-  EXPECT_TRUE(Staged(lamp_and_wall(1.9)).plane_curves(1).empty());
-  const Staged away(
+  EXPECT_TRUE(BorderScene(lamp_and_wall(1.9)).plane_curves(1).empty());
+  const BorderScene away(
       SceneMaker().square_light().polygon({{1.5, -1, 0}, {1.5, 1, 0}, {1.5, 1, 3}, {1.5, -1, 3}}));
   EXPECT_TRUE(away.plane_curves(1).empty());
-  const Staged parallel(SceneMaker().square_light().floor().down({1, 1}, {2, 2}, 2));
+  const BorderScene parallel(SceneMaker().square_light().floor().down({1, 1}, {2, 2}, 2));
   for (const int face : {0, 1, 2}) EXPECT_TRUE(parallel.plane_curves(face).empty());
 }
 
 TEST(EmitterPlaneCurves, EndWhereAnOccluderHidesTheWholeLamp) {
   // The sheet in x = 1 ends at y = 0. The lamp's corner (.5, .5) is the last that is seen past it:
   // on the line through (1, 0), which meets the wall at y = −.5.
-  const Staged staged(lamp_and_wall(3).polygon({{1, -3, 1}, {1, -3, 3}, {1, 0, 3}, {1, 0, 1}}));
-  const auto curves = staged.plane_curves(1);
+  const BorderScene lit(lamp_and_wall(3).polygon({{1, -3, 1}, {1, -3, 3}, {1, 0, 3}, {1, 0, 1}}));
+  const auto curves = lit.plane_curves(1);
   ASSERT_EQ(curves.size(), 1u);
-  const Span3 ends = staged.ends(curves[0]);
+  const Span3 ends = lit.ends(curves[0]);
   const auto [low, high] = std::minmax({ends.from.y(), ends.to.y()});
   EXPECT_NEAR(low, -0.5, 1e-9);
   EXPECT_NEAR(high, 1, 1e-9);
@@ -160,23 +101,23 @@ TEST(EmitterPlaneCurves, EndWhereAnOccluderHidesTheWholeLamp) {
 
 TEST(EmitterPlaneCurves, GoOnBehindAnOccluderThatHidesOnlySomeOfTheLamp) {
   // Less wide than the lamp: from no point of the wall does it hide all of it.
-  const Staged staged(
+  const BorderScene lit(
       lamp_and_wall(3).polygon({{1, -0.1, 1}, {1, -0.1, 3}, {1, 0.1, 3}, {1, 0.1, 1}}));
   double length = 0;
-  for (const DiscontinuityCurve& curve : staged.plane_curves(1))
-    length += staged.ends(curve).direction().norm();
+  for (const DiscontinuityCurve& curve : lit.plane_curves(1))
+    length += lit.ends(curve).direction().norm();
   EXPECT_NEAR(length, 2, 1e-9);
 }
 
 TEST(EmitterPlaneCurves, HaveAGapBehindAnOccluderInTheMiddle) {
   // The sheet in x = 1.25 reaches over |y| ≤ .4; the line from (.5, ±.5) past its end (1.25, ±.4)
   // meets the wall at |y| = .4 − .1/3, and the one from (−.5, ±.5) at .4 − .1/7.
-  const Staged staged(
+  const BorderScene lit(
       lamp_and_wall(3).polygon({{1.25, -0.4, 1}, {1.25, -0.4, 3}, {1.25, 0.4, 3}, {1.25, 0.4, 1}}));
-  auto curves = staged.plane_curves(1);
+  auto curves = lit.plane_curves(1);
   ASSERT_EQ(curves.size(), 2u);
   for (const DiscontinuityCurve& curve : curves) {
-    const Span3 ends = staged.ends(curve);
+    const Span3 ends = lit.ends(curve);
     const auto [near, far] = std::minmax({std::abs(ends.from.y()), std::abs(ends.to.y())});
     EXPECT_NEAR(near, 0.4 - 0.1 / 3, 1e-9);
     EXPECT_NEAR(far, 1, 1e-9);
@@ -186,28 +127,28 @@ TEST(EmitterPlaneCurves, HaveAGapBehindAnOccluderInTheMiddle) {
 bool lies_on(const Vec3& p, int axis, double value) { return std::abs(p[axis] - value) < 1e-9; }
 
 TEST(ContactCurves, RunAllRoundABoxBelowTheLight) {
-  const Staged staged(
+  const BorderScene lit(
       SceneMaker().square_light().floor().standing_box({-0.2, -0.3, 0}, {0.3, 0.1, 0.4}));
-  const auto curves = staged.contacts(1);
+  const auto curves = lit.contacts(1);
   double length = 0;
   for (const DiscontinuityCurve& curve : curves) {
     EXPECT_EQ(curve.order, 0);
     EXPECT_EQ(curve.kind, CurveKind::contact);
-    EXPECT_EQ(curve.receiver, staged.surface_of(1));
+    EXPECT_EQ(curve.receiver, lit.surface_of(1));
     EXPECT_TRUE(curve.arc.is_straight);
-    length += staged.ends(curve).direction().norm();
+    length += lit.ends(curve).direction().norm();
   }
   EXPECT_NEAR(length, 2 * (0.5 + 0.4), 1e-9);
 }
 
 TEST(ContactCurves, AreNoneOnSidesThatLookAwayFromTheLight) {
   // The light begins at x, y = −.5, on this side of the planes of the box's far sides.
-  const Staged staged(
+  const BorderScene lit(
       SceneMaker().square_light().floor().standing_box({-0.9, -0.8, 0}, {-0.3, -0.2, 0.7}));
-  const auto curves = staged.contacts(1);
+  const auto curves = lit.contacts(1);
   double along_x = 0, along_y = 0;
   for (const DiscontinuityCurve& curve : curves) {
-    const Span3 ends = staged.ends(curve);
+    const Span3 ends = lit.ends(curve);
     const double length = ends.direction().norm();
     if (lies_on(ends.from, 0, -0.3) && lies_on(ends.to, 0, -0.3))
       along_y += length;
@@ -221,27 +162,26 @@ TEST(ContactCurves, AreNoneOnSidesThatLookAwayFromTheLight) {
 }
 
 TEST(ContactCurves, AreNoneUnderARoof) {
-  const Staged staged(SceneMaker()
-                          .square_light()
-                          .floor()
-                          .standing_box({-0.2, -0.3, 0}, {0.3, 0.1, 0.4})
-                          .up({-3, -3}, {3, 3}, 1));
-  ASSERT_FALSE(
-      staged.scene.surfaces[static_cast<std::size_t>(staged.surface_of(1))].contacts.empty());
-  EXPECT_TRUE(staged.contacts(1).empty());
+  const BorderScene lit(SceneMaker()
+                            .square_light()
+                            .floor()
+                            .standing_box({-0.2, -0.3, 0}, {0.3, 0.1, 0.4})
+                            .up({-3, -3}, {3, 3}, 1));
+  ASSERT_FALSE(lit.scene.surfaces[static_cast<std::size_t>(lit.surface_of(1))].contacts.empty());
+  EXPECT_TRUE(lit.contacts(1).empty());
 }
 
 TEST(ContactCurves, RunOnBothOfTwoSheetsThatCrossInTheLight) {
-  const Staged staged(SceneMaker()
-                          .square_light()
-                          .up({-0.4, -0.4}, {0.3, 0.4}, 0.5)
-                          .polygon({{-1, -0.1, 0}, {1, -0.1, 0}, {1, -0.1, 1}, {-1, -0.1, 1}}));
+  const BorderScene lit(SceneMaker()
+                            .square_light()
+                            .up({-0.4, -0.4}, {0.3, 0.4}, 0.5)
+                            .polygon({{-1, -0.1, 0}, {1, -0.1, 0}, {1, -0.1, 1}, {-1, -0.1, 1}}));
   // Of the sheet that looks along −y the upper part sees some of the light, the lower one none.
   // That which looks up sees the light's parts on either side of the other, which are not equal.
   for (const int face : {1, 2}) {
-    const auto curves = staged.contacts(face);
+    const auto curves = lit.contacts(face);
     ASSERT_EQ(curves.size(), 1u);
-    EXPECT_NEAR(staged.ends(curves[0]).direction().norm(), 0.7, 1e-9);
+    EXPECT_NEAR(lit.ends(curves[0]).direction().norm(), 0.7, 1e-9);
   }
 }
 

@@ -20,6 +20,11 @@ using test::Random;
 
 const Vec3 eye = Vec3::Zero();
 
+/// Negative numbers stand for the light's edges.
+EdgeId id(int edge) { return edge < 0 ? EdgeId::emitter_edge(-1 - edge) : EdgeId::edge(edge); }
+
+EdgeTriple triple(int a, int b, int c, int sign) { return {{id(a), id(b), id(c)}, sign}; }
+
 /// What of the plane lies where normal·p ≤ offset, bounded by an edge.
 struct Half {
   Vec2 normal;
@@ -75,7 +80,7 @@ void add_chain(VisiblePart& out, const Part& part, bool is_hole = false) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t k = is_hole ? i : n - 1 - i;
     const Vec3 a = on_plane(part.corners[k]), b = on_plane(part.corners[(k + 1) % n]);
-    out.pieces.push_back({is_hole ? a : b, is_hole ? b : a, part.edges[k]});
+    out.pieces.push_back({is_hole ? a : b, is_hole ? b : a, id(part.edges[k])});
   }
   out.chain_ends.push_back(static_cast<int>(out.pieces.size()));
 }
@@ -86,9 +91,12 @@ VisiblePart visible(const Part& part) {
   return out;
 }
 
-EventEvidence compare(const VisiblePart& left, const VisiblePart& right, std::vector<int> group) {
-  std::sort(group.begin(), group.end());
-  return compare_sides({eye, left}, {eye, right}, group);
+EventEvidence compare(const VisiblePart& left, const VisiblePart& right,
+                      const std::vector<int>& group) {
+  std::vector<EdgeId> edges;
+  for (const int edge : group) edges.push_back(id(edge));
+  std::sort(edges.begin(), edges.end());
+  return compare_sides({eye, left}, {eye, right}, edges);
 }
 
 const Half below = {Vec2(0, 1), 1, -1}, beside = {Vec2(1, 0), 1, -2};
@@ -103,7 +111,7 @@ TEST(EventEvidence, OfTwoEqualSidesIsNone) {
 TEST(EventEvidence, ACornerThatIsCutOffIsATriangleThatIsHidden) {
   const VisiblePart whole = visible(cut({below, beside}));
   const VisiblePart less = visible(cut({below, beside, {Vec2(1, 1), 1.99, 7}}));
-  const EdgeTriple on_left = {{-2, -1, 7}, -1}, on_right = {{-2, -1, 7}, 1};
+  const EdgeTriple on_left = triple(-2, -1, 7, -1), on_right = triple(-2, -1, 7, 1);
   const EventEvidence left = compare(less, whole, {-1, -2, 7});
   EXPECT_TRUE(left.differs);
   EXPECT_EQ(left.triples, std::vector{on_left});
@@ -113,7 +121,7 @@ TEST(EventEvidence, ACornerThatIsCutOffIsATriangleThatIsHidden) {
 TEST(EventEvidence, ATriangleOfLightThatAppearsIsVisible) {
   const Half last = {Vec2(-1, -1), -1.99, 7};
   const VisiblePart triangle = visible(cut({below, beside, last})), nothing;
-  const EdgeTriple on_left = {{-2, -1, 7}, 1}, on_right = {{-2, -1, 7}, -1};
+  const EdgeTriple on_left = triple(-2, -1, 7, 1), on_right = triple(-2, -1, 7, -1);
   EXPECT_EQ(compare(triangle, nothing, {-1, -2, 7}).triples, std::vector{on_left});
   EXPECT_EQ(compare(nothing, triangle, {-1, -2, 7}).triples, std::vector{on_right});
 }
@@ -127,7 +135,7 @@ TEST(EventEvidence, AnOccludersCornerOverTheBorderHidesATriangle) {
   const auto after = static_cast<std::ptrdiff_t>(side) + 1;
   notched.corners.insert(notched.corners.begin() + after, {{0.01, 1}, {0, 0.99}, {-0.01, 1}});
   notched.edges.insert(notched.edges.begin() + after, {5, 6, -1});
-  const EdgeTriple hidden = {{-1, 5, 6}, -1}, back = {{-1, 5, 6}, 1};
+  const EdgeTriple hidden = triple(-1, 5, 6, -1), back = triple(-1, 5, 6, 1);
   EXPECT_EQ(compare(visible(notched), visible(whole), {-1, 5, 6}).triples, std::vector{hidden});
   EXPECT_EQ(compare(visible(whole), visible(notched), {-1, 5, 6}).triples, std::vector{back});
 }
@@ -223,9 +231,9 @@ TEST(EventEvidence, TriplesAddUpToTheJumpOfTheAreasSecondDerivative) {
     std::vector<int> group;
     for (const Moving& line : lines) group.push_back(line.edge);
     const EventEvidence evidence = compare(visible(left), visible(right), group);
-    const auto line_of = [&](int edge, double time) {
+    const auto line_of = [&](EdgeId edge, double time) {
       return std::find_if(lines.begin(), lines.end(),
-                          [&](const Moving& l) { return l.edge == edge; })
+                          [&](const Moving& l) { return id(l.edge) == edge; })
           ->at(time);
     };
     // At t = 0 the outermost lines make the corner; what they bound is smooth.

@@ -22,6 +22,10 @@ using test::Random;
 
 constexpr double tolerance = 1e-9;
 
+EdgeTriple triple(int a, int b, int c, int sign) {
+  return {{EdgeId::edge(a), EdgeId::edge(b), EdgeId::edge(c)}, sign};
+}
+
 /// A curve that is known by a number: its source is vertex `id`, its triple the edges id to id + 2.
 DiscontinuityCurve curve(int id, const ConicArc& arc, int order = 2, int sign = 1) {
   DiscontinuityCurve result;
@@ -31,7 +35,7 @@ DiscontinuityCurve curve(int id, const ConicArc& arc, int order = 2, int sign = 
   result.kind = arc.is_straight ? CurveKind::ev : CurveKind::eee;
   result.arc = arc;
   result.jump = {1, 2, 3};
-  result.triples = {{{id + 2, id, id + 1}, sign}};
+  result.triples = {triple(id + 2, id, id + 1, sign)};
   CurveSource source;
   source.kind = result.kind;
   source.features[0] = {Feature::Kind::vertex, id};
@@ -74,7 +78,7 @@ Cover cover_at(const std::vector<DiscontinuityCurve>& curves, const Vec2& p, con
     if (!covers(c, p) || std::abs(t.dot(along)) < 1 - 1e-6) continue;
     if (count) ++*count;
     for (const EdgeTriple& triple : c.triples)
-      cover[*std::min_element(triple.edges.begin(), triple.edges.end())] =
+      cover[std::min_element(triple.edges.begin(), triple.edges.end())->id] =
           triple.sign * (t.dot(along) > 0 ? 1 : -1);
   }
   return cover;
@@ -151,8 +155,8 @@ TEST(MergeCurves, TwoThatOverlapBecomeThree) {
   EXPECT_EQ(curves[1].kind, CurveKind::face);
   // The second one ran the other way: what was on its left is on its right now.
   ASSERT_EQ(curves[1].triples.size(), 2u);
-  EXPECT_EQ(curves[1].triples[0], (EdgeTriple{{0, 1, 2}, 1}));
-  EXPECT_EQ(curves[1].triples[1], (EdgeTriple{{9, 10, 11}, -1}));
+  EXPECT_EQ(curves[1].triples[0], triple(0, 1, 2, 1));
+  EXPECT_EQ(curves[1].triples[1], triple(9, 10, 11, -1));
   EXPECT_EQ(curves[1].jump, (std::array<double, 3>{0, 0, 0}));
 }
 
@@ -161,7 +165,7 @@ TEST(MergeCurves, EqualTriplesCountOnceAndOppositeOnesTwice) {
     std::vector<DiscontinuityCurve> curves = {segment(0, {0, 0}, {1, 0}),
                                               segment(7, {0, 0}, {1, 0})};
     if (reversed) curves[1].arc = straight_arc({1, 0}, {0, 0});
-    curves[1].triples = {{{0, 1, 2}, sign}};
+    curves[1].triples = {triple(0, 1, 2, sign)};
     merge_coincident(curves, tolerance);
     EXPECT_EQ(curves.size(), 1u);
     EXPECT_EQ(curves[0].sources.size(), 2u);

@@ -1,8 +1,9 @@
 #include "meshing/discontinuity/swath_tracer.h"
 
-#include "meshing/core/light_source.h"
+#include "meshing/discontinuity/rounding.h"
 #include "meshing/events/events.h"
 #include "tests/support/discontinuity_scenes.h"
+#include "tests/support/lit_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -19,17 +20,14 @@ namespace {
 using test::SceneMaker;
 using Stretch = std::array<double, 2>;
 
-struct Traced {
+struct Traced : test::LitScene {
   explicit Traced(SoundScene sound)
-      : scene(std::move(sound)),
-        opaque(scene),
-        stage(scene, opaque, light_sources(scene).at(0).surface),
-        tracer(scene, opaque, stage) {}
+      : LitScene(std::move(sound)), tracer(scene, opaque, emitter_scene) {}
   explicit Traced(const SceneMaker& maker) : Traced(maker.sound()) {}
 
   int edge_between(const Vec3& a, const Vec3& b) const {
-    for (std::size_t e = 0; e < stage.edges.size(); ++e) {
-      const Span3& span = stage.edges[e].whole;
+    for (std::size_t e = 0; e < emitter_scene.edges.size(); ++e) {
+      const Span3& span = emitter_scene.edges[e].whole;
       if (((span.from - a).norm() < 1e-9 && (span.to - b).norm() < 1e-9) ||
           ((span.from - b).norm() < 1e-9 && (span.to - a).norm() < 1e-9))
         return static_cast<int>(e);
@@ -41,7 +39,7 @@ struct Traced {
   /// Curves of the swaths through an edge and a point.
   std::vector<DiscontinuityCurve> edge_and_point(int edge, const Vec3& apex) {
     std::vector<DiscontinuityCurve> curves;
-    edge_swaths(stage, edge, [&](const Swath& swath) {
+    edge_swaths(emitter_scene, edge, [&](const Swath& swath) {
       if ((swath.apex - apex).norm() < 1e-9) tracer.trace(swath, curves);
     });
     return curves;
@@ -70,9 +68,6 @@ struct Traced {
     return joined;
   }
 
-  SoundScene scene;
-  OpaqueScene opaque;
-  EmitterStage stage;
   SwathTracer tracer;
 };
 
@@ -107,7 +102,7 @@ TEST(SwathTracer, FollowsASwathOfS1ToWhereSimilarTrianglesPutIt) {
     EXPECT_EQ(curve.kind, CurveKind::ev);
     EXPECT_EQ(curve.order, 1) << "the light's side is parallel to the edge";
     EXPECT_TRUE(curve.arc.is_straight);
-    EXPECT_EQ(curve.emitter, traced.stage.emitter);
+    EXPECT_EQ(curve.emitter, traced.emitter_scene.emitter);
     EXPECT_EQ(traced.scene.surfaces[static_cast<std::size_t>(curve.receiver)].frame.origin.z(), 0);
     // Normal to the plane of sight: of (−.125, ·, −1) and y.
     EXPECT_NEAR(std::abs(curve.sight_plane.dot(Vec3(1, 0, -0.125).normalized())), 1, 1e-12);
@@ -203,14 +198,14 @@ TEST(SwathTracer, FollowsALineOfSecondOrder) {
 
 TEST(SwathTracer, CurvesOfThreeEdgesLieOnTheirCriticalConic) {
   Traced traced(test::three_skew_slats());
-  const auto count = static_cast<int>(traced.stage.edges.size());
+  const auto count = static_cast<int>(traced.emitter_scene.edges.size());
   int found = 0;
   for (int a = 0; a < count; ++a)
     for (int b = a + 1; b < count; ++b)
       for (int c = b + 1; c < count; ++c) {
         std::vector<DiscontinuityCurve> curves;
         bool is_planar = false;
-        triple_swath(traced.stage, a, b, c, [&](const Swath& swath) {
+        triple_swath(traced.emitter_scene, a, b, c, [&](const Swath& swath) {
           is_planar = is_planar || swath.is_planar;
           traced.tracer.trace(swath, curves);
         });
@@ -218,7 +213,8 @@ TEST(SwathTracer, CurvesOfThreeEdgesLieOnTheirCriticalConic) {
         std::array<Line3, 3> lines;
         for (std::size_t k = 0; k < 3; ++k) {
           const auto e = static_cast<std::size_t>(std::array{a, b, c}[k]);
-          lines[k] = {traced.stage.edges[e].whole.from, traced.stage.edges[e].whole.direction()};
+          lines[k] = {traced.emitter_scene.edges[e].whole.from,
+                      traced.emitter_scene.edges[e].whole.direction()};
         }
         for (const DiscontinuityCurve& curve : curves) {
           const PlaneFrame& plane =
@@ -245,9 +241,9 @@ TEST(SwathTracer, KeepsOnlyLinesAcrossWhichWhatIsSeenDiffers) {
                     .polygon({{0.2, 0, 2}, {1.2, 0, 2}, {0.7, 0, 1.7}}, test::two_sided_grey)
                     .polygon({{0.6, 0.1, 1}, {1.4, 0.5, 1}, {1.3, 0.9, 1}}));
   std::vector<DiscontinuityCurve> curves;
-  for (std::size_t v = 0; v < traced.stage.vertices.size(); ++v)
-    if ((traced.stage.vertices[v].position - Vec3(0.6, 0.1, 1)).norm() < 1e-9)
-      vertex_swaths(traced.stage, static_cast<int>(v), [&](const Swath& swath) {
+  for (std::size_t v = 0; v < traced.emitter_scene.vertices.size(); ++v)
+    if ((traced.emitter_scene.vertices[v].position - Vec3(0.6, 0.1, 1)).norm() < 1e-9)
+      vertex_swaths(traced.emitter_scene, static_cast<int>(v), [&](const Swath& swath) {
         if (swath.base.from.y() == 0 && swath.base.to.y() == 0) traced.tracer.trace(swath, curves);
       });
   expect_ranges(
@@ -267,8 +263,9 @@ TEST(SwathTracer, GivesTheSameCurvesAgain) {
   Traced traced(test::one_triangle()), other(test::one_triangle());
   const int edge = traced.edge_between({.9, .2, 1}, {.2, .7, 1});
   std::vector<DiscontinuityCurve> rest;
-  for (std::size_t e = 0; e < other.stage.edges.size(); ++e)  // what it did before does not matter
-    edge_swaths(other.stage, static_cast<int>(e),
+  for (std::size_t e = 0; e < other.emitter_scene.edges.size();
+       ++e)  // what it did before does not matter
+    edge_swaths(other.emitter_scene, static_cast<int>(e),
                 [&](const Swath& swath) { other.tracer.trace(swath, rest); });
   for (const Vec3& apex : {Vec3(-0.5, -0.5, 2), Vec3(0.5, 0.5, 2)}) {
     const auto a = traced.edge_and_point(edge, apex), b = other.edge_and_point(edge, apex);

@@ -1,6 +1,6 @@
 #include "meshing/events/events.h"
 
-#include "tests/support/staged.h"
+#include "tests/support/lit_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 namespace halfshade {
 namespace {
 
+using test::LitScene;
 using test::Random;
 using test::SceneMaker;
-using test::Staged;
 
 template <class Generate>
 std::vector<Swath> collect(const Generate& generate) {
@@ -25,25 +25,25 @@ std::vector<Swath> collect(const Generate& generate) {
   return swaths;
 }
 
-std::vector<Swath> of_edge(const EmitterStage& stage, int edge) {
-  return collect([&](const SwathSink& sink) { edge_swaths(stage, edge, sink); });
+std::vector<Swath> of_edge(const EmitterScene& emitter_scene, int edge) {
+  return collect([&](const SwathSink& sink) { edge_swaths(emitter_scene, edge, sink); });
 }
 
-std::vector<Swath> of_vertex(const EmitterStage& stage, int vertex) {
-  return collect([&](const SwathSink& sink) { vertex_swaths(stage, vertex, sink); });
+std::vector<Swath> of_vertex(const EmitterScene& emitter_scene, int vertex) {
+  return collect([&](const SwathSink& sink) { vertex_swaths(emitter_scene, vertex, sink); });
 }
 
-std::vector<Swath> of_face(const Staged& staged, int receiver) {
+std::vector<Swath> of_face(const LitScene& lit, int receiver) {
   return collect([&](const SwathSink& sink) {
-    face_swaths(staged.scene, staged.stage, staged.opaque, receiver, sink);
+    face_swaths(lit.scene, lit.emitter_scene, lit.opaque, receiver, sink);
   });
 }
 
-std::vector<Swath> of_triple(const EmitterStage& stage, int a, int b, int c) {
-  return collect([&](const SwathSink& sink) { triple_swath(stage, a, b, c, sink); });
+std::vector<Swath> of_triple(const EmitterScene& emitter_scene, int a, int b, int c) {
+  return collect([&](const SwathSink& sink) { triple_swath(emitter_scene, a, b, c, sink); });
 }
 
-int count(const std::vector<StageEdge>& edges) { return static_cast<int>(edges.size()); }
+int count(const std::vector<SilhouetteEdge>& edges) { return static_cast<int>(edges.size()); }
 
 double distance_to_segment(const Vec3& p, const Span3& span) {
   const Vec3 along = span.direction();
@@ -52,8 +52,8 @@ double distance_to_segment(const Vec3& p, const Span3& span) {
 }
 
 /// Where the line from b through a meets the light's plane; a is nearer to it.
-Vec3 onto_light(const EmitterStage& stage, const Vec3& a, const Vec3& b) {
-  const double h = stage.frame.height(a), g = stage.frame.height(b);
+Vec3 onto_light(const EmitterScene& emitter_scene, const Vec3& a, const Vec3& b) {
+  const double h = emitter_scene.frame.height(a), g = emitter_scene.frame.height(b);
   return b + g / (g - h) * (a - b);
 }
 
@@ -66,34 +66,38 @@ std::vector<SoundScene> scenes() {
 
 TEST(EdgeSwaths, JoinEveryCornerOfTheLightWithTheEdge) {
   for (const SoundScene& scene : scenes()) {
-    const Staged staged(scene);
-    const EmitterStage& stage = staged.stage;
-    for (int e = 0; e < count(stage.edges); ++e) {
-      const StageEdge& edge = stage.edges[static_cast<std::size_t>(e)];
+    const LitScene lit(scene);
+    const EmitterScene& emitter_scene = lit.emitter_scene;
+    for (int e = 0; e < count(emitter_scene.edges); ++e) {
+      const SilhouetteEdge& edge = emitter_scene.edges[static_cast<std::size_t>(e)];
       std::size_t from_corners = 0;
-      for (const Swath& swath : of_edge(stage, e)) {
+      for (const Swath& swath : of_edge(emitter_scene, e)) {
         EXPECT_TRUE(swath.is_planar);
         EXPECT_EQ(swath.source.kind, CurveKind::ev);
         EXPECT_EQ(swath.silhouettes[0], e);
         EXPECT_TRUE(std::is_sorted(swath.group.begin(), swath.group.end()));
-        EXPECT_TRUE(std::binary_search(swath.group.begin(), swath.group.end(), edge.id));
+        EXPECT_TRUE(
+            std::binary_search(swath.group.begin(), swath.group.end(), EdgeId::edge(edge.id)));
         EXPECT_LT(distance_to_segment(swath.base.from, edge.front), 1e-9);
         EXPECT_LT(distance_to_segment(swath.base.to, edge.front), 1e-9);
         if (!swath.ends_on_outline) {
-          const StageVertex& vertex = stage.vertices.at(static_cast<std::size_t>(swath.corner));
+          const SilhouetteVertex& vertex =
+              emitter_scene.vertices.at(static_cast<std::size_t>(swath.corner));
           EXPECT_EQ(swath.apex, vertex.position);
           continue;
         }
         ++from_corners;
-        EXPECT_TRUE(std::any_of(stage.corners.begin(), stage.corners.end(), [&](const auto& c) {
-          return c.position == swath.apex && c.feature == swath.source.features[0];
-        }));
+        EXPECT_TRUE(std::any_of(
+            emitter_scene.corners.begin(), emitter_scene.corners.end(), [&](const auto& c) {
+              return c.position == swath.apex && c.feature == swath.source.features[0];
+            }));
       }
       const Vec3 along = edge.whole.direction().normalized();
-      const auto off_its_line = std::count_if(
-          stage.corners.begin(), stage.corners.end(), [&](const OutlinePoint& corner) {
-            return along.cross(corner.position - edge.whole.from).norm() > 1e-9;
-          });
+      const auto off_its_line =
+          std::count_if(emitter_scene.corners.begin(), emitter_scene.corners.end(),
+                        [&](const OutlinePoint& corner) {
+                          return along.cross(corner.position - edge.whole.from).norm() > 1e-9;
+                        });
       EXPECT_EQ(from_corners, static_cast<std::size_t>(off_its_line));
     }
   }
@@ -103,21 +107,21 @@ TEST(EdgeSwaths, HoldEveryLineFromTheLightThroughAVertexAndTheEdge) {
   Random random(1);
   int lines = 0, none = 0;
   for (const SoundScene& scene : scenes()) {
-    const Staged staged(scene);
-    const EmitterStage& stage = staged.stage;
-    for (int e = 0; e < count(stage.edges); ++e) {
-      const StageEdge& edge = stage.edges[static_cast<std::size_t>(e)];
-      const std::vector<Swath> swaths = of_edge(stage, e);
-      for (const StageVertex& vertex : stage.vertices) {
+    const LitScene lit(scene);
+    const EmitterScene& emitter_scene = lit.emitter_scene;
+    for (int e = 0; e < count(emitter_scene.edges); ++e) {
+      const SilhouetteEdge& edge = emitter_scene.edges[static_cast<std::size_t>(e)];
+      const std::vector<Swath> swaths = of_edge(emitter_scene, e);
+      for (const SilhouetteVertex& vertex : emitter_scene.vertices) {
         if (distance_to_segment(vertex.position, edge.whole) < 1e-6) continue;
         bool is_lit = false;
         for (int k = 0; k < 10; ++k) {
           const Vec3 p = edge.front.at(random(0, 1));
-          const double height = stage.frame.height(p);
+          const double height = emitter_scene.frame.height(p);
           if (std::abs(height - vertex.height) < 1e-3) continue;
           const bool is_nearer = height < vertex.height;
-          if (!stage.contains(is_nearer ? onto_light(stage, p, vertex.position)
-                                        : onto_light(stage, vertex.position, p)))
+          if (!emitter_scene.contains(is_nearer ? onto_light(emitter_scene, p, vertex.position)
+                                                : onto_light(emitter_scene, vertex.position, p)))
             continue;
           is_lit = true;
           ++lines;
@@ -137,18 +141,18 @@ TEST(EdgeSwaths, HoldEveryLineFromTheLightThroughAVertexAndTheEdge) {
 
 TEST(VertexSwaths, JoinTheVertexWithEveryPieceOfTheOutline) {
   for (const SoundScene& scene : scenes()) {
-    const Staged staged(scene);
-    const EmitterStage& stage = staged.stage;
-    for (std::size_t v = 0; v < stage.vertices.size(); ++v) {
-      const std::vector<Swath> swaths = of_vertex(stage, static_cast<int>(v));
-      ASSERT_EQ(swaths.size(), stage.outline.size());
+    const LitScene lit(scene);
+    const EmitterScene& emitter_scene = lit.emitter_scene;
+    for (std::size_t v = 0; v < emitter_scene.vertices.size(); ++v) {
+      const std::vector<Swath> swaths = of_vertex(emitter_scene, static_cast<int>(v));
+      ASSERT_EQ(swaths.size(), emitter_scene.outline.size());
       for (std::size_t k = 0; k < swaths.size(); ++k) {
-        EXPECT_EQ(swaths[k].apex, stage.vertices[v].position);
-        EXPECT_EQ(swaths[k].base.from, stage.outline[k].span.from);
+        EXPECT_EQ(swaths[k].apex, emitter_scene.vertices[v].position);
+        EXPECT_EQ(swaths[k].base.from, emitter_scene.outline[k].span.from);
         EXPECT_TRUE(swaths[k].ends_on_outline);
         EXPECT_EQ(swaths[k].corner, static_cast<int>(v));
         EXPECT_TRUE(std::binary_search(swaths[k].group.begin(), swaths[k].group.end(),
-                                       stage.outline[k].id));
+                                       emitter_scene.outline[k].id));
       }
     }
   }
@@ -156,32 +160,32 @@ TEST(VertexSwaths, JoinTheVertexWithEveryPieceOfTheOutline) {
 
 TEST(EventSwaths, AreOfFirstOrderIfEdgesOfTheGroupLieInTheirPlane) {
   // All edges of light and occluder are parallel in pairs; a turned occluder has none that is.
-  const Staged parallel(test::s1());
+  const LitScene parallel(test::s1());
   int first = 0;
-  for (int e = 0; e < count(parallel.stage.edges); ++e) {
-    if (parallel.stage.edges[static_cast<std::size_t>(e)].whole.from.z() < 0.5) continue;
-    for (const Swath& swath : of_edge(parallel.stage, e))
+  for (int e = 0; e < count(parallel.emitter_scene.edges); ++e) {
+    if (parallel.emitter_scene.edges[static_cast<std::size_t>(e)].whole.from.z() < 0.5) continue;
+    for (const Swath& swath : of_edge(parallel.emitter_scene, e))
       first += swath.ends_on_outline && swath.may_be_first_order;
   }
   EXPECT_EQ(first, 4 * 4) << "each edge with each corner, which has a side along the edge";
-  const Staged turned(SceneMaker().square_light().floor().polygon(
+  const LitScene turned(SceneMaker().square_light().floor().polygon(
       {{0.3, 0.1, 1}, {-0.1, 0.4, 1.1}, {-0.2, -0.3, 0.9}}));
   int of_occluder = 0;
-  for (int e = 0; e < count(turned.stage.edges); ++e) {
-    if (turned.stage.edges[static_cast<std::size_t>(e)].whole.from.z() < 0.5) continue;
+  for (int e = 0; e < count(turned.emitter_scene.edges); ++e) {
+    if (turned.emitter_scene.edges[static_cast<std::size_t>(e)].whole.from.z() < 0.5) continue;
     ++of_occluder;
-    for (const Swath& swath : of_edge(turned.stage, e))
+    for (const Swath& swath : of_edge(turned.emitter_scene, e))
       EXPECT_FALSE(swath.ends_on_outline && swath.may_be_first_order);
   }
   EXPECT_EQ(of_occluder, 3);
 }
 
 TEST(FaceSwaths, LieInThePlaneOfAFaceThatCutsTheLight) {
-  const Staged staged(test::face_plane());  // of the box's planes only y = .05 and x = .9 do
+  const LitScene lit(test::face_plane());  // of the box's planes only y = .05 and x = .9 do
   int cutting = 0;
-  for (int r = 0; r < static_cast<int>(staged.scene.surfaces.size()); ++r) {
-    const PlaneFrame& plane = staged.scene.surfaces[static_cast<std::size_t>(r)].frame;
-    const std::vector<Swath> swaths = of_face(staged, r);
+  for (int r = 0; r < static_cast<int>(lit.scene.surfaces.size()); ++r) {
+    const PlaneFrame& plane = lit.scene.surfaces[static_cast<std::size_t>(r)].frame;
+    const std::vector<Swath> swaths = of_face(lit, r);
     const bool cuts =
         (std::abs(plane.normal.y()) > 0.9 && std::abs(plane.origin.y() - 0.05) < 1e-9) ||
         (std::abs(plane.normal.x()) > 0.9 && std::abs(plane.origin.x() - 0.9) < 1e-9);
@@ -200,8 +204,8 @@ TEST(FaceSwaths, LieInThePlaneOfAFaceThatCutsTheLight) {
 
 TEST(MayLineUp, IsTrueForSpansThatALineFromTheLightMeets) {
   Random random(2);
-  const Staged staged(test::l_shaped_light());
-  const EmitterStage& stage = staged.stage;
+  const LitScene lit(test::l_shaped_light());
+  const EmitterScene& emitter_scene = lit.emitter_scene;
   const auto anywhere = [&] { return random.in_box({-1.5, -1.5, 0.05}, {1.5, 1.5, 1.95}); };
   int met = 0, ruled_out = 0;
   for (int round = 0; round < 2000; ++round) {
@@ -212,11 +216,12 @@ TEST(MayLineUp, IsTrueForSpansThatALineFromTheLightMeets) {
     for (int k = 0; k < 100 && !is_met; ++k) {
       const Vec3 p = a.at(random(0, 1)), q = b.at(random(0, 1));
       if (std::abs(p.z() - q.z()) < 1e-3 || std::max(p.z(), q.z()) > 1.99) continue;
-      is_met = stage.contains(p.z() > q.z() ? onto_light(stage, p, q) : onto_light(stage, q, p));
+      is_met = emitter_scene.contains(p.z() > q.z() ? onto_light(emitter_scene, p, q)
+                                                    : onto_light(emitter_scene, q, p));
     }
-    const bool may = may_line_up(stage, a, b);
+    const bool may = may_line_up(emitter_scene, a, b);
     EXPECT_TRUE(may || !is_met) << round;
-    EXPECT_EQ(may_line_up(stage, b, a), may);
+    EXPECT_EQ(may_line_up(emitter_scene, b, a), may);
     met += is_met;
     ruled_out += !may;
   }
@@ -226,25 +231,26 @@ TEST(MayLineUp, IsTrueForSpansThatALineFromTheLightMeets) {
 
 TEST(LaterPartners, AreInOrderAndLaterAndMayLineUp) {
   for (const SoundScene& scene : scenes()) {
-    const Staged staged(scene);
-    const EmitterStage& stage = staged.stage;
-    for (int a = 0; a < count(stage.edges); ++a) {
-      const std::vector<int> partners = later_partners(stage, a);
+    const LitScene lit(scene);
+    const EmitterScene& emitter_scene = lit.emitter_scene;
+    for (int a = 0; a < count(emitter_scene.edges); ++a) {
+      const std::vector<int> partners = later_partners(emitter_scene, a);
       EXPECT_TRUE(std::is_sorted(partners.begin(), partners.end()));
-      for (int b = 0; b < count(stage.edges); ++b) {
+      for (int b = 0; b < count(emitter_scene.edges); ++b) {
         const bool expected =
-            b > a && may_line_up(stage, stage.edges[static_cast<std::size_t>(a)].front,
-                                 stage.edges[static_cast<std::size_t>(b)].front);
+            b > a &&
+            may_line_up(emitter_scene, emitter_scene.edges[static_cast<std::size_t>(a)].front,
+                        emitter_scene.edges[static_cast<std::size_t>(b)].front);
         EXPECT_EQ(std::binary_search(partners.begin(), partners.end(), b), expected);
       }
     }
   }
 }
 
-/// The stage's edge between two points.
-int edge_between(const EmitterStage& stage, const Vec3& a, const Vec3& b) {
-  for (int e = 0; e < count(stage.edges); ++e) {
-    const Span3& span = stage.edges[static_cast<std::size_t>(e)].whole;
+/// The silhouette edge between two points.
+int edge_between(const EmitterScene& emitter_scene, const Vec3& a, const Vec3& b) {
+  for (int e = 0; e < count(emitter_scene.edges); ++e) {
+    const Span3& span = emitter_scene.edges[static_cast<std::size_t>(e)].whole;
     if (((span.from - a).norm() < 1e-9 && (span.to - b).norm() < 1e-9) ||
         ((span.from - b).norm() < 1e-9 && (span.to - a).norm() < 1e-9))
       return e;
@@ -254,12 +260,12 @@ int edge_between(const EmitterStage& stage, const Vec3& a, const Vec3& b) {
 }
 
 TEST(TripleSwath, OfSkewEdgesRunsThroughAllThree) {
-  const Staged staged(test::three_skew_slats());
-  const EmitterStage& stage = staged.stage;
-  const int a = edge_between(stage, {-1, -0.9, 0.5}, {1.1, 0.8, 0.55});
-  const int b = edge_between(stage, {-1, 0.7, 0.9}, {1.1, -0.9, 0.95});
-  const int c = edge_between(stage, {-0.1, -1, 1.3}, {0.15, 1.1, 1.35});
-  const std::vector<Swath> swaths = of_triple(stage, a, b, c);
+  const LitScene lit(test::three_skew_slats());
+  const EmitterScene& emitter_scene = lit.emitter_scene;
+  const int a = edge_between(emitter_scene, {-1, -0.9, 0.5}, {1.1, 0.8, 0.55});
+  const int b = edge_between(emitter_scene, {-1, 0.7, 0.9}, {1.1, -0.9, 0.95});
+  const int c = edge_between(emitter_scene, {-0.1, -1, 1.3}, {0.15, 1.1, 1.35});
+  const std::vector<Swath> swaths = of_triple(emitter_scene, a, b, c);
   ASSERT_EQ(swaths.size(), 1u);
   EXPECT_FALSE(swaths[0].is_planar);
   EXPECT_EQ(swaths[0].group.size(), 3u);
@@ -267,9 +273,9 @@ TEST(TripleSwath, OfSkewEdgesRunsThroughAllThree) {
   EXPECT_EQ(swaths[0].source.kind, CurveKind::eee);
   int met = 0;
   for (int k = 1; k < 100; ++k)
-    if (const auto line = line_at(swaths[0], stage.frame, 0.01 * k)) {
+    if (const auto line = line_at(swaths[0], emitter_scene.frame, 0.01 * k)) {
       for (const int e : {a, b, c}) {
-        const Span3& span = stage.edges[static_cast<std::size_t>(e)].whole;
+        const Span3& span = emitter_scene.edges[static_cast<std::size_t>(e)].whole;
         EXPECT_NEAR(
             line->direction.cross(span.direction()).normalized().dot(span.from - line->start), 0,
             1e-9);
@@ -281,16 +287,16 @@ TEST(TripleSwath, OfSkewEdgesRunsThroughAllThree) {
 
 TEST(TripleSwath, OfTwoEdgesInAPlaneRunsThroughWhereTheThirdCrossesIt) {
   // The first two lie in x = 0, the third crosses it in (0, .1, 1.2).
-  const Staged staged(SceneMaker()
-                          .square_light()
-                          .polygon({{0, -0.4, 0.5}, {0, 0.4, 0.6}, {0.6, 0, 0.55}})
-                          .polygon({{0, -0.3, 1.6}, {0, 0.4, 1.7}, {-0.6, 0, 1.65}})
-                          .polygon({{-0.2, 0, 1.2}, {0.2, 0.2, 1.2}, {0.3, -0.4, 1.1}}));
-  const EmitterStage& stage = staged.stage;
-  const int a = edge_between(stage, {0, -0.4, 0.5}, {0, 0.4, 0.6});
-  const int b = edge_between(stage, {0, -0.3, 1.6}, {0, 0.4, 1.7});
-  const int c = edge_between(stage, {-0.2, 0, 1.2}, {0.2, 0.2, 1.2});
-  const std::vector<Swath> swaths = of_triple(stage, a, b, c);
+  const LitScene lit(SceneMaker()
+                         .square_light()
+                         .polygon({{0, -0.4, 0.5}, {0, 0.4, 0.6}, {0.6, 0, 0.55}})
+                         .polygon({{0, -0.3, 1.6}, {0, 0.4, 1.7}, {-0.6, 0, 1.65}})
+                         .polygon({{-0.2, 0, 1.2}, {0.2, 0.2, 1.2}, {0.3, -0.4, 1.1}}));
+  const EmitterScene& emitter_scene = lit.emitter_scene;
+  const int a = edge_between(emitter_scene, {0, -0.4, 0.5}, {0, 0.4, 0.6});
+  const int b = edge_between(emitter_scene, {0, -0.3, 1.6}, {0, 0.4, 1.7});
+  const int c = edge_between(emitter_scene, {-0.2, 0, 1.2}, {0.2, 0.2, 1.2});
+  const std::vector<Swath> swaths = of_triple(emitter_scene, a, b, c);
   ASSERT_EQ(swaths.size(), 1u);
   EXPECT_TRUE(swaths[0].is_planar);
   EXPECT_TRUE(swaths[0].may_be_first_order);
@@ -299,34 +305,35 @@ TEST(TripleSwath, OfTwoEdgesInAPlaneRunsThroughWhereTheThirdCrossesIt) {
 }
 
 TEST(TripleSwath, OfEdgesThatShareAVertexIsNone) {
-  const Staged staged(SceneMaker()
-                          .square_light()
-                          .polygon({{0, -0.4, 0.5}, {0, 0.4, 0.6}, {0.6, 0, 0.55}})
-                          .polygon({{-0.2, 0, 1.2}, {0.2, 0.2, 1.3}, {0.3, -0.4, 1.4}}));
-  const EmitterStage& stage = staged.stage;
-  const int a = edge_between(stage, {0, -0.4, 0.5}, {0, 0.4, 0.6});
-  const int b = edge_between(stage, {0, 0.4, 0.6}, {0.6, 0, 0.55});
-  const int c = edge_between(stage, {-0.2, 0, 1.2}, {0.2, 0.2, 1.3});
-  EXPECT_TRUE(of_triple(stage, a, b, c).empty()) << "the third does not reach their plane";
+  const LitScene lit(SceneMaker()
+                         .square_light()
+                         .polygon({{0, -0.4, 0.5}, {0, 0.4, 0.6}, {0.6, 0, 0.55}})
+                         .polygon({{-0.2, 0, 1.2}, {0.2, 0.2, 1.3}, {0.3, -0.4, 1.4}}));
+  const EmitterScene& emitter_scene = lit.emitter_scene;
+  const int a = edge_between(emitter_scene, {0, -0.4, 0.5}, {0, 0.4, 0.6});
+  const int b = edge_between(emitter_scene, {0, 0.4, 0.6}, {0.6, 0, 0.55});
+  const int c = edge_between(emitter_scene, {-0.2, 0, 1.2}, {0.2, 0.2, 1.3});
+  EXPECT_TRUE(of_triple(emitter_scene, a, b, c).empty()) << "the third does not reach their plane";
 }
 
 TEST(PairSwaths, JoinTwoEdgesWithEveryPieceOfTheOutline) {
-  const Staged staged(test::three_skew_slats());
-  const EmitterStage& stage = staged.stage;
-  const int a = edge_between(stage, {-1, -0.9, 0.5}, {1.1, 0.8, 0.55});
-  const int b = edge_between(stage, {-1, 0.7, 0.9}, {1.1, -0.9, 0.95});
+  const LitScene lit(test::three_skew_slats());
+  const EmitterScene& emitter_scene = lit.emitter_scene;
+  const int a = edge_between(emitter_scene, {-1, -0.9, 0.5}, {1.1, 0.8, 0.55});
+  const int b = edge_between(emitter_scene, {-1, 0.7, 0.9}, {1.1, -0.9, 0.95});
   const std::vector<Swath> swaths =
-      collect([&](const SwathSink& sink) { pair_swaths(stage, a, b, sink); });
+      collect([&](const SwathSink& sink) { pair_swaths(emitter_scene, a, b, sink); });
   ASSERT_EQ(swaths.size(), 4u);
-  std::set<int> pieces;
+  std::set<EdgeId> pieces;
   for (const Swath& swath : swaths) {
     EXPECT_FALSE(swath.is_planar);
     EXPECT_TRUE(swath.ends_on_outline);
     ASSERT_EQ(swath.group.size(), 3u);
     pieces.insert(swath.group[0]);
-    EXPECT_EQ(swath.group[1], stage.edges[static_cast<std::size_t>(std::min(a, b))].id);
+    EXPECT_EQ(swath.group[1], EdgeId::edge(emitter_scene.edges[at(std::min(a, b))].id));
   }
-  EXPECT_EQ(pieces, (std::set{-1, -2, -3, -4}));
+  EXPECT_EQ(pieces, (std::set{EdgeId::emitter_edge(0), EdgeId::emitter_edge(1),
+                              EdgeId::emitter_edge(2), EdgeId::emitter_edge(3)}));
 }
 
 }  // namespace

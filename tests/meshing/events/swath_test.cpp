@@ -283,7 +283,7 @@ bool hits(const SightLine& line, const Vec3& low, const Vec3& high) {
   return near <= far;
 }
 
-TEST(SwathHull, NeverExcludesABoxThatALineHits) {
+TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
   Random random(8);
   int hit = 0, excluded = 0;
   for (int round = 0; round < 1500; ++round) {
@@ -295,7 +295,7 @@ TEST(SwathHull, NeverExcludesABoxThatALineHits) {
     const double width = limits[k] - limits[k - 1], from = random(0, 1), to = random(from, 1);
     const double t0 = limits[k - 1] + from * width, t1 = limits[k - 1] + to * width;
     if (!line_at(swath, emitter, 0.5 * (t0 + t1))) continue;
-    const SwathHull hull = hull_of(swath, t0, t1);
+    const SwathBounds bounds = bounds_of(swath, t0, t1);
     for (int box = 0; box < 10; ++box) {
       Vec3 low = random.in_box({-2, -2, -1}, {2, 2, 2});
       if (box % 2 == 0) {  // near one of its lines
@@ -308,17 +308,17 @@ TEST(SwathHull, NeverExcludesABoxThatALineHits) {
       for (int i = 0; i <= 50; ++i)
         if (const auto line = line_at(swath, emitter, t0 + 0.02 * i * (t1 - t0)))
           is_hit = is_hit || hits(*line, low, high);
-      const bool meets = hull.meets(low, high, 1e-12);
+      const bool meets = bounds.meets(low, high, 1e-12);
       EXPECT_TRUE(meets || !is_hit) << round;
       hit += is_hit;
       excluded += !meets;
     }
   }
   EXPECT_GT(hit, 1500);
-  EXPECT_GT(excluded, 3000) << "a hull that excludes nothing is of no use";
+  EXPECT_GT(excluded, 3000) << "a bounds that excludes nothing is of no use";
 }
 
-TEST(SwathHull, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
+TEST(SwathBounds, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
   Random random(11);
   int compared = 0;
   for (int round = 0; round < 500; ++round) {
@@ -326,29 +326,29 @@ TEST(SwathHull, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
     const double t = random(0, 1);
     const auto line = line_at(swath, emitter, t);
     if (!line || std::abs(line->direction.z()) < 0.2) continue;
-    const SwathHull hull = hull_of(swath, t, t);
-    if ((hull.near.center() - hull.far.center()).norm() < 0.1) continue;
+    const SwathBounds bounds = bounds_of(swath, t, t);
+    if ((bounds.near.center() - bounds.far.center()).norm() < 0.1) continue;
     const Vec3 size = Vec3::Constant(1e-6), across = line->direction.unitOrthogonal();
     for (int k = 0; k < 5; ++k) {
       const Vec3 p = line->start + random(0, 2) * line->direction;
-      EXPECT_TRUE(hull.meets(p - size, p + size, 1e-9)) << round;
+      EXPECT_TRUE(bounds.meets(p - size, p + size, 1e-9)) << round;
       const Vec3 beside = p + 1e-3 * across;
-      EXPECT_FALSE(hull.meets(beside - size, beside + size, 1e-9)) << round;
+      EXPECT_FALSE(bounds.meets(beside - size, beside + size, 1e-9)) << round;
     }
     ++compared;
   }
   EXPECT_GT(compared, 200);
 }
 
-TEST(SwathHull, SlackLetsItReachFarther) {
+TEST(SwathBounds, SlackLetsItReachFarther) {
   Swath swath;
   swath.apex = {0, 0, 2};
   swath.base = {{1, -1, 1}, {1, 1, 1}};  // in the plane x + z = 2
-  const SwathHull hull = hull_of(swath, 0, 1);
-  EXPECT_NEAR(std::abs(hull.normal.dot(Vec3(1, 0, 1).normalized())), 1, 1e-14);
+  const SwathBounds bounds = bounds_of(swath, 0, 1);
+  EXPECT_NEAR(std::abs(bounds.normal.dot(Vec3(1, 0, 1).normalized())), 1, 1e-14);
   const Vec3 low(0.6, -0.1, 1.5), high(0.7, 0.1, 1.6);  // from that plane 0.1/√2
-  EXPECT_FALSE(hull.meets(low, high, 0.0707));
-  EXPECT_TRUE(hull.meets(low, high, 0.0708));
+  EXPECT_FALSE(bounds.meets(low, high, 0.0707));
+  EXPECT_TRUE(bounds.meets(low, high, 0.0708));
 }
 
 TEST(Trace, LiesOnThePlaneAndOnTheLine) {

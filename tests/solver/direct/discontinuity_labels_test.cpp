@@ -72,7 +72,7 @@ class HorizonJudge {
     std::set_symmetric_difference(p.begin(), p.end(), q.begin(), q.end(),
                                   std::back_inserter(difference));
     return std::any_of(difference.begin(), difference.end(), [](const test::Junction& j) {
-      return j.from == horizon_edge || j.to == horizon_edge;
+      return j.from == EdgeId::horizon() || j.to == EdgeId::horizon();
     });
   }
 

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "meshing/backprojection/visible_part.h"
+#include "meshing/discontinuity/event_evidence.h"
+#include "meshing/discontinuity/event_jump.h"
+#include "meshing/events/emitter_scene.h"
+
+#include <span>
+
+namespace halfshade {
+
+/// Decides whether a curve runs through a point, by what is seen of the emitter on both sides of
+/// it. Keeps its buffers between calls; one a thread.
+class EventDecider {
+ public:
+  /// All must outlive the decider.
+  EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
+               const EmitterScene& emitter_scene);
+
+  /// How the places where edges of `group` (sorted) follow each other differ between the sides of a
+  /// curve that would be normal to `at.across`, which is its left; triples sorted. Costs two or
+  /// four visible parts.
+  EventEvidence decide(const ReceivingPoint& at, std::span<const EdgeId> group);
+
+ private:
+  EventEvidence compare(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
+
+  int emitter_;
+  double step_;  ///< see side_step
+  bool has_fine_detail_ = false;
+  VisiblePartFinder finder_;
+  VisiblePart left_, right_;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,111 @@
+#include "meshing/discontinuity/sight_casting.h"
+
+#include "meshing/geometry/flat_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+// A line passes a triangle clearly if it stays this share of the triangle away from its border and
+// this sine away from its plane.
+constexpr double clearly_inside = 1e-7;
+constexpr double clearly_across = 1e-9;
+
+/// Whether a ray misses a box that is enlarged by `slack`.
+class RayBoxTest {
+ public:
+  RayBoxTest(const SightLine& line, double slack)
+      : origin_(line.start), inverse_(line.direction.cwiseInverse()), slack_(slack) {}
+
+  bool misses(const Bounds& box) const {
+    double near = -slack_, far = HUGE_VAL;
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      double a = (box.low[k] - slack_ - origin_[k]) * inverse_[k];
+      double b = (box.high[k] + slack_ - origin_[k]) * inverse_[k];
+      if (std::isnan(a) || std::isnan(b)) continue;  // along a face of the box
+      if (a > b) std::swap(a, b);
+      near = std::max(near, a);
+      far = std::min(far, b);
+    }
+    return near > far;
+  }
+
+ private:
+  Vec3 origin_, inverse_;
+  double slack_;
+};
+
+}  // namespace
+
+SightCaster::SightCaster(const SoundScene& scene, const OpaqueScene& opaque)
+    : scene_(scene), opaque_(opaque.topology()), faces_(opaque.face_tree()) {
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    const Surface& surface = scene.surfaces[s];
+    if (!surface.back) continue;
+    if (at(surface.plane) >= backs_.size()) backs_.resize(at(surface.plane) + 1);
+    backs_[at(surface.plane)].push_back(static_cast<int>(s));
+  }
+}
+
+const std::vector<int>& SightCaster::cast(const SightLine& line) {
+  find_crossings(line);
+  collect_receivers(line);
+  return reached_;
+}
+
+void SightCaster::find_crossings(const SightLine& line) {
+  crossings_.clear();
+  const RayBoxTest ray(line, scene_.tolerance.length);
+  walk_tree(
+      faces_, [&](int node) { return ray.misses(faces_.nodes[at(node)].box); },
+      [&](int t) {
+        const auto& corner = opaque_.triangles[at(t)].corner;
+        const Vec3 a = opaque_.vertices[at(corner[0])] - line.start;
+        const Vec3 b = opaque_.vertices[at(corner[1])] - line.start;
+        const Vec3 c = opaque_.vertices[at(corner[2])] - line.start;
+        const Vec3 normal = (b - a).cross(c - a);
+        const double across = normal.dot(line.direction), size = normal.norm();
+        if (!(std::abs(across) > clearly_across * size)) return;
+        const double u = b.cross(c).dot(line.direction) / across;
+        const double v = c.cross(a).dot(line.direction) / across;
+        const double least = std::min({u, v, 1 - u - v});
+        if (least < -clearly_inside) return;
+        crossings_.push_back({normal.dot(a) / across, t, least > clearly_inside});
+      });
+  std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
+    return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
+  });
+}
+
+void SightCaster::collect_receivers(const SightLine& line) {
+  reached_.clear();
+  const double slack = scene_.tolerance.length;
+  const double last = line.direction.dot(line.last - line.start);
+  for (const Crossing& crossing : crossings_) {
+    if (crossing.distance < slack) continue;
+    const bool is_before = crossing.distance < last - slack;
+    if (is_before && crossing.is_clear) return;
+    if (crossing.distance <= last + slack) continue;
+    add_receiver(opaque_.triangles[at(crossing.triangle)].surface, line.direction);
+    if (crossing.is_clear) return;
+  }
+}
+
+/// Adds a surface if it faces the line, else those on the back of its plane that do.
+void SightCaster::add_receiver(int surface, const Vec3& direction) {
+  const auto faces_line = [&](int s) {
+    return scene_.surfaces[at(s)].frame.normal.dot(direction) < 0;
+  };
+  const auto add = [&](int s) {
+    if (std::find(reached_.begin(), reached_.end(), s) == reached_.end()) reached_.push_back(s);
+  };
+  if (faces_line(surface)) return add(surface);
+  const std::size_t plane = at(scene_.surfaces[at(surface)].plane);
+  if (plane >= backs_.size()) return;
+  for (const int back : backs_[plane])
+    if (faces_line(back)) add(back);
+}
+
+}  // namespace halfshade

@@ -1,0 +1,98 @@
+#include "meshing/discontinuity/swath_cuts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+// How many parts of a swath are bounded, and searched for edges, each on its own.
+constexpr int parts_per_swath = 4;
+
+}  // namespace
+
+SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
+                     const EmitterScene& emitter_scene)
+    : scene_(scene),
+      opaque_(opaque.topology()),
+      silhouette_trees_(opaque.silhouette_trees()),
+      emitter_scene_(emitter_scene) {
+  for (const auto& edge : opaque_.edges) {
+    const auto surface_of = [&](int i) {
+      return opaque_.triangles[at(opaque_.incidences[at(edge.first + i)].triangle)].surface;
+    };
+    is_inner_.push_back(edge.count == 2 && surface_of(0) == surface_of(1));
+  }
+  std::vector<Bounds> boxes;
+  for (const Surface& surface : scene.surfaces)
+    for (const auto& [from, to] : surface.contacts) {
+      const Span3 contact = {surface.frame.to_space(from), surface.frame.to_space(to)};
+      contacts_.push_back(contact);
+      boxes.push_back({contact.from.cwiseMin(contact.to), contact.from.cwiseMax(contact.to)});
+    }
+  contact_tree_ = make_flat_tree(boxes);
+}
+
+std::vector<double> SwathCuts::limits(const Swath& swath) const {
+  std::vector<double> limits = {0, 1};
+  if (!swath.is_planar) own_limits(swath, limits);
+  for (const OutlinePiece& piece : emitter_scene_.outline)
+    critical_parameters(swath, piece.span, scene_.tolerance.length, limits);
+  add_grazing(swath, limits);
+  std::sort(limits.begin(), limits.end());
+  return limits;
+}
+
+/// Where the faces at the edges that make the swath turn from one side to the other.
+void SwathCuts::add_grazing(const Swath& swath, std::vector<double>& parameters) const {
+  const auto add = [&](int e) {
+    const SilhouetteEdge& edge = emitter_scene_.edges[at(e)];
+    for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f)
+      grazing_parameters(swath, emitter_scene_.faces[at(f)].normal, parameters);
+  };
+  for (const int e : swath.silhouettes)
+    if (e >= 0) add(e);
+  if (swath.corner >= 0)
+    for (const int e : emitter_scene_.vertices[at(swath.corner)].edges) add(e);
+}
+
+void SwathCuts::between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
+  cuts.assign({t0, t1});
+  const int parts = static_cast<int>(std::ceil(parts_per_swath * (t1 - t0)));
+  for (int k = 0; k < parts; ++k)
+    add_met(swath, t0 + k * (t1 - t0) / parts, t0 + (k + 1) * (t1 - t0) / parts, cuts);
+  std::sort(cuts.begin(), cuts.end());
+}
+
+void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
+  const double slack = scene_.tolerance.length;
+  const SwathBounds bounds = bounds_of(swath, t0, t1);
+  const auto is_missed = [&](const Bounds& box) {
+    return emitter_scene_.frame.normal.dot(0.5 * (box.low + box.high) -
+                                           emitter_scene_.frame.origin) <
+               -emitter_scene_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
+           !bounds.meets(box.low, box.high, slack);
+  };
+  std::vector<double> found;
+  const auto consider = [&](const Span3& span) {
+    if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
+      critical_parameters(swath, span, slack, found);
+  };
+  const auto walk = [&](const FlatTree& tree, const auto& visit) {
+    walk_tree(
+        tree, [&](int node) { return is_missed(tree.nodes[at(node)].box); }, visit);
+  };
+  const auto consider_edge = [&](int e) {
+    if (is_inner_[at(e)]) return;
+    const auto& edge = opaque_.edges[at(e)];
+    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
+  };
+  walk(silhouette_trees_.closed_edges, consider_edge);
+  walk(silhouette_trees_.open_edges, consider_edge);
+  // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
+  walk(contact_tree_, [&](int c) { consider(contacts_[at(c)]); });
+  for (const double t : found)
+    if (t >= t0 && t <= t1) cuts.push_back(t);
+}
+
+}  // namespace halfshade

@@ -1,7 +1,7 @@
 #include "meshing/arrangement/arrangement.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <cmath>
 #include <map>
@@ -16,23 +16,18 @@ constexpr int most_rounds = 40;
 using Link = std::array<int, 2>;  // sorted
 using Inserts = std::map<Link, std::vector<int>>;
 
-Box flat_box(const Vec2& a, const Vec2& b, double margin) {
-  const Vec2 low = a.cwiseMin(b).array() - margin, high = a.cwiseMax(b).array() + margin;
-  return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
-}
-
 Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
 
 // For each point the first point within `snap` of it.
 std::vector<int> first_of_each_place(std::span<const Vec2> points, double snap) {
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   boxes.reserve(points.size());
-  for (const Vec2& p : points) boxes.push_back(flat_box(p, p, 0));
-  const BoxTree tree(std::move(boxes));
+  for (const Vec2& p : points) boxes.push_back(flat_bounds(p, p));
+  const FlatTree tree = make_flat_tree(boxes, 1);
   std::vector<int> first(points.size());
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     first[at(i)] = i;
-    tree.query_box(flat_box(points[at(i)], points[at(i)], snap), [&](int j) {
+    visit_overlaps(tree, flat_bounds(points[at(i)], points[at(i)]).grown(snap), [&](int j) {
       const bool settled = j < i && first[at(j)] == j;
       if (settled && (points[at(j)] - points[at(i)]).norm() <= snap)
         first[at(i)] = std::min(first[at(i)], j);
@@ -74,6 +69,10 @@ class Arranger {
     links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
   }
 
+  Bounds box_of(const Link& link) const {
+    return flat_bounds(points_[at(link[0])], points_[at(link[1])]);
+  }
+
   // How far along the link (0…1) a point lies that the link has to run through.
   std::optional<double> reach(const Link& link, int point) const {
     if (point == link[0] || point == link[1]) return {};
@@ -92,14 +91,14 @@ class Arranger {
     for (const Link& link : links_) used.insert(used.end(), link.begin(), link.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<Box> boxes;
-    for (const int p : used) boxes.push_back(flat_box(points_[at(p)], points_[at(p)], 0));
-    const BoxTree tree(std::move(boxes));
+    std::vector<Bounds> boxes;
+    for (const int p : used) boxes.push_back(flat_bounds(points_[at(p)], points_[at(p)]));
+    const FlatTree tree = make_flat_tree(boxes, 1);
     Inserts inserts;
     std::vector<std::pair<double, int>> found;
     for (const Link& link : links_) {
       found.clear();
-      tree.query_box(flat_box(points_[at(link[0])], points_[at(link[1])], snap_.links), [&](int k) {
+      visit_overlaps(tree, box_of(link).grown(snap_.links), [&](int k) {
         if (const auto t = reach(link, used[at(k)])) found.emplace_back(*t, used[at(k)]);
       });
       std::sort(found.begin(), found.end());
@@ -109,14 +108,13 @@ class Arranger {
   }
 
   Inserts crossings() {
-    std::vector<Box> boxes;
-    for (const Link& link : links_)
-      boxes.push_back(flat_box(points_[at(link[0])], points_[at(link[1])], 0));
-    const BoxTree tree(boxes);
+    std::vector<Bounds> boxes;
+    for (const Link& link : links_) boxes.push_back(box_of(link));
+    const FlatTree tree = make_flat_tree(boxes, 1);
     std::map<Link, std::vector<std::pair<double, int>>> found;
     for (int i = 0; i < static_cast<int>(links_.size()); ++i) {
       std::vector<int> others;
-      tree.query_box(boxes[at(i)], [&](int j) {
+      visit_overlaps(tree, boxes[at(i)], [&](int j) {
         if (j > i) others.push_back(j);
       });
       std::sort(others.begin(), others.end());

@@ -37,11 +37,6 @@ std::uint64_t cell_key(std::int64_t x, std::int64_t y) {
   return mix_bits(mix_bits(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y));
 }
 
-Box box_of(const Vec2& a, const Vec2& b, double margin) {
-  const Vec2 low = a.cwiseMin(b).array() - margin, high = a.cwiseMax(b).array() + margin;
-  return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
-}
-
 // How far along a segment (0…1) its point nearest to p lies.
 double nearest_along(const Vec2& a, const Vec2& b, const Vec2& p) {
   const Vec2 d = b - a;
@@ -143,21 +138,21 @@ int SnapGraph::add_line(const Vec2& from, const Vec2& to, double merge) {
 }
 
 void SnapGraph::index_fixed_edges() {
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   indexed_.clear();
   for (const int e : present())
     if (edge(e).is_fixed) {
       indexed_.push_back(e);
-      boxes.push_back(box_of(place(edge(e).a), place(edge(e).b), 0));
+      boxes.push_back(flat_bounds(place(edge(e).a), place(edge(e).b)));
     }
-  fixed_tree_.emplace(std::move(boxes));
+  fixed_tree_ = make_flat_tree(boxes, 1);
 }
 
 int SnapGraph::nearest_fixed_edge(const Vec2& p, double radius) {
   if (!fixed_tree_) index_fixed_edges();
   int best = -1;
   double closest = radius;
-  fixed_tree_->query_box(box_of(p, p, radius), [&](int i) {
+  visit_overlaps(*fixed_tree_, flat_bounds(p, p).grown(radius), [&](int i) {
     const Edge& e = edge(indexed_[at(i)]);
     const double distance = distance_to(place(e.a), place(e.b), p);
     if (distance < closest || (distance == closest && indexed_[at(i)] < best)) {
@@ -199,7 +194,7 @@ int SnapGraph::point_on(int fixed_edge, const Vec2& p, const Accept& accept) {
 bool SnapGraph::is_hidden(const Vec2& p, const Vec2& q) {
   if (!fixed_tree_) index_fixed_edges();
   bool result = false;
-  fixed_tree_->query_box(box_of(p, q, 0), [&](int i) {
+  visit_overlaps(*fixed_tree_, flat_bounds(p, q), [&](int i) {
     const Edge& e = edge(indexed_[at(i)]);
     result = result || are_crossing(p, q, place(e.a), place(e.b));
   });

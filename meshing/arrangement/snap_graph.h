@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/types.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <array>
 #include <cstdint>
@@ -106,7 +106,7 @@ class SnapGraph {
   std::vector<Insert> inserts_;
   std::unordered_map<std::uint64_t, bool> awaits_insert_;  // by edge and point
   std::vector<int> indexed_;                               // fixed edges in the tree
-  std::optional<BoxTree> fixed_tree_;
+  std::optional<FlatTree> fixed_tree_;
 };
 
 }  // namespace halfshade

@@ -25,11 +25,11 @@ double squared_distance(const Ring& ring, const Vec2& p) {
   return least;
 }
 
-std::vector<Box> boxes(const std::vector<Ring>& rings) {
-  std::vector<Box> result;
+std::vector<Bounds> boxes(const std::vector<Ring>& rings) {
+  std::vector<Bounds> result;
   for (const Ring& ring : rings) {
-    Box box;
-    for (const Vec2& p : ring) box.extend(Vec3(p.x(), p.y(), 0));
+    Bounds box;
+    for (const Vec2& p : ring) box.include(flat_bounds(p, p));
     result.push_back(box);
   }
   return result;
@@ -38,12 +38,12 @@ std::vector<Box> boxes(const std::vector<Ring>& rings) {
 }  // namespace
 
 FaceLookup::FaceLookup(const Surface& surface)
-    : faces_(surface.faces), rings_(surface.face_rings), tree_(boxes(rings_)) {}
+    : faces_(surface.faces), rings_(surface.face_rings), tree_(make_flat_tree(boxes(rings_), 1)) {}
 
 int FaceLookup::face_at(const Vec2& point) const {
   if (faces_.size() == 1) return faces_[0];
   int first = -1;
-  tree_.query_box(Box(Vec3(point.x(), point.y(), 0)), [&](int i) {
+  visit_overlaps(tree_, flat_bounds(point, point), [&](int i) {
     if ((first < 0 || i < first) && contains(rings_[static_cast<std::size_t>(i)], point)) first = i;
   });
   if (first >= 0) return faces_[static_cast<std::size_t>(first)];

@@ -1,4 +1,5 @@
-#include "meshing/rays/visibility.h"
+#include "meshing/rays/occluders.h"
+
 #include "meshing/triangulation/planar_mesh.h"
 
 namespace halfshade {

@@ -1,7 +1,7 @@
 #include "meshing/repair/contacts.h"
 
 #include "meshing/arrangement/arrangement.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 #include "meshing/repair/intersections.h"
 
 #include <algorithm>
@@ -136,20 +136,19 @@ class ContactFinder {
 
 // Edges other than the surface's own that lie in its plane and may reach into it.
 std::vector<Link> edges_in_plane(const SurfaceDraft& draft, const std::vector<Link>& links,
-                                 const BoxTree& tree, const std::vector<Vec3>& points,
+                                 const FlatTree& tree, const std::vector<Vec3>& points,
                                  const Tolerance& tolerance) {
-  Box around;
-  for (const int p : draft.rings[0]) around.extend(points[at(p)]);
-  around.min().array() -= tolerance.planarity;
-  around.max().array() += tolerance.planarity;
+  Bounds around;
+  for (const int p : draft.rings[0]) around.include(points[at(p)]);
+  around = around.grown(tolerance.planarity);
   const Vec3 normal = draft.frame.normal, spread = normal.cwiseAbs();
   const std::vector<Link> own = links_of(draft.rings);
   std::vector<Link> found;
-  const auto reaches = [&](const Box& box) {
-    return box.intersects(around) && std::abs(draft.frame.height(box.center())) <=
-                                         spread.dot(0.5 * box.sizes()) + tolerance.planarity;
+  const auto reaches = [&](const Bounds& box) {
+    return box.meets(around) && std::abs(draft.frame.height(box.centre())) <=
+                                    spread.dot(box.half_size()) + tolerance.planarity;
   };
-  tree.query(reaches, [&](int i) {
+  visit_reached(tree, reaches, [&](int i) {
     const Link& link = links[at(i)];
     const bool in_plane = std::all_of(link.begin(), link.end(), [&](int p) {
       return std::abs(draft.frame.height(points[at(p)])) <= tolerance.planarity;
@@ -165,13 +164,10 @@ std::vector<Link> edges_in_plane(const SurfaceDraft& draft, const std::vector<Li
 void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
                    const Tolerance& tolerance) {
   const std::vector<Link> links = all_links(drafts);
-  std::vector<Box> boxes;
-  boxes.reserve(links.size());
-  for (const auto& [a, b] : links) {
-    boxes.emplace_back(points[at(a)]);
-    boxes.back().extend(points[at(b)]);
-  }
-  const BoxTree tree(std::move(boxes));
+  std::vector<Bounds> boxes(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i)
+    for (const int p : links[i]) boxes[i].include(points[at(p)]);
+  const FlatTree tree = make_flat_tree(boxes, 1);
   const auto cuts = find_intersections(drafts, points, tolerance);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     std::vector<Link> edges = edges_in_plane(drafts[i], links, tree, points, tolerance);

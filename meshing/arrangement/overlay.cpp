@@ -89,12 +89,12 @@ class RegionTracer {
   RegionTracer(const Overlay& overlay, std::span<const int> labels)
       : overlay_(overlay), labels_(labels) {}
 
-  std::vector<Region> run() {
-    std::vector<Region> result;
+  std::vector<OverlayRegion> run() {
+    std::vector<OverlayRegion> result;
     std::vector<bool> seen(labels_.size(), false);
     for (int t = 0; t < static_cast<int>(labels_.size()); ++t) {
       if (seen[at(t)] || labels_[at(t)] < 0) continue;
-      Region region;
+      OverlayRegion region;
       region.label = labels_[at(t)];
       region.triangles.push_back(t);
       seen[at(t)] = true;
@@ -134,7 +134,7 @@ class RegionTracer {
     return half;
   }
 
-  void trace_rings(Region& region) const {
+  void trace_rings(OverlayRegion& region) const {
     std::map<Half, bool> done;
     for (const int t : region.triangles)
       for (int k = 0; k < 3; ++k)
@@ -226,7 +226,7 @@ Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loop
   return result;
 }
 
-std::vector<Region> regions(const Overlay& overlay, std::span<const int> labels) {
+std::vector<OverlayRegion> regions(const Overlay& overlay, std::span<const int> labels) {
   return RegionTracer(overlay, labels).run();
 }
 

@@ -1,12 +1,13 @@
 #include "meshing/arrangement/overlay.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <map>
 
 namespace halfshade {
 namespace {
 
-using Link = std::array<int, 2>;
 using Winding = std::vector<std::pair<int, int>>;
 
 struct BoundaryLinks {
@@ -20,7 +21,7 @@ BoundaryLinks boundary_links(const Arrangement& arrangement, std::span<const int
     const auto& chain = arrangement.chains[s];
     for (std::size_t k = 1; k < chain.size(); ++k) {
       const bool up = chain[k - 1] < chain[k];
-      const Link link = up ? Link{chain[k - 1], chain[k]} : Link{chain[k], chain[k - 1]};
+      const Link link = sorted_link(chain[k - 1], chain[k]);
       net[link][loop_of[s]] += up ? 1 : -1;
     }
   }
@@ -46,7 +47,7 @@ Winding add(const Winding& a, const Winding& b, int sign) {
 
 // The winding on the left of a → b, given the one on its right.
 Winding cross(const BoundaryLinks& boundary, const Winding& right, int a, int b) {
-  const Link link = a < b ? Link{a, b} : Link{b, a};
+  const Link link = sorted_link(a, b);
   const auto found = std::lower_bound(boundary.links.begin(), boundary.links.end(), link);
   if (found == boundary.links.end() || *found != link) return right;
   const auto index = static_cast<std::size_t>(found - boundary.links.begin());
@@ -185,7 +186,7 @@ double twice_area(std::span<const Vec2> points, std::span<const int> loop) {
   const Vec2 origin = points[at(loop[0])];
   for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
     const Vec2 a = points[at(loop[k])] - origin, b = points[at(loop[k + 1])] - origin;
-    sum += a.x() * b.y() - a.y() * b.x();
+    sum += cross_2d(a, b);
   }
   return sum;
 }

@@ -1,5 +1,7 @@
 #include "meshing/discontinuity/event_jump.h"
 
+#include "meshing/core/planar.h"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -18,8 +20,6 @@ struct SeenLine {
   Vec2 normal;  ///< unit length
   double rate = 0;
 };
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Normal of the plane through the point and a line.
 Vec3 sight_plane(const Vec3& point, const Line3& line) {
@@ -65,7 +65,7 @@ double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
   double det = 0, sines = 1;
   int coincide = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double sine = cross(seen[i].normal, seen[(i + 1) % 3].normal);
+    const double sine = cross_2d(seen[i].normal, seen[(i + 1) % 3].normal);
     det += sine * seen[(i + 2) % 3].rate;
     sines *= std::abs(sine);
     coincide += std::abs(sine) < coinciding ? 1 : 0;

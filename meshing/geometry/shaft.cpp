@@ -1,5 +1,6 @@
 #include "meshing/geometry/shaft.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/core/plane_frame.h"
 
 #include <Eigen/Geometry>
@@ -26,8 +27,6 @@ constexpr double same_normal_sine = 1e-26;
 
 using Edge = std::pair<Vec3, Vec3>;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
 /// Indices of the corners of the convex hull in a plane (Andrew 1979).
 std::vector<std::size_t> convex_hull(const std::vector<Vec2>& points) {
   std::vector<std::size_t> order(points.size());
@@ -39,8 +38,9 @@ std::vector<std::size_t> convex_hull(const std::vector<Vec2>& points) {
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t base = hull.size();
     for (const std::size_t i : order) {
-      while (hull.size() >= base + 2 && cross(points[hull.back()] - points[hull[hull.size() - 2]],
-                                              points[i] - points[hull[hull.size() - 2]]) <= 0)
+      while (hull.size() >= base + 2 &&
+             cross_2d(points[hull.back()] - points[hull[hull.size() - 2]],
+                      points[i] - points[hull[hull.size() - 2]]) <= 0)
         hull.pop_back();
       hull.push_back(i);
     }
@@ -76,7 +76,7 @@ std::vector<Edge> hull_edges(std::span<const Vec3> polygon) {
 
 /// Grows with the angle from `axis` to v, from −2 to 2, without trigonometric functions.
 double pseudo_angle(const Vec2& axis, const Vec2& v) {
-  const double s = cross(axis, v), c = axis.dot(v);
+  const double s = cross_2d(axis, v), c = axis.dot(v);
   const double t = s / (std::abs(s) + std::abs(c));
   return c >= 0 ? t : (s >= 0 ? 2 : -2) - t;
 }

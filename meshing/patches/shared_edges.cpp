@@ -1,6 +1,7 @@
 #include "meshing/patches/shared_edges.h"
 
 #include "meshing/core/parallel.h"
+#include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,7 @@ namespace {
 // Neighbours mostly agree after two or three; what is left then is split plainly.
 constexpr int most_rounds = 8;
 
-double distance(const Vec2& p, const Segment2& s) {
-  const Vec2 d = s[1] - s[0];
-  const double squared = d.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
-  return (s[0] + t * d - p).norm();
-}
+double distance(const Vec2& p, const Segment2& s) { return distance_to_segment(p, s[0], s[1]); }
 
 // The point nearest to t among sorted ones.
 double gap(const std::vector<double>& sorted, double t) {

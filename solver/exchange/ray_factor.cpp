@@ -1,18 +1,12 @@
 #include "solver/exchange/ray_factor.h"
 
+#include "meshing/geometry/mix_bits.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
-
-/// A well-mixed function of its argument (the finalizer of SplitMix64; Steele, Lea and Flood 2014).
-std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
 
 /// Powers of 1/g, g the positive root of x⁵ = x + 1: the additive sequence of lowest discrepancy
 /// known in four dimensions (Roberts 2018).
@@ -39,7 +33,7 @@ double RayVisibility::visible_fraction(const PairEnd& a, const PairEnd& b, int r
                                        std::uint64_t seed) {
   std::array<double, 4> start{};
   for (std::size_t d = 0; d < 4; ++d)
-    start[d] = static_cast<double>(mix(4 * seed + d) >> 11) * 0x1p-53;
+    start[d] = static_cast<double>(mix_bits(4 * seed + d) >> 11) * 0x1p-53;
   segments_.clear();
   weights_.clear();
   // Where the triangles hardly face each other, most pairs of points do not: look on until one

@@ -1,6 +1,7 @@
 #include "io/picture/line_canvas.h"
 
 #include "io/picture/tone_map.h"
+#include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,6 @@ void LineCanvas::line(std::span<const Vec2> points, double width, const Rgb& col
 void LineCanvas::cover(const Vec2& a, const Vec2& b, double width) {
   const double reach = width / 2 + 0.5, most = std::min(1., width);
   const Vec2 along = b - a;
-  const double squared = along.squaredNorm();
   const auto index = [](double x, int count) {
     return static_cast<int>(std::clamp(std::floor(x), 0., count - 1.));
   };
@@ -55,8 +55,7 @@ void LineCanvas::cover(const Vec2& a, const Vec2& b, double width) {
     const int last_column = index(std::max(x0, x1) + reach, width_);
     for (int x = index(std::min(x0, x1) - reach, width_); x <= last_column; ++x) {
       const Vec2 p(x + 0.5, y + 0.5);
-      const double s = squared > 0 ? std::clamp(along.dot(p - a) / squared, 0., 1.) : 0.;
-      const double share = std::clamp(reach - (p - a - s * along).norm(), 0., most);
+      const double share = std::clamp(reach - distance_to_segment(p, a, b), 0., most);
       const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                                 static_cast<std::size_t>(x);
       if (!(share > covered_[pixel])) continue;

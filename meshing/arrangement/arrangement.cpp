@@ -1,11 +1,14 @@
 #include "meshing/arrangement/arrangement.h"
 
+#include "meshing/arrangement/point_grid.h"
 #include "meshing/core/planar.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/segment_pairs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 
 namespace halfshade {
 namespace {
@@ -13,30 +16,17 @@ namespace {
 // Every round splits links into strictly shorter ones; real input settles in two or three.
 constexpr int most_rounds = 40;
 
-using Link = std::array<int, 2>;  // sorted
 using Inserts = std::map<Link, std::vector<int>>;
-
-Box flat_box(const Vec2& a, const Vec2& b, double margin) {
-  const Vec2 low = a.cwiseMin(b).array() - margin, high = a.cwiseMax(b).array() + margin;
-  return {Vec3(low.x(), low.y(), 0), Vec3(high.x(), high.y(), 0)};
-}
-
-Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
 
 // For each point the first point within `snap` of it.
 std::vector<int> first_of_each_place(std::span<const Vec2> points, double snap) {
-  std::vector<Box> boxes;
-  boxes.reserve(points.size());
-  for (const Vec2& p : points) boxes.push_back(flat_box(p, p, 0));
-  const BoxTree tree(std::move(boxes));
+  PointGrid places(snap);
   std::vector<int> first(points.size());
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     first[at(i)] = i;
-    tree.query_box(flat_box(points[at(i)], points[at(i)], snap), [&](int j) {
-      const bool settled = j < i && first[at(j)] == j;
-      if (settled && (points[at(j)] - points[at(i)]).norm() <= snap)
-        first[at(i)] = std::min(first[at(i)], j);
-    });
+    places.for_each_near(points[at(i)], snap,
+                         [&](int j, double) { first[at(i)] = std::min(first[at(i)], j); });
+    if (first[at(i)] == i) places.add(i, points[at(i)]);
   }
   return first;
 }
@@ -45,7 +35,7 @@ class Arranger {
  public:
   Arranger(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
            const SnapRadii& snap)
-      : points_(std::move(points)), snap_(snap) {
+      : points_(std::move(points)), snap_(snap), crossings_(snap.points) {
     const std::vector<int> first = first_of_each_place(points_, snap_.points);
     for (const auto& [a, b] : segments) {
       chains_.push_back({first[at(a)]});
@@ -69,9 +59,19 @@ class Arranger {
     links_.clear();
     for (const auto& chain : chains_)
       for (std::size_t k = 1; k < chain.size(); ++k)
-        links_.push_back(sorted(chain[k - 1], chain[k]));
+        links_.push_back(sorted_link(chain[k - 1], chain[k]));
     std::sort(links_.begin(), links_.end());
     links_.erase(std::unique(links_.begin(), links_.end()), links_.end());
+  }
+
+  Eigen::AlignedBox2d box_of(const Link& link) const {
+    return Eigen::AlignedBox2d(points_[at(link[0])]).extend(points_[at(link[1])]);
+  }
+
+  std::vector<PairSegment> pair_segments() const {
+    std::vector<PairSegment> segments;
+    for (const auto& [a, b] : links_) segments.push_back({points_[at(a)], points_[at(b)]});
+    return segments;
   }
 
   // How far along the link (0…1) a point lies that the link has to run through.
@@ -92,36 +92,32 @@ class Arranger {
     for (const Link& link : links_) used.insert(used.end(), link.begin(), link.end());
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    std::vector<Box> boxes;
-    for (const int p : used) boxes.push_back(flat_box(points_[at(p)], points_[at(p)], 0));
-    const BoxTree tree(std::move(boxes));
+    std::vector<PairPoint> points;
+    for (const int p : used) points.push_back({points_[at(p)]});
+    std::vector<std::tuple<int, double, int>> found;  // link, how far along, point
+    const auto visit = [&](int l, int k) {
+      if (const auto t = reach(links_[at(l)], used[at(k)])) found.emplace_back(l, *t, used[at(k)]);
+    };
+    SegmentPairs(pair_segments(), points, snap_.links, visit).run();
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
     Inserts inserts;
-    std::vector<std::pair<double, int>> found;
-    for (const Link& link : links_) {
-      found.clear();
-      tree.query_box(flat_box(points_[at(link[0])], points_[at(link[1])], snap_.links), [&](int k) {
-        if (const auto t = reach(link, used[at(k)])) found.emplace_back(*t, used[at(k)]);
-      });
-      std::sort(found.begin(), found.end());
-      for (const auto& [t, p] : found) inserts[link].push_back(p);
-    }
+    for (const auto& [l, t, p] : found) inserts[links_[at(l)]].push_back(p);
     return inserts;
   }
 
   Inserts crossings() {
-    std::vector<Box> boxes;
-    for (const Link& link : links_)
-      boxes.push_back(flat_box(points_[at(link[0])], points_[at(link[1])], 0));
-    const BoxTree tree(boxes);
+    std::vector<std::array<int, 2>> pairs;
+    const auto visit = [&](int i, int j) {
+      // Parts of one line are told from crossings by their boxes, not by signs of zero.
+      if (box_of(links_[at(i)]).intersects(box_of(links_[at(j)])))
+        pairs.push_back(sorted_link(i, j));
+    };
+    SegmentPairs(pair_segments(), {}, snap_.links, visit).run();
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     std::map<Link, std::vector<std::pair<double, int>>> found;
-    for (int i = 0; i < static_cast<int>(links_.size()); ++i) {
-      std::vector<int> others;
-      tree.query_box(boxes[at(i)], [&](int j) {
-        if (j > i) others.push_back(j);
-      });
-      std::sort(others.begin(), others.end());
-      for (const int j : others) cross_links(links_[at(i)], links_[at(j)], found);
-    }
+    for (const auto& [i, j] : pairs) cross_links(links_[at(i)], links_[at(j)], found);
     Inserts inserts;
     for (auto& [link, along] : found) {
       std::sort(along.begin(), along.end());
@@ -150,19 +146,11 @@ class Arranger {
   int point_at(const Vec2& x, const Link& m, const Link& n) {
     for (const int p : {m[0], m[1], n[0], n[1]})
       if ((points_[at(p)] - x).norm() <= snap_.links) return p;
-    const auto cell = [&](double v) {
-      return static_cast<long long>(std::floor(v / snap_.points / 2));
-    };
-    for (long long i = -1; i <= 1; ++i)
-      for (long long j = -1; j <= 1; ++j) {
-        const auto entry = crossings_.find({cell(x.x()) + i, cell(x.y()) + j});
-        if (entry == crossings_.end()) continue;
-        for (const int p : entry->second)
-          if ((points_[at(p)] - x).norm() <= snap_.points) return p;
-      }
+    const int there = crossings_.nearest(x, snap_.points, [](int, double) { return true; });
+    if (there >= 0) return there;
     points_.push_back(x);
     const int point = static_cast<int>(points_.size()) - 1;
-    crossings_[{cell(x.x()), cell(x.y())}].push_back(point);
+    crossings_.add(point, x);
     return point;
   }
 
@@ -170,7 +158,7 @@ class Arranger {
     for (auto& chain : chains_) {
       std::vector<int> longer = {chain[0]};
       for (std::size_t k = 1; k < chain.size(); ++k) {
-        const auto between = inserts.find(sorted(chain[k - 1], chain[k]));
+        const auto between = inserts.find(sorted_link(chain[k - 1], chain[k]));
         if (between != inserts.end()) {
           const auto& p = between->second;
           if (chain[k - 1] < chain[k])
@@ -188,7 +176,7 @@ class Arranger {
   SnapRadii snap_;
   std::vector<std::vector<int>> chains_;
   std::vector<Link> links_;
-  std::map<std::pair<long long, long long>, std::vector<int>> crossings_;  // by place
+  PointGrid crossings_;
 };
 
 }  // namespace

@@ -8,6 +8,11 @@
 
 namespace halfshade {
 
+/// Two points.
+using Link = std::array<int, 2>;
+
+inline Link sorted_link(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
+
 /// Segments of a plane, split wherever they meet.
 struct Arrangement {
   std::vector<Vec2> points;              ///< the given ones first, then crossings
@@ -26,6 +31,11 @@ struct SnapRadii {
 /// common points only, and no point lies near a link it does not end, save where the link would
 /// have to grow to reach it (Hobby 1999 without the grid). Deterministic; points keep their
 /// coordinates.
+///
+/// SnapGraph does not serve here, nor this there: it holds some edges where they are, lets others
+/// pass beside points from snap/3 onwards and moves the ends of lines, to bound how small the
+/// triangles between them get. Here all segments count alike and no point moves, the radii are the
+/// caller's own (in repair a thousand times apart), and nothing but meeting matters.
 Arrangement arrange(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
                     const SnapRadii& snap);
 

@@ -1,12 +1,13 @@
 #include "meshing/arrangement/overlay.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <map>
 
 namespace halfshade {
 namespace {
 
-using Link = std::array<int, 2>;
 using Winding = std::vector<std::pair<int, int>>;
 
 struct BoundaryLinks {
@@ -20,7 +21,7 @@ BoundaryLinks boundary_links(const Arrangement& arrangement, std::span<const int
     const auto& chain = arrangement.chains[s];
     for (std::size_t k = 1; k < chain.size(); ++k) {
       const bool up = chain[k - 1] < chain[k];
-      const Link link = up ? Link{chain[k - 1], chain[k]} : Link{chain[k], chain[k - 1]};
+      const Link link = sorted_link(chain[k - 1], chain[k]);
       net[link][loop_of[s]] += up ? 1 : -1;
     }
   }
@@ -46,7 +47,7 @@ Winding add(const Winding& a, const Winding& b, int sign) {
 
 // The winding on the left of a → b, given the one on its right.
 Winding cross(const BoundaryLinks& boundary, const Winding& right, int a, int b) {
-  const Link link = a < b ? Link{a, b} : Link{b, a};
+  const Link link = sorted_link(a, b);
   const auto found = std::lower_bound(boundary.links.begin(), boundary.links.end(), link);
   if (found == boundary.links.end() || *found != link) return right;
   const auto index = static_cast<std::size_t>(found - boundary.links.begin());
@@ -89,12 +90,12 @@ class RegionTracer {
   RegionTracer(const Overlay& overlay, std::span<const int> labels)
       : overlay_(overlay), labels_(labels) {}
 
-  std::vector<Region> run() {
-    std::vector<Region> result;
+  std::vector<OverlayRegion> run() {
+    std::vector<OverlayRegion> result;
     std::vector<bool> seen(labels_.size(), false);
     for (int t = 0; t < static_cast<int>(labels_.size()); ++t) {
       if (seen[at(t)] || labels_[at(t)] < 0) continue;
-      Region region;
+      OverlayRegion region;
       region.label = labels_[at(t)];
       region.triangles.push_back(t);
       seen[at(t)] = true;
@@ -134,7 +135,7 @@ class RegionTracer {
     return half;
   }
 
-  void trace_rings(Region& region) const {
+  void trace_rings(OverlayRegion& region) const {
     std::map<Half, bool> done;
     for (const int t : region.triangles)
       for (int k = 0; k < 3; ++k)
@@ -185,7 +186,7 @@ double twice_area(std::span<const Vec2> points, std::span<const int> loop) {
   const Vec2 origin = points[at(loop[0])];
   for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
     const Vec2 a = points[at(loop[k])] - origin, b = points[at(loop[k + 1])] - origin;
-    sum += a.x() * b.y() - a.y() * b.x();
+    sum += cross_2d(a, b);
   }
   return sum;
 }
@@ -226,7 +227,7 @@ Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loop
   return result;
 }
 
-std::vector<Region> regions(const Overlay& overlay, std::span<const int> labels) {
+std::vector<OverlayRegion> regions(const Overlay& overlay, std::span<const int> labels) {
   return RegionTracer(overlay, labels).run();
 }
 

@@ -28,7 +28,7 @@ Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loop
 std::vector<int> crossed_loops(const Overlay& overlay, double width);
 
 /// A part of an overlay that is connected across edges.
-struct Region {
+struct OverlayRegion {
   int label = 0;
   std::vector<int> triangles;
   /// The outer boundary (counter-clockwise), then the holes (clockwise), as points of the overlay.
@@ -37,7 +37,7 @@ struct Region {
 };
 
 /// The regions of equal label, by first triangle; triangles with a negative label are left out.
-std::vector<Region> regions(const Overlay& overlay, std::span<const int> labels);
+std::vector<OverlayRegion> regions(const Overlay& overlay, std::span<const int> labels);
 
 /// Twice the signed area of a closed polygon.
 double twice_area(std::span<const Vec2> points, std::span<const int> loop);

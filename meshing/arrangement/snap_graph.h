@@ -1,7 +1,8 @@
 #pragma once
 
+#include "meshing/arrangement/point_grid.h"
 #include "meshing/core/types.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <array>
 #include <cstdint>
@@ -21,6 +22,11 @@ namespace halfshade {
 /// 4. every line is a chain of edges within a few snap of it.
 /// Settling ends: an edge is only ever replaced by strictly shorter ones, and there is room for
 /// finitely many points. See curve_mesh.md.
+///
+/// arrange() does not serve here: it knows no edges that must stay, splits fixed edges at points
+/// beside them, and lets points come as close to each other and to edges as they like down to its
+/// radii, so that curves that run along a surface's border would leave slivers. Both find their
+/// pairs with SegmentPairs and their points with PointGrid.
 class SnapGraph {
  public:
   struct Edge {
@@ -77,9 +83,6 @@ class SnapGraph {
   double distance(int a, int b) const { return (place(a) - place(b)).norm(); }
 
   int new_point(const Vec2& p);
-  std::int64_t cell(double x) const;
-  template <class Accept>
-  int nearest(const Vec2& p, double radius, const Accept& accept) const;
   bool is_hidden(const Vec2& p, const Vec2& q);
   int point_for(const Vec2& p, double merge, const std::array<int, 4>& ends);
   template <class Accept>
@@ -98,15 +101,14 @@ class SnapGraph {
   double snap_;
   std::vector<Vec2> points_;
   std::vector<bool> is_fixed_point_, is_fresh_point_;
-  std::unordered_map<std::uint64_t, int> first_in_cell_;
-  std::vector<int> next_in_cell_;
+  PointGrid grid_;
   std::vector<Edge> edges_;
   std::unordered_map<std::uint64_t, int> edge_of_;  // by its points
   std::vector<int> parts_;
   std::vector<Insert> inserts_;
   std::unordered_map<std::uint64_t, bool> awaits_insert_;  // by edge and point
   std::vector<int> indexed_;                               // fixed edges in the tree
-  std::optional<BoxTree> fixed_tree_;
+  std::optional<FlatTree> fixed_tree_;
 };
 
 }  // namespace halfshade

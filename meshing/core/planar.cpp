@@ -5,10 +5,15 @@
 
 namespace halfshade {
 
-double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+double nearest_on_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   const Vec2 along = b - a;
   const double square = along.squaredNorm();
-  const double s = square > 0 ? std::clamp(along.dot(p - a) / square, 0., 1.) : 0;
+  return square > 0 ? std::clamp(along.dot(p - a) / square, 0., 1.) : 0;
+}
+
+double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
+  const Vec2 along = b - a;
+  const double s = nearest_on_segment(p, a, b);
   // From the nearer end, so that points at either end are exact.
   return s < 0.5 ? (p - a - s * along).norm() : (p - b + (1 - s) * along).norm();
 }

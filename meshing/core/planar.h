@@ -10,6 +10,9 @@ namespace halfshade {
 /// Twice the signed area of the triangle 0, a, b.
 inline double cross_2d(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
+/// How far along the segment ab (0…1) its point nearest to p lies; 0 if it has no length.
+double nearest_on_segment(const Vec2& p, const Vec2& a, const Vec2& b);
+
 /// Distance of a point from the segment ab, which may have no length.
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
 

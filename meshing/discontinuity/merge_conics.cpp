@@ -1,7 +1,7 @@
 #include "meshing/core/planar.h"
 #include "meshing/discontinuity/rounding.h"
 #include "meshing/discontinuity/stacked_curves.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -21,15 +21,14 @@ class ControlTriangle {
       : corners_{arc.from, arc.control, arc.to},
         side_(cross_2d(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1),
         length_(length) {
-    for (const Vec2& p : corners_) box_.extend(Vec3(p.x(), p.y(), 0));
-    box_.min() -= Vec3(length, length, 0);
-    box_.max() += Vec3(length, length, 0);
+    for (const Vec2& p : corners_) box_.include(flat_bounds(p, p));
+    box_ = box_.grown(length);
   }
 
   /// False only if it and a box do not meet.
-  bool meets(const Box& box) const {
-    if (!box.intersects(box_)) return false;
-    const Vec2 centre = box.center().head<2>(), half = 0.5 * box.sizes().head<2>();
+  bool meets(const Bounds& box) const {
+    if (!box.meets(box_)) return false;
+    const Vec2 centre = box.centre().head<2>(), half = box.half_size().head<2>();
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 d = corners_[(i + 1) % 3] - corners_[i];
       const double reach =
@@ -42,7 +41,7 @@ class ControlTriangle {
  private:
   std::array<Vec2, 3> corners_;
   double side_, length_;
-  Box box_;
+  Bounds box_;
 };
 
 /// Cuts the arcs of one receiver and emitter at each other's ends where they run together.
@@ -50,7 +49,10 @@ class ArcCutter {
  public:
   ArcCutter(std::span<const DiscontinuityCurve> curves, std::span<const int> which,
             double tolerance)
-      : curves_(curves), which_(which), tolerance_(tolerance), ends_(end_points()) {}
+      : curves_(curves),
+        which_(which),
+        tolerance_(tolerance),
+        ends_(make_flat_tree(end_points(), 1)) {}
 
   /// For each arc the parameters between its pieces, with 0 and 1.
   std::vector<std::vector<double>> cuts() const {
@@ -69,10 +71,10 @@ class ArcCutter {
   const ConicArc& arc(std::size_t i) const { return curves_[at(which_[i])].arc; }
 
   /// Of arc k: numbers 2 k and 2 k + 1.
-  std::vector<Box> end_points() const {
-    std::vector<Box> boxes;
+  std::vector<Bounds> end_points() const {
+    std::vector<Bounds> boxes;
     for (std::size_t i = 0; i < which_.size(); ++i)
-      for (const Vec2& p : {arc(i).from, arc(i).to}) boxes.emplace_back(Vec3(p.x(), p.y(), 0));
+      for (const Vec2& p : {arc(i).from, arc(i).to}) boxes.push_back(flat_bounds(p, p));
     return boxes;
   }
 
@@ -84,8 +86,9 @@ class ArcCutter {
     const std::vector<double> pieces = flatten(arc(i), std::max(thin * size, tolerance_));
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
       const ControlTriangle triangle(part(arc(i), pieces[k], pieces[k + 1]), tolerance_);
-      ends_.query([&](const Box& box) { return triangle.meets(box); },
-                  [&](int end) { visit(at(end / 2), end % 2); });
+      visit_reached(
+          ends_, [&](const Bounds& box) { return triangle.meets(box); },
+          [&](int end) { visit(at(end / 2), end % 2); });
     }
   }
 
@@ -132,7 +135,7 @@ class ArcCutter {
   std::span<const DiscontinuityCurve> curves_;
   std::span<const int> which_;
   double tolerance_;
-  BoxTree ends_;
+  FlatTree ends_;
 };
 
 /// A piece of an arc between two cuts.

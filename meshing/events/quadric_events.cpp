@@ -28,53 +28,6 @@ double discriminant(double a, double b, double c) {
 
 }  // namespace
 
-double value(const Conic& conic, const Vec2& p) {
-  const double u = p.x(), v = p.y();
-  return conic.constant + u * (conic.u + conic.uu * u + conic.uv * v) +
-         v * (conic.v + conic.vv * v);
-}
-
-Vec2 gradient(const Conic& conic, const Vec2& p) {
-  const double u = p.x(), v = p.y();
-  return {conic.u + 2 * conic.uu * u + conic.uv * v, conic.v + conic.uv * u + 2 * conic.vv * v};
-}
-
-// On the plane x = o + u e1 + v e2 the normals are nᵢ = αᵢ + u βᵢ + v γᵢ with αᵢ = (aᵢ − o) × dᵢ,
-// βᵢ = dᵢ × e1 and γᵢ = dᵢ × e2, and the determinant is expanded by columns.
-Conic critical_conic(const std::array<Line3, 3>& lines, const PlaneFrame& receiver) {
-  std::array<Vec3, 3> a, b, c;
-  Vec3 far;  // bounds for the lengths of the αᵢ; those of βᵢ and γᵢ are at most 1
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 d = lines[i].direction.stableNormalized();
-    const Vec3 offset = lines[i].point - receiver.origin;
-    a[i] = offset.cross(d);
-    b[i] = d.cross(receiver.e1);
-    c[i] = d.cross(receiver.e2);
-    far[static_cast<int>(i)] = offset.norm();
-  }
-  const double far2 = far[0] * far[1] + far[1] * far[2] + far[2] * far[0];
-  const auto one_of = [&](const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& q, double size) {
-    return unless_rounding(det(p[0], q[1], q[2]) + det(q[0], p[1], q[2]) + det(q[0], q[1], p[2]),
-                           size);
-  };
-  double mixed = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    mixed += det(a[i], b[j], c[k]) + det(a[i], c[j], b[k]);
-  }
-  std::array<double, 6> all = {unless_rounding(det(a[0], a[1], a[2]), far.prod()),
-                               one_of(b, a, far2),
-                               one_of(c, a, far2),
-                               one_of(a, b, far.sum()),
-                               unless_rounding(mixed, 2 * far.sum()),
-                               one_of(a, c, far.sum())};
-  double largest = 0;
-  for (const double coefficient : all) largest = std::max(largest, std::abs(coefficient));
-  if (largest > 0)
-    for (double& coefficient : all) coefficient /= largest;
-  return {all[0], all[1], all[2], all[3], all[4], all[5]};
-}
-
 QuadraticRoots roots(const Quadratic& coefficients) {
   double size = 0;
   for (const double c : coefficients) size = std::max(size, std::abs(c));

@@ -1,26 +1,11 @@
 #pragma once
 
-#include "meshing/core/plane_frame.h"
 #include "meshing/core/types.h"
 #include "meshing/geometry/line.h"
 
 #include <array>
 
 namespace halfshade {
-
-/// constant + u u + v v + uu u² + uv u v + vv v² = 0 in the coordinates (u, v) of a plane.
-struct Conic {
-  double constant = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
-};
-
-double value(const Conic& conic, const Vec2& p);
-Vec2 gradient(const Conic& conic, const Vec2& p);
-
-/// Where three lines line up, seen from the points of a plane: their common transversals sweep a
-/// quadric det[n₁, n₂, n₃](x) = 0 with nᵢ = (aᵢ − x) × dᵢ (its cubic terms cancel), cut with the
-/// plane. The largest coefficient is ±1, those within their rounding error are 0; all are if the
-/// lines line up from every point. If two of the lines meet it is a pair of straight lines.
-Conic critical_conic(const std::array<Line3, 3>& lines, const PlaneFrame& receiver);
 
 /// c[0] + c[1] t + c[2] t².
 using Quadratic = std::array<double, 3>;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/core/plane_frame.h"
 #include "meshing/events/critical_event.h"
 #include "meshing/events/quadric_events.h"
 #include "meshing/geometry/line.h"

@@ -168,12 +168,8 @@ Nearest nearest_on_even(const ConicArc& arc, const Vec2& q) {
 }
 
 Nearest nearest(const ConicArc& arc, const Vec2& q) {
-  if (arc.is_straight) {
-    const Vec2 along = arc.to - arc.from;
-    const double square = along.squaredNorm();
-    const double s = square > 0 ? std::clamp(along.dot(q - arc.from) / square, 0.0, 1.0) : 0;
-    return {s, distance_to_segment(q, arc.from, arc.to)};
-  }
+  if (arc.is_straight)
+    return {nearest_on_segment(q, arc.from, arc.to), distance_to_segment(q, arc.from, arc.to)};
   if (arc.weight >= even_low && arc.weight <= even_high) return nearest_on_even(arc, q);
   // Halving takes weights towards one: w becomes √((1 + w)/2).
   const Nearest first = nearest(part(arc, 0, 0.5), q), second = nearest(part(arc, 0.5, 1), q);

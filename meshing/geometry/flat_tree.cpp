@@ -11,15 +11,10 @@ int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count
   FlatTree::Node node;
   node.first = first;
   node.count = count;
-  node.box = boxes[static_cast<std::size_t>(*begin)];
-  const auto middle_of = [&](int item) -> Vec3 {
-    const Bounds& box = boxes[static_cast<std::size_t>(item)];
-    return 0.5 * box.low + 0.5 * box.high;
-  };
-  Bounds centres{middle_of(*begin), middle_of(*begin)};
+  Bounds centres;
   for (auto item = begin; item != end; ++item) {
-    node.box.include(boxes[static_cast<std::size_t>(*item)]);
-    centres.include(middle_of(*item));
+    node.box.include(boxes[at(*item)]);
+    centres.include(boxes[at(*item)].centre());
   }
   const auto index = static_cast<int>(tree.nodes.size());
   tree.nodes.push_back(node);
@@ -28,12 +23,12 @@ int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count
   (centres.high - centres.low).maxCoeff(&axis);
   const int half = count / 2;
   std::nth_element(begin, begin + half, end, [&](int i, int j) {
-    const double x = middle_of(i)[axis], y = middle_of(j)[axis];
+    const double x = boxes[at(i)].centre()[axis], y = boxes[at(j)].centre()[axis];
     return x != y ? x < y : i < j;
   });
   add_node(tree, boxes, first, half, leaf_size);
   const int right = add_node(tree, boxes, first + half, count - half, leaf_size);
-  tree.nodes[static_cast<std::size_t>(index)].right = right;
+  tree.nodes[at(index)].right = right;
   return index;
 }
 

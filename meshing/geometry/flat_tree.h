@@ -2,13 +2,16 @@
 
 #include "meshing/core/types.h"
 
+#include <limits>
 #include <span>
 #include <vector>
 
 namespace halfshade {
 
+/// A closed box with sides along the axes; empty to begin with.
 struct Bounds {
-  Vec3 low, high;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+  Vec3 high = Vec3::Constant(-std::numeric_limits<double>::infinity());
 
   void include(const Vec3& p) {
     low = low.cwiseMin(p);
@@ -18,9 +21,23 @@ struct Bounds {
     low = low.cwiseMin(other.low);
     high = high.cwiseMax(other.high);
   }
+  Bounds grown(double margin) const {
+    return {low - Vec3::Constant(margin), high + Vec3::Constant(margin)};
+  }
+  bool meets(const Bounds& other) const {
+    return (low.array() <= other.high.array()).all() && (other.low.array() <= high.array()).all();
+  }
+  Vec3 centre() const { return 0.5 * (low + high); }
+  Vec3 half_size() const { return 0.5 * (high - low); }
 };
 
-/// A binary tree of boxes over items, halved at the median of the longest axis.
+/// The box of a segment of a plane, as that of z = 0.
+inline Bounds flat_bounds(const Vec2& a, const Vec2& b) {
+  const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);
+  return {{low.x(), low.y(), 0}, {high.x(), high.y(), 0}};
+}
+
+/// A binary tree of boxes over items, for "which items can touch this?".
 struct FlatTree {
   struct Node {
     Bounds box;
@@ -34,49 +51,59 @@ struct FlatTree {
   std::vector<int> items;
 };
 
-/// Leaves hold up to `leaf_size` items.
+/// Halves the items at the median of the longest axis until `leaf_size` or fewer are left. Leaves
+/// of several items make a walk quicker that has its own test of items; with one item to a leaf,
+/// the queries below visit no item but those whose own box passes. O(n log n); deterministic.
 FlatTree make_flat_tree(std::span<const Bounds> boxes, int leaf_size = 4);
 
-/// Calls visit(item) for the items of all leaves whose box meets `box`.
-template <class Visit>
-void visit_overlaps(const FlatTree& tree, const Bounds& box, Visit&& visit) {
+/// Walks from the root downwards, left children first. `skip(node index, state)` says whether
+/// nothing below a node matters, and may change the state for what is below; the items of leaves
+/// that are left go to `visit(item, state)`.
+template <class State, class Skip, class Visit>
+void walk_tree(const FlatTree& tree, const State& start, Skip&& skip, Visit&& visit) {
   if (tree.nodes.empty()) return;
-  int stack[FlatTree::max_stack], depth = 0;
-  stack[depth++] = 0;
+  struct Open {
+    int node;
+    [[no_unique_address]] State state;
+  };
+  Open stack[FlatTree::max_stack];
+  int depth = 0;
+  stack[depth++] = {0, start};
   while (depth > 0) {
-    const int index = stack[--depth];
-    const FlatTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
-    if ((node.box.low.array() > box.high.array()).any() ||
-        (node.box.high.array() < box.low.array()).any())
-      continue;
+    auto [index, state] = stack[--depth];
+    if (skip(index, state)) continue;
+    const FlatTree::Node& node = tree.nodes[at(index)];
     if (node.right >= 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
+      stack[depth++] = {node.right, state};
+      stack[depth++] = {index + 1, state};
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i)
-      visit(tree.items[static_cast<std::size_t>(i)]);
+    for (int i = node.first; i < node.first + node.count; ++i) visit(tree.items[at(i)], state);
   }
 }
 
 /// Calls visit(item) for the items of the leaves below which `skip(node index)` never holds.
 template <class Skip, class Visit>
 void walk_tree(const FlatTree& tree, Skip&& skip, Visit&& visit) {
-  if (tree.nodes.empty()) return;
-  int stack[FlatTree::max_stack], depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const int index = stack[--depth];
-    if (skip(index)) continue;
-    const FlatTree::Node& node = tree.nodes[static_cast<std::size_t>(index)];
-    if (node.right >= 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-    } else {
-      for (int i = node.first; i < node.first + node.count; ++i)
-        visit(tree.items[static_cast<std::size_t>(i)]);
-    }
-  }
+  struct Nothing {};
+  walk_tree(
+      tree, Nothing{}, [&](int index, Nothing) { return skip(index); },
+      [&](int item, Nothing) { visit(item); });
+}
+
+/// Calls visit(item) for the items of all leaves whose box `reaches`, a predicate that is true of a
+/// box whenever it is true of a part of it. Order unspecified, but always the same.
+template <class Reaches, class Visit>
+void visit_reached(const FlatTree& tree, Reaches&& reaches, Visit&& visit) {
+  walk_tree(
+      tree, [&](int index) { return !reaches(tree.nodes[at(index)].box); }, visit);
+}
+
+/// Calls visit(item) for the items of all leaves whose box meets `box`.
+template <class Visit>
+void visit_overlaps(const FlatTree& tree, const Bounds& box, Visit&& visit) {
+  visit_reached(
+      tree, [&](const Bounds& other) { return box.meets(other); }, visit);
 }
 
 }  // namespace halfshade

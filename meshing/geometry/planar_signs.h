@@ -38,4 +38,7 @@ inline int in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d)
   return in_circle_exactly(a, b, c, d);
 }
 
+/// Whether two segments cross in a point inside both. Exact.
+bool are_crossing(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d);
+
 }  // namespace halfshade

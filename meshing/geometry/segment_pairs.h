@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/core/types.h"
+#include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +49,8 @@ class SegmentPairs {
   };
   static constexpr std::size_t few = 64;  // pairs, which are quicker tried than parted
   static constexpr double futile = 4;     // work may grow by this much before parting ends
+  // Nothing that is as near as reach_ may be missed by rounding.
+  static constexpr double rounding = 1e-9, margin = 1.01;
 
   const PairSegment& segment(int i) const { return segments_[static_cast<std::size_t>(i)]; }
   const PairPoint& point(int i) const { return points_[static_cast<std::size_t>(i)]; }
@@ -58,8 +60,8 @@ class SegmentPairs {
     if (std::min(a.x(), b.x()) > half.x() || std::max(a.x(), b.x()) < -half.x() ||
         std::min(a.y(), b.y()) > half.y() || std::max(a.y(), b.y()) < -half.y())
       return false;
-    const double off = std::abs(d.x() * a.y() - d.y() * a.x());
-    return off <= (std::abs(d.x()) * half.y() + std::abs(d.y()) * half.x()) * (1 + 1e-9);
+    const double off = std::abs(cross_2d(d, a));
+    return off <= (std::abs(d.x()) * half.y() + std::abs(d.y()) * half.x()) * (1 + rounding);
   }
 
   std::size_t work(const Items& segments, const Items& points) const {
@@ -75,16 +77,16 @@ class SegmentPairs {
   // Whether both ends of n lie farther than reach_ to one side of m.
   bool parts(const PairSegment& m, const PairSegment& n) const {
     const Vec2 d = m.b - m.a, to_a = n.a - m.a, to_b = n.b - m.a;
-    const double off_a = d.x() * to_a.y() - d.y() * to_a.x();
-    const double off_b = d.x() * to_b.y() - d.y() * to_b.x();
+    const double off_a = cross_2d(d, to_a);
+    const double off_b = cross_2d(d, to_b);
     const double least = std::min(off_a * off_a, off_b * off_b);
     return (off_a > 0) == (off_b > 0) && least > reach_ * reach_ * d.squaredNorm();
   }
 
   bool is_far(const PairSegment& s, const Vec2& p) const {
     const Vec2 d = s.b - s.a, to_p = p - s.a;
-    const double off = d.x() * to_p.y() - d.y() * to_p.x();
-    return off * off > 1.01 * reach_ * reach_ * d.squaredNorm();
+    const double off = cross_2d(d, to_p);
+    return off * off > margin * reach_ * reach_ * d.squaredNorm();
   }
 
   void visit_all(const Items& segments, const Items& points) const {
@@ -119,7 +121,7 @@ class SegmentPairs {
     std::size_t parts = 0;
     for (std::size_t k = 0; k < 2; ++k) {
       const Vec2 centre = 0.5 * (half[k].low + half[k].high);
-      const Vec2 reach = (0.5 * (half[k].high - half[k].low)).array() + 1.01 * reach_;
+      const Vec2 reach = (0.5 * (half[k].high - half[k].low)).array() + margin * reach_;
       for (const int i : segments)
         if (reaches(segment(i), centre, reach)) in_half[k].push_back(i);
       for (const int i : points)

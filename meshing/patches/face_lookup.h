@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/sound_scene.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 namespace halfshade {
 
@@ -17,7 +17,7 @@ class FaceLookup {
  private:
   std::vector<int> faces_;
   std::vector<Ring> rings_;
-  BoxTree tree_;
+  FlatTree tree_;
 };
 
 }  // namespace halfshade

@@ -1,6 +1,7 @@
 #include "meshing/patches/shared_edges.h"
 
 #include "meshing/core/parallel.h"
+#include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +14,7 @@ namespace {
 // Neighbours mostly agree after two or three; what is left then is split plainly.
 constexpr int most_rounds = 8;
 
-Vec3 lifted(const Vec2& p) { return {p.x(), p.y(), 0}; }
-
-Box box_about(const Segment2& segment) {
-  return {lifted(segment[0].cwiseMin(segment[1])), lifted(segment[0].cwiseMax(segment[1]))};
-}
-
-double distance(const Vec2& p, const Segment2& s) {
-  const Vec2 d = s[1] - s[0];
-  const double squared = d.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
-  return (s[0] + t * d - p).norm();
-}
+double distance(const Vec2& p, const Segment2& s) { return distance_to_segment(p, s[0], s[1]); }
 
 // The point nearest to t among sorted ones.
 double gap(const std::vector<double>& sorted, double t) {
@@ -49,10 +39,10 @@ void thin(std::vector<double>& values, double distance) {
 SharedEdges::SharedEdges(const SoundScene& scene)
     : scene_(scene), lines_(find_shared_lines(scene)) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
-    std::vector<Box> boxes;
+    std::vector<Bounds> boxes;
     for (int w = lines_.first_wall[r]; w < lines_.first_wall[r + 1]; ++w)
-      boxes.push_back(box_about(lines_.walls[at(w)].ends));
-    trees_.emplace_back(std::move(boxes));
+      boxes.push_back(flat_bounds(lines_.walls[at(w)].ends[0], lines_.walls[at(w)].ends[1]));
+    trees_.push_back(make_flat_tree(boxes, 1));
   }
   for (const SharedLine& line : lines_.lines) {
     std::vector<double>& points = agreed_.emplace_back();
@@ -66,11 +56,9 @@ SharedEdges::SharedEdges(const SoundScene& scene)
 
 int SharedEdges::wall_of(int surface, const Segment2& edge) const {
   const Vec2 middle = 0.5 * (edge[0] + edge[1]);
-  Box around = box_about({middle, middle});
-  around.min().array() -= scene_.tolerance.planarity;
-  around.max().array() += scene_.tolerance.planarity;
+  const Bounds around = flat_bounds(middle, middle).grown(scene_.tolerance.planarity);
   std::pair<double, int> best{scene_.tolerance.planarity, -1};
-  trees_[at(surface)].query_box(around, [&](int i) {
+  visit_overlaps(trees_[at(surface)], around, [&](int i) {
     const int w = lines_.first_wall[at(surface)] + i;
     const Segment2& wall = lines_.walls[at(w)].ends;
     const double off = std::max(distance(edge[0], wall), distance(edge[1], wall));
@@ -82,11 +70,9 @@ int SharedEdges::wall_of(int surface, const Segment2& edge) const {
 void SharedEdges::add(std::span<const End> ends) {
   std::vector<std::vector<std::pair<double, double>>> found(lines_.lines.size());  // place, snap
   for (const End& end : ends) {
-    Box around = box_about({end.point, end.point});
-    around.min().array() -= end.snap;
-    around.max().array() += end.snap;
+    const Bounds around = flat_bounds(end.point, end.point).grown(end.snap);
     const auto r = at(end.surface);
-    trees_[r].query_box(around, [&](int i) {
+    visit_overlaps(trees_[r], around, [&](int i) {
       const Wall& wall = lines_.walls[at(lines_.first_wall[r] + i)];
       if (wall.line < 0 || distance(end.point, wall.ends) > end.snap) return;
       const double t = along(lines_.lines[at(wall.line)], scene_.surfaces[r].frame, end.point);

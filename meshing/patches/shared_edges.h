@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/progress.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 #include "meshing/patches/shared_lines.h"
 #include "meshing/triangulation/split_edges.h"
 
@@ -69,7 +69,7 @@ class SharedEdges {
 
   const SoundScene& scene_;
   SharedLines lines_;
-  std::vector<BoxTree> trees_;               // of each surface's walls, in its frame
+  std::vector<FlatTree> trees_;              // of each surface's walls, in its frame
   std::vector<std::vector<double>> agreed_;  // [line]: sorted, farther apart than the tolerance
 };
 

@@ -1,6 +1,6 @@
 #include "meshing/patches/shared_lines.h"
 
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <array>
@@ -102,16 +102,13 @@ class WallJoiner {
   }
 
   std::vector<Overlap> find_overlaps() const {
-    std::vector<Box> boxes;
-    for (const Stretch& s : stretches_) {
-      boxes.emplace_back(s.from.cwiseMin(s.to), s.from.cwiseMax(s.to));
-      boxes.back().min().array() -= s.reach;
-      boxes.back().max().array() += s.reach;
-    }
-    const BoxTree tree(boxes);
+    std::vector<Bounds> boxes;
+    for (const Stretch& s : stretches_)
+      boxes.push_back(Bounds{s.from.cwiseMin(s.to), s.from.cwiseMax(s.to)}.grown(s.reach));
+    const FlatTree tree = make_flat_tree(boxes, 1);
     std::vector<Overlap> overlaps;
     for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
-      tree.query_box(boxes[at(i)], [&](int j) {
+      visit_overlaps(tree, boxes[at(i)], [&](int j) {
         if (j >= i || lines_.walls[at(i)].surface == lines_.walls[at(j)].surface) return;
         const bool j_is_longer = stretches_[at(i)].length() < stretches_[at(j)].length();
         const double gap = j_is_longer ? gap_between(j, i) : gap_between(i, j);

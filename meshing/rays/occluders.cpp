@@ -1,5 +1,6 @@
-#include "meshing/rays/visibility.h"
-#include "meshing/triangulation/planar_mesh.h"
+#include "meshing/rays/occluders.h"
+
+#include "meshing/triangulation/ring_triangles.h"
 
 namespace halfshade {
 
@@ -8,11 +9,10 @@ TriangleSoup occluders(const SoundScene& scene) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     const Surface& surface = scene.surfaces[r];
     if (surface.back) continue;
-    // Contact lines divide the light on a surface, not the light it takes from others.
-    const PlanarMesh mesh = triangulate(surface.rings, {});
     const int first = static_cast<int>(soup.points.size());
-    for (const Vec2& p : mesh.points) soup.points.push_back(surface.frame.to_space(p));
-    for (const auto& t : mesh.triangles) {
+    for (const Ring& ring : surface.rings)
+      for (const Vec2& p : ring) soup.points.push_back(surface.frame.to_space(p));
+    for (const auto& t : ring_triangles(surface.rings)) {
       soup.triangles.push_back({first + t[0], first + t[1], first + t[2]});
       soup.owner.push_back(static_cast<int>(r));
       soup.plane.push_back(surface.plane);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/rays/visibility.h"
+#include "meshing/rays/occluders.h"
 
 #include <Eigen/Geometry>
 

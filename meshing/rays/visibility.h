@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/core/sound_scene.h"
+#include "meshing/rays/occluders.h"
 
 #include <array>
 #include <cstdint>
@@ -10,19 +10,6 @@
 #include <vector>
 
 namespace halfshade {
-
-/// Opaque triangles, each with an owner (a surface or an element, as the maker of the soup
-/// chooses) and the id of the plane it lies in.
-struct TriangleSoup {
-  std::vector<Vec3> points;
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<int> owner;
-  std::vector<int> plane;
-};
-
-/// The surfaces as coarse triangles; owner = surface. Backs of two-sided faces are left out, for
-/// their fronts already block.
-TriangleSoup occluders(const SoundScene& scene);
 
 /// A straight piece of light. Triangles in the planes of its end points (−1: none) do not block it:
 /// a segment that leaves a plane cannot cross it again.

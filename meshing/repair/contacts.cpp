@@ -2,7 +2,7 @@
 
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/core/planar.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 #include "meshing/repair/intersections.h"
 
 #include <algorithm>
@@ -144,21 +144,20 @@ class ContactFinder {
 
 // Edges other than the surface's own that lie in its plane and may reach into it.
 std::vector<SurfaceEdge> edges_in_plane(const SurfaceDraft& draft,
-                                        const std::vector<SurfaceEdge>& edges, const BoxTree& tree,
+                                        const std::vector<SurfaceEdge>& edges, const FlatTree& tree,
                                         const std::vector<Vec3>& points) {
   const double most = tolerance_of(draft.scale).planarity;
-  Box around;
-  for (const int p : draft.rings[0]) around.extend(points[at(p)]);
-  around.min().array() -= most;
-  around.max().array() += most;
+  Bounds around;
+  for (const int p : draft.rings[0]) around.include(points[at(p)]);
+  around = around.grown(most);
   const Vec3 normal = draft.frame.normal, spread = normal.cwiseAbs();
   const std::vector<Link> own = links_of(draft.rings);
   std::vector<int> found;
-  const auto reaches = [&](const Box& box) {
-    return box.intersects(around) &&
-           std::abs(draft.frame.height(box.center())) <= spread.dot(0.5 * box.sizes()) + most;
+  const auto reaches = [&](const Bounds& box) {
+    return box.meets(around) &&
+           std::abs(draft.frame.height(box.centre())) <= spread.dot(box.half_size()) + most;
   };
-  tree.query(reaches, [&](int i) {
+  visit_reached(tree, reaches, [&](int i) {
     const SurfaceEdge& edge = edges[at(i)];
     const double limit = tolerance_of(joint_scale(draft.scale, edge.scale)).planarity;
     const bool in_plane = std::all_of(edge.link.begin(), edge.link.end(), [&](int p) {
@@ -176,13 +175,10 @@ std::vector<SurfaceEdge> edges_in_plane(const SurfaceDraft& draft,
 
 void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
   const std::vector<SurfaceEdge> edges = all_edges(drafts);
-  std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const SurfaceEdge& edge : edges) {
-    boxes.emplace_back(points[at(edge.link[0])]);
-    boxes.back().extend(points[at(edge.link[1])]);
-  }
-  const BoxTree tree(std::move(boxes));
+  std::vector<Bounds> boxes(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    for (const int p : edges[i].link) boxes[i].include(points[at(p)]);
+  const FlatTree tree = make_flat_tree(boxes, 1);
   const auto cuts = find_intersections(drafts, points);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     std::vector<SurfaceEdge> lines = edges_in_plane(drafts[i], edges, tree, points);

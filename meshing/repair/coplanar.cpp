@@ -53,7 +53,7 @@ class Resolver {
     const std::vector<int> winner = winners();
     std::vector<int> labels;
     for (const int w : winner) labels.push_back(w < 0 ? -1 : bucket_of(w));
-    for (const Region& region : regions(overlay_, labels)) draft(region);
+    for (const OverlayRegion& region : regions(overlay_, labels)) draft(region);
     return std::move(result_);
   }
 
@@ -119,7 +119,7 @@ class Resolver {
     return winner;
   }
 
-  void draft(const Region& region) {
+  void draft(const OverlayRegion& region) {
     std::set<int> members;
     for (const int t : region.triangles)
       for (const auto& [f, w] : overlay_.winding[at(t)])

@@ -1,6 +1,6 @@
 #include "meshing/repair/intersections.h"
 
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -41,9 +41,9 @@ std::vector<Stretch> stretches(const SurfaceDraft& draft, const PlaneFrame& othe
   return result;
 }
 
-Box box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
-  Box box;
-  for (const int p : draft.rings[0]) box.extend(points[at(p)]);
+Bounds box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
+  Bounds box;
+  for (const int p : draft.rings[0]) box.include(points[at(p)]);
   return box;
 }
 
@@ -51,13 +51,13 @@ Box box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
 
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
     const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   for (const SurfaceDraft& draft : drafts) boxes.push_back(box_of(draft, points));
-  const BoxTree tree(boxes);
+  const FlatTree tree = make_flat_tree(boxes, 1);
   std::vector<std::vector<std::array<int, 2>>> found(drafts.size());
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     std::vector<int> near;
-    tree.query_box(boxes[i], [&](int j) {
+    visit_overlaps(tree, boxes[i], [&](int j) {
       if (at(j) > i) near.push_back(j);
     });
     std::sort(near.begin(), near.end());

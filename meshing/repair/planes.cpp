@@ -1,7 +1,7 @@
 #include "meshing/repair/planes.h"
 
 #include "meshing/core/tolerance.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ struct Polygon {
   std::vector<Vec3> corners;
   PlaneFrame frame;
   LocalScale scale;
-  Box box;
+  Bounds box;
 };
 
 Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop) {
@@ -27,10 +27,9 @@ Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop) {
   for (const int p : loop) polygon.corners.push_back(points[at(p)]);
   polygon.frame = fit_plane(polygon.corners);
   polygon.scale = scale_of(polygon.corners);
-  for (const Vec3& p : polygon.corners) polygon.box.extend(p);
+  for (const Vec3& p : polygon.corners) polygon.box.include(p);
   // Of the polygon's own; a neighbour that is larger comes to it.
-  const Vec3 reach = Vec3::Constant(tolerance_of(polygon.scale).planarity);
-  polygon.box = Box(polygon.box.min() - reach, polygon.box.max() + reach);
+  polygon.box = polygon.box.grown(tolerance_of(polygon.scale).planarity);
   return polygon;
 }
 
@@ -56,7 +55,9 @@ double planarity_limit(const Polygon& polygon, const LocalScale& plane, const Ve
 class PlaneGrower {
  public:
   explicit PlaneGrower(const std::vector<Polygon>& polygons)
-      : polygons_(polygons), tree_(boxes_of(polygons)), is_free_(polygons.size(), false) {}
+      : polygons_(polygons),
+        tree_(make_flat_tree(boxes_of(polygons), 1)),
+        is_free_(polygons.size(), false) {}
 
   void release(std::size_t polygon) { is_free_[polygon] = true; }
   bool is_free(std::size_t polygon) const { return is_free_[polygon]; }
@@ -71,7 +72,7 @@ class PlaneGrower {
     std::vector<int> near;
     for (std::size_t k = 0; k < members.size(); ++k) {
       near.clear();
-      tree_.query_box(polygons_[members[k]].box, [&](int i) { near.push_back(i); });
+      visit_overlaps(tree_, polygons_[members[k]].box, [&](int i) { near.push_back(i); });
       std::sort(near.begin(), near.end());
       for (const int i : near)
         if (is_free_[at(i)] && fits(seed, at(i), extrapolate ? extent : HUGE_VAL)) {
@@ -83,8 +84,8 @@ class PlaneGrower {
   }
 
  private:
-  static std::vector<Box> boxes_of(const std::vector<Polygon>& polygons) {
-    std::vector<Box> boxes;
+  static std::vector<Bounds> boxes_of(const std::vector<Polygon>& polygons) {
+    std::vector<Bounds> boxes;
     boxes.reserve(polygons.size());
     for (const Polygon& polygon : polygons) boxes.push_back(polygon.box);
     return boxes;
@@ -102,7 +103,7 @@ class PlaneGrower {
   }
 
   const std::vector<Polygon>& polygons_;
-  BoxTree tree_;
+  FlatTree tree_;
   std::vector<bool> is_free_;
 };
 

@@ -1,7 +1,7 @@
 #include "meshing/repair/weld.h"
 
 #include "meshing/core/tolerance.h"
-#include "meshing/geometry/box_tree.h"
+#include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,18 +33,18 @@ WeldedVertices weld(const Scene& scene) {
   std::vector<bool> is_used(scene.vertices.size(), false);
   for (const Face& face : scene.faces)
     for (const int v : face.vertices) is_used[at(v)] = true;
-  std::vector<Box> boxes;
+  std::vector<Bounds> boxes;
   for (std::size_t v = 0; v < is_used.size(); ++v)
     if (is_used[v]) {
       used.push_back(static_cast<int>(v));
-      boxes.emplace_back(scene.vertices[v]);
+      boxes.push_back({scene.vertices[v], scene.vertices[v]});
     }
-  const BoxTree tree(std::move(boxes));
+  const FlatTree tree = make_flat_tree(boxes, 1);
   for (const int v : used) {
     const Vec3& p = scene.vertices[at(v)];
-    const Vec3 reach = Vec3::Constant(tolerance_of(scales[at(v)]).length);
+    const Bounds around = Bounds{p, p}.grown(tolerance_of(scales[at(v)]).length);
     int first = v;
-    tree.query_box(Box(p - reach, p + reach), [&](int item) {
+    visit_overlaps(tree, around, [&](int item) {
       const int other = used[at(item)];
       // Only those that stand for themselves.
       const int point = result.of_vertex[at(other)];

@@ -1,5 +1,6 @@
 #include "meshing/triangulation/lazy_refinement.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/triangulation/narrow_corners.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ class Refiner {
       if (s.squared[k] > s.squared[s.longest]) s.longest = k;
     }
     const Vec2 u = point(c[1]) - point(c[0]), v = point(c[2]) - point(c[0]);
-    s.twice_area = u.x() * v.y() - u.y() * v.x();
+    s.twice_area = cross_2d(u, v);
     return s;
   }
 

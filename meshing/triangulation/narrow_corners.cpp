@@ -1,5 +1,7 @@
 #include "meshing/triangulation/narrow_corners.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -26,7 +28,7 @@ double turned(double a, double b) { return std::abs(std::remainder(a - b, 2 * st
 
 double angle(const Vec2& apex, const Vec2& a, const Vec2& b) {
   const Vec2 u = a - apex, v = b - apex;
-  return std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
+  return std::atan2(cross_2d(u, v), u.dot(v));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "solver/direct/painted_light.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "meshing/core/planar.h"
 #include "solver/elements/quadrature.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ struct Part {
   bool even = true;
   double area() const {
     const Vec2 b = corners[1] - corners[0], c = corners[2] - corners[0];
-    return 0.5 * std::abs(b.x() * c.y() - b.y() * c.x());
+    return 0.5 * std::abs(cross_2d(b, c));
   }
 };
 

@@ -2,7 +2,6 @@
 
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
-#include "meshing/geometry/box_tree.h"
 #include "meshing/geometry/corner_fans.h"
 #include "meshing/patches/face_lookup.h"
 #include "meshing/repair/planes.h"
@@ -154,28 +153,6 @@ TEST(CornerFans, StayTogetherRoundTheEndOfAWall) {
   for (std::size_t t = 1; t < 4; ++t) EXPECT_EQ(fans.of_corner[t][0], fans.of_corner[0][0]);
   neighbours[1][2] = neighbours[2][0] = -1;  // and the one from 0 to 3: the wall goes through
   EXPECT_EQ(corner_fans(triangles, neighbours).count, 8);
-}
-
-TEST(BoxTree, FindsWhatComparingAllFinds) {
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const auto box = [&] {
-    const Vec3 low(uniform(random), uniform(random), uniform(random));
-    return Box(low, low + 0.2 * Vec3(uniform(random), uniform(random), uniform(random)));
-  };
-  std::vector<Box> boxes;
-  for (int k = 0; k < 300; ++k) boxes.push_back(box());
-  const BoxTree tree(boxes);
-  for (int k = 0; k < 50; ++k) {
-    const Box probe = box();
-    std::vector<int> expected, found;
-    for (int i = 0; i < 300; ++i)
-      if (boxes[static_cast<std::size_t>(i)].intersects(probe)) expected.push_back(i);
-    tree.query_box(probe, [&](int i) { found.push_back(i); });
-    std::sort(found.begin(), found.end());
-    EXPECT_EQ(found, expected);
-  }
-  BoxTree({}).query_box(boxes[0], [](int) { ADD_FAILURE(); });
 }
 
 TEST(FaceLookup, FindsTheFaceThatHoldsThePointElseTheNearest) {

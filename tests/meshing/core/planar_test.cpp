@@ -33,6 +33,13 @@ TEST(Planar, DistanceIsToTheNearestPartOfASegment) {
   EXPECT_DOUBLE_EQ(distance_to_segment({3, 4}, {0, 0}, {0, 0}), 5);
 }
 
+TEST(Planar, NearestOnASegmentIsAParameterOfIt) {
+  EXPECT_EQ(nearest_on_segment({0.75, 2}, {0, 0}, {3, 0}), 0.25);
+  EXPECT_EQ(nearest_on_segment({-3, -4}, {0, 0}, {3, 0}), 0);
+  EXPECT_EQ(nearest_on_segment({6, 4}, {0, 0}, {3, 0}), 1);
+  EXPECT_EQ(nearest_on_segment({3, 4}, {0, 0}, {0, 0}), 0);
+}
+
 TEST(Planar, DistanceIsToTheNearestRing) {
   EXPECT_DOUBLE_EQ(distance_to_rings(frame, {2, 2}), 1);
   EXPECT_DOUBLE_EQ(distance_to_rings(frame, {0.25, 2}), 0.25);

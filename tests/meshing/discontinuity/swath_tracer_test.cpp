@@ -2,6 +2,7 @@
 
 #include "meshing/discontinuity/rounding.h"
 #include "meshing/events/events.h"
+#include "tests/support/critical_conic.h"
 #include "tests/support/discontinuity_scenes.h"
 #include "tests/support/lit_scene.h"
 
@@ -219,7 +220,7 @@ TEST(SwathTracer, CurvesOfThreeEdgesLieOnTheirCriticalConic) {
         for (const DiscontinuityCurve& curve : curves) {
           const PlaneFrame& plane =
               traced.scene.surfaces[static_cast<std::size_t>(curve.receiver)].frame;
-          const Conic conic = critical_conic(lines, plane);
+          const test::Conic conic = test::critical_conic(lines, plane);
           for (const double s : {0., 0.2, 0.5, 0.9, 1.}) {
             const Vec2 p = point_at(curve.arc, s);
             EXPECT_NEAR(value(conic, p) / (1e-3 + gradient(conic, p).norm()), 0, 1e-7);

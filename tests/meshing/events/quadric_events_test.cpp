@@ -1,5 +1,6 @@
 #include "meshing/events/quadric_events.h"
 
+#include "tests/support/critical_conic.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,8 @@
 namespace halfshade {
 namespace {
 
+using test::Conic;
+using test::critical_conic;
 using test::Random;
 using Vec3l = Eigen::Matrix<long double, 3, 1>;
 

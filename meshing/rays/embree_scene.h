@@ -1,0 +1,39 @@
+#pragma once
+
+#include "meshing/rays/ray_space.h"
+#include "meshing/rays/visibility.h"
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace halfshade {
+
+/// Triangles as Embree holds them, with the tests that decide in double precision whether a ray
+/// meets one. The soup and its space must outlive it. All queries may run concurrently.
+class EmbreeScene {
+ public:
+  static constexpr std::size_t packet_size = 16;
+
+  /// Throws Error(too_large) if memory runs out. Precondition: there are triangles.
+  EmbreeScene(const TriangleSoup& soup, const RaySpace& space);
+  ~EmbreeScene();
+
+  bool blocked(const Segment& segment) const;
+
+  /// Of up to packet_size segments: `result[k]` is 1 or 0.
+  void blocked(std::span<const Segment> segments, std::span<std::uint8_t> result) const;
+
+  /// The first triangle that a ray meets, −1 if none; `direction` has unit length, `origin` is
+  /// finite.
+  int first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const;
+
+ private:
+  struct Handles;
+
+  const TriangleSoup& soup_;
+  const RaySpace& space_;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace halfshade

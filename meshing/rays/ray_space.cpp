@@ -1,0 +1,96 @@
+#include "meshing/rays/ray_space.h"
+
+#include "meshing/core/error.h"
+#include "meshing/geometry/flat_tree.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+// In [−1, 1] a line through a triangle is off by about ten roundings of single precision, 2^-20.
+// Edges are moved outwards by four times that, and rays, whose ends suffer more at grazing angles,
+// lengthened by much more.
+constexpr double relative_enlargement = 0x1p-18;
+constexpr double lengthening = 0x1p-12;
+
+// Relative to the scene's size: a point this close to a triangle's plane lies in it, and a line
+// this close to its border meets it. Points that were computed to lie there do so within about
+// 1e-15.
+constexpr double in_plane_distance = 1e-10;
+constexpr double on_border_distance = 1e-12;
+constexpr double in_shaft_distance = 1e-12;
+// Of coordinates far from the origin.
+constexpr double roundings = 16;
+
+constexpr double largest_extent = 1e30;  // sixth powers of lengths occur
+
+/// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
+/// False if nothing is left.
+bool clip_to_cube(Ray& ray) {
+  const double half = 1 + 2 * lengthening;
+  double enter = 0, leave = ray.length;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double o = ray.origin[axis], d = ray.direction[axis];
+    if (d == 0) {
+      if (std::abs(o) > half) return false;
+      continue;
+    }
+    const double t0 = (-half - o) / d, t1 = (half - o) / d;
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  if (!(enter <= leave)) return false;
+  ray.origin += enter * ray.direction;
+  ray.length = leave - enter;
+  return true;
+}
+
+}  // namespace
+
+std::optional<Ray> RaySpace::ray(const Vec3& from, const Vec3& to) const {
+  const Vec3 start = (from - centre) * scale, end = (to - centre) * scale;
+  const Vec3 way = end - start;
+  const double length = way.norm();
+  if (!(length > 0 && length < std::numeric_limits<double>::infinity())) return std::nullopt;
+  const Vec3 direction = way / length;
+  Ray ray{start - lengthening * direction, direction, length + 2 * lengthening};
+  const bool inside =
+      std::max(start.lpNorm<Eigen::Infinity>(), end.lpNorm<Eigen::Infinity>()) <= 1 + lengthening;
+  if (!inside && !clip_to_cube(ray)) return std::nullopt;
+  return ray;
+}
+
+std::optional<Ray> RaySpace::ray_ahead(const Vec3& origin, const Vec3& direction) const {
+  const Vec3 start = (origin - centre) * scale - lengthening * direction;
+  Ray ray{start, direction, std::numeric_limits<double>::infinity()};
+  if (!clip_to_cube(ray)) return std::nullopt;
+  return ray;
+}
+
+RaySpace make_ray_space(const TriangleSoup& soup) {
+  RaySpace space;
+  if (soup.triangles.empty()) return space;
+  Bounds box;
+  for (const auto& corners : soup.triangles)
+    for (const int v : corners) box.include(soup.points[at(v)]);
+  const double half = (box.high / 2 - box.low / 2).maxCoeff();
+  const double reach = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+  if (!(half < largest_extent) || (half > 0 && half < 1 / largest_extent))
+    throw Error(ErrorCode::contract, "VisibilityIndex",
+                fmt::format("the triangles extend over {}, out of range", 2 * half));
+  space.centre = box.low / 2 + box.high / 2;
+  if (half > 0) space.scale = std::exp2(-std::ilogb(half) - 1);
+  const double rounding = roundings * std::numeric_limits<double>::epsilon() * reach;
+  space.in_plane = in_plane_distance * half + rounding;
+  space.on_border = on_border_distance * half + rounding;
+  space.in_shaft = in_shaft_distance * half + rounding;
+  space.enlargement = relative_enlargement / space.scale;
+  return space;
+}
+
+}  // namespace halfshade

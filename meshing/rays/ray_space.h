@@ -1,0 +1,39 @@
+#pragma once
+
+#include "meshing/rays/occluders.h"
+
+#include <optional>
+
+namespace halfshade {
+
+/// A ray in the coordinates of a RaySpace.
+struct Ray {
+  Vec3 origin;
+  Vec3 direction;  ///< unit length
+  double length = 0;
+
+  Vec3 end() const { return origin + length * direction; }
+};
+
+/// Coordinates in which triangles lie in [−1, 1]³, where single precision does best.
+struct RaySpace {
+  Vec3 centre = Vec3::Zero();
+  double scale = 1;        ///< a power of two; (p − centre)·scale lies in [−1, 1]
+  double in_plane = 0;     ///< a point this close to a triangle's plane lies in it; scene units
+  double on_border = 0;    ///< a line this close to a triangle's border meets it; scene units
+  double in_shaft = 0;     ///< what reaches into a shaft by less only touches it; scene units
+  double enlargement = 0;  ///< of triangles, in scene units
+
+  /// A segment, a little lengthened and without what lies far from all triangles. Nothing if it has
+  /// no length, or nothing is left of it.
+  std::optional<Ray> ray(const Vec3& from, const Vec3& to) const;
+
+  /// The same for all that lies ahead of a finite point; `direction` has unit length.
+  std::optional<Ray> ray_ahead(const Vec3& origin, const Vec3& direction) const;
+};
+
+/// The space of triangles, none of which may have corners that are not finite. Throws
+/// Error(contract) if they extend over so much or so little that powers of lengths overflow.
+RaySpace make_ray_space(const TriangleSoup& soup);
+
+}  // namespace halfshade

@@ -53,13 +53,12 @@ CurveMeshOptions curve_mesh_options(double size, double scene_size,
 }
 
 // Curves on both sides of a shared edge end there in the same point but for rounding.
-void share_ends(SharedEdges& shared, const CurveLines& lines,
-                const std::vector<CurveMeshOptions>& options) {
+void share_ends(SharedEdges& shared, const SurfaceMeshInput& input) {
   std::vector<SharedEdges::End> ends;
-  for (std::size_t r = 0; r < options.size(); ++r)
-    for (const CurveLine& line : lines.of_surface[r])
+  for (std::size_t r = 0; r < input.curves.size(); ++r)
+    for (const CurveLine& line : input.curves[r])
       for (const Vec2& p : {line.points.front(), line.points.back()})
-        ends.push_back({static_cast<int>(r), p, options[r].snap});
+        ends.push_back({static_cast<int>(r), p, input.options[r].snap});
   shared.add(ends);
 }
 
@@ -70,43 +69,29 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
                                        const Progress& progress) {
   check(scene, found, options);
   check_size(scene, {options.max_length, options.min_angle, options.max_triangles});
-  const CurveLines lines = curve_lines(scene, found, options);
-  const std::size_t count = scene.surfaces.size();
-  std::vector<CurveMeshOptions> mesh_options;
+  CurveLines lines = curve_lines(scene, found, options);
+  SurfaceMeshInput input{std::move(lines.of_surface), {}};
   for (const Surface& surface : scene.surfaces)
-    mesh_options.push_back(
+    input.options.push_back(
         curve_mesh_options(size_of(surface), scene.tolerance.scene_size, options));
   SharedEdges shared(scene);
-  share_ends(shared, lines, mesh_options);
+  share_ends(shared, input);
+  const SurfaceMeshes made = mesh_surfaces(input, shared, options.max_triangles, progress);
 
   DiscontinuityMeshReport report;
-  std::vector<CurveMesh> meshes(count);
-  report.boundary_rounds = mesh_alike(
-      shared, count,
-      [&](std::size_t r, const Outline& outline) {
-        meshes[r] =
-            mesh_with_curves(outline.rings, outline.contacts, lines.of_surface[r], mesh_options[r]);
-      },
-      [&](std::size_t r) { return wall_edges(meshes[r]); }, progress);
-
   report.kept = lines.kept;
   report.culled = lines.culled;
-  std::size_t triangles = 0;
-  for (std::size_t r = 0; r < count; ++r) {
-    if (meshes[r].mesh.triangles.empty()) {  // stopped before it was reached
-      const Outline outline = shared.outline(static_cast<int>(r));
-      meshes[r] = without_curves(triangulate(outline.rings, outline.contacts));
-      meshes[r].mesh.complete = false;
-    } else if (!lines.of_surface[r].empty()) {
-      report.deviation = std::max(report.deviation, meshes[r].deviation + lines.deviation[r]);
-    }
-    if (!meshes[r].mesh.complete) ++report.unfinished_surfaces;
-    triangles += meshes[r].mesh.triangles.size();
-    check_count(triangles, options.max_triangles, r, count);
+  report.boundary_rounds = made.rounds;
+  for (std::size_t r = 0; r < made.meshes.size(); ++r) {
+    const CurveMesh& mesh = made.meshes[r];
+    // Without those that were stopped before their curves were in.
+    if (!input.curves[r].empty() && (mesh.mesh.complete || !mesh.curves.empty()))
+      report.deviation = std::max(report.deviation, mesh.deviation + lines.deviation[r]);
+    if (!mesh.mesh.complete) ++report.unfinished_surfaces;
   }
   std::vector<int> order;
   for (const DiscontinuityCurve& curve : found.curves) order.push_back(curve.order);
-  return {PatchMesh(scene, meshes, order), report};
+  return {PatchMesh(scene, made.meshes, order), report};
 }
 
 }  // namespace halfshade

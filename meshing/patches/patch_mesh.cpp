@@ -387,13 +387,15 @@ void PatchMesh::Impl::mark(Mesh::EdgeHandle edge, std::vector<Mesh::EdgeHandle>&
 PatchMesh::PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
                      const Progress& progress)
     : impl_(std::make_unique<Impl>()) {
+  check_size(scene, options);
   SharedEdges shared(scene);
-  const std::vector<PlanarMesh> meshes = mesh_surfaces(scene, options, shared, progress);
+  const SurfaceMeshes made =
+      mesh_surfaces(without_curves(scene, options), shared, options.max_triangles, progress);
   std::vector<WalledMesh> walled;
   std::vector<std::vector<int>> orders;
-  for (const PlanarMesh& mesh : meshes) {
-    walled.push_back({&mesh, wall_edges(mesh)});
-    orders.emplace_back(mesh.constrained_edges.size(), 0);
+  for (const CurveMesh& mesh : made.meshes) {
+    walled.push_back({&mesh.mesh, wall_edges(mesh)});
+    orders.push_back(edge_orders(mesh, {}));
   }
   impl_->add(scene, shared, walled, orders);
 }

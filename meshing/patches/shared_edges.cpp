@@ -1,17 +1,11 @@
 #include "meshing/patches/shared_edges.h"
 
-#include "meshing/core/parallel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace halfshade {
 namespace {
-
-// Neighbours mostly agree after two or three; what is left then is split plainly.
-constexpr int most_rounds = 8;
 
 Vec3 lifted(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
@@ -118,24 +112,6 @@ std::vector<double> SharedEdges::inside(int line, double begin, double end) cons
   return result;
 }
 
-std::vector<EdgePoints> SharedEdges::missing(int surface, const WallEdges& walls) const {
-  std::vector<EdgePoints> result;
-  const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
-  for (const WallEdge& edge : walls) {
-    const int w = wall_of(surface, edge.ends);
-    const int line = w < 0 ? -1 : lines_.walls[at(w)].line;
-    if (line < 0) continue;
-    const double begin = along(lines_.lines[at(line)], frame, edge.ends[0]);
-    const double end = along(lines_.lines[at(line)], frame, edge.ends[1]);
-    EdgePoints added{edge.points, {}};
-    for (const double t : inside(line, begin, end))
-      added.points.push_back(edge.ends[0] +
-                             (t - begin) / (end - begin) * (edge.ends[1] - edge.ends[0]));
-    if (!added.points.empty()) result.push_back(std::move(added));
-  }
-  return result;
-}
-
 Outline SharedEdges::outline(int surface) const {
   Outline result;
   int w = lines_.first_wall[at(surface)];
@@ -218,23 +194,6 @@ std::vector<int> SharedEdges::compare(std::span<const WallEdges> meshes) {
   for (std::size_t r = 0; r < differs.size(); ++r)
     if (differs[r]) result.push_back(static_cast<int>(r));
   return result;
-}
-
-int mesh_alike(SharedEdges& shared, std::size_t surfaces,
-               const std::function<void(std::size_t, const Outline&)>& mesh,
-               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress) {
-  std::vector<int> open(surfaces);
-  std::iota(open.begin(), open.end(), 0);
-  for (int round = 1;; ++round) {
-    const bool complete = parallel_for(
-        open.size(), [&](std::size_t i) { mesh(at(open[i]), shared.outline(open[i])); }, progress,
-        "mesh");
-    if (!complete || round == most_rounds) return round;
-    std::vector<WallEdges> all(surfaces);
-    for (std::size_t r = 0; r < surfaces; ++r) all[r] = walls(r);
-    open = shared.compare(all);
-    if (open.empty()) return round;
-  }
 }
 
 }  // namespace halfshade

@@ -1,12 +1,9 @@
 #pragma once
 
-#include "meshing/core/progress.h"
 #include "meshing/geometry/box_tree.h"
 #include "meshing/patches/shared_lines.h"
-#include "meshing/triangulation/split_edges.h"
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -50,9 +47,6 @@ class SharedEdges {
   /// What a surface is to be meshed with.
   Outline outline(int surface) const;
 
-  /// The points that a surface is to have and its mesh has not.
-  std::vector<EdgePoints> missing(int surface, const WallEdges& walls) const;
-
   /// Compares the meshes of all surfaces. Between neighbouring points of a line, the finest
   /// subdivision becomes that of all. Returns the surfaces that do not have it, sorted.
   std::vector<int> compare(std::span<const WallEdges> meshes);
@@ -72,13 +66,5 @@ class SharedEdges {
   std::vector<BoxTree> trees_;               // of each surface's walls, in its frame
   std::vector<std::vector<double>> agreed_;  // [line]: sorted, farther apart than the tolerance
 };
-
-/// Calls `mesh(surface, outline)` for every surface, on all threads, and again for those whose
-/// walls differ from their neighbours' with more points on them, until nothing differs or
-/// `progress` is stopped or it has been tried often enough. `walls(surface)` tells what a mesh has
-/// come to. Returns the number of rounds.
-int mesh_alike(SharedEdges& shared, std::size_t surfaces,
-               const std::function<void(std::size_t, const Outline&)>& mesh,
-               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress);
 
 }  // namespace halfshade

@@ -74,9 +74,10 @@ class Refiner {
     return s;
   }
 
-  bool is_long(const Shape& s) const {
-    return limits_.max_length > 0 && s.squared[s.longest] > limits_.max_length * limits_.max_length;
+  bool is_long(double squared_length) const {
+    return limits_.max_length > 0 && squared_length > limits_.max_length * limits_.max_length;
   }
+  bool is_long(const Shape& s) const { return is_long(s.squared[s.longest]); }
 
   // The smallest angle lies between constraints, or its side between twins.
   bool is_forced(int t, const Shape& s) const {
@@ -95,17 +96,26 @@ class Refiner {
   void push(int t) {
     const Shape s = shape(t);
     if (is_long(s))
-      queue_.push({1 + s.squared[s.longest], t, mesh_.triangle(t).corner});
+      queue_.push({s.squared[s.longest] / (limits_.max_length * limits_.max_length), t,
+                   mesh_.triangle(t).corner});
     else if (is_slim(t, s))
       queue_.push({-s.sine_squared(), t, mesh_.triangle(t).corner});
   }
 
   void improve(int t) {
     const Shape s = shape(t);
-    if (add_centre(t, s) || !is_long(s)) return;
+    if (split_long_constraint(t, s) || add_centre(t, s) || !is_long(s)) return;
     add(0.5 * (point(mesh_.triangle(t).corner[s.longest]) +
                point(mesh_.triangle(t).corner[(s.longest + 1) % 3])),
         Side{t, s.longest}, 0);
+  }
+
+  bool split_long_constraint(int t, const Shape& s) {
+    if (!is_long(s)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh_.triangle(t).line[k] >= 0 && is_long(s.squared[k]) && split(t, s, {t, k}))
+        return true;
+    return false;
   }
 
   // The circumcentre, or for slim triangles a point on the way there from the middle of the
@@ -159,21 +169,31 @@ class Refiner {
     return result;
   }
 
-  // Splits a constraint that is in the way of triangle t's improvement.
-  bool split(int t, const Shape& s, const Side& side) {
-    if (!is_long(s) && s.altitude() < limits_.shortest) return false;
-    const auto& triangle = mesh_.triangle(side.triangle);
-    const int a = triangle.corner[side.k], b = triangle.corner[(side.k + 1) % 3];
-    const double length = (point(b) - point(a)).norm();
-    Vec2 p = 0.5 * (point(a) + point(b));
-    const int line = triangle.line[side.k];
-    const bool is_narrow_at_a = corners_.is_narrow_at(line, a);
-    if (is_narrow_at_a != corners_.is_narrow_at(line, b)) {
+  // Where to split a constraint.
+  Vec2 split_point(const Vec2& a, const Vec2& b, bool is_narrow_at_a, bool is_narrow_at_b) const {
+    const double length = (b - a).norm();
+    if (is_narrow_at_a != is_narrow_at_b) {
       // All round a narrow corner at the same distances, or splits answer each other without end.
       const double shell = std::exp2(std::round(std::log2(0.5 * length))) / length;
-      p = is_narrow_at_a ? Vec2(point(a) + shell * (point(b) - point(a)))
-                         : Vec2(point(b) + shell * (point(a) - point(b)));
+      return is_narrow_at_a ? Vec2(a + shell * (b - a)) : Vec2(b + shell * (a - b));
     }
+    // What is too long comes to as few equal parts as may be.
+    const double parts = is_long(length * length) ? std::ceil(length / limits_.max_length) : 2;
+    const double share = std::floor(0.5 * parts) / parts;
+    return share == 0.5 ? Vec2(0.5 * (a + b)) : Vec2(a + share * (b - a));
+  }
+
+  // Splits a constraint that is too long or in the way of triangle t's improvement. Length alone is
+  // no reason to split one that is short enough: then neighbours along it agree by themselves.
+  bool split(int t, const Shape& s, const Side& side) {
+    const auto& triangle = mesh_.triangle(side.triangle);
+    const int a = triangle.corner[side.k], b = triangle.corner[(side.k + 1) % 3];
+    if (is_long(s) ? !is_long((point(b) - point(a)).squaredNorm())
+                   : s.altitude() < limits_.shortest)
+      return false;
+    const int line = triangle.line[side.k];
+    const Vec2 p = split_point(point(a), point(b), corners_.is_narrow_at(line, a),
+                               corners_.is_narrow_at(line, b));
     const auto corner = mesh_.triangle(t).corner;
     if (std::min((p - point(a)).norm(), (p - point(b)).norm()) < limits_.shortest) return false;
     if (!add(p, side, limits_.shortest)) return false;

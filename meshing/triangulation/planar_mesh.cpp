@@ -2,11 +2,6 @@
 
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/arrangement/hull_inside.h"
-#include "meshing/core/error.h"
-#include "meshing/triangulation/delaunay_refinement.h"
-#include "meshing/triangulation/length_bisection.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +12,6 @@ namespace {
 
 // Relative to the polygon's size: far above rounding, far below anything anyone draws.
 constexpr double relative_snap = 1e-13;
-// Rounding of a midpoint and of the way back to space must not push an edge over the limit.
-constexpr double length_margin = 1e-12;
 
 double extent(std::span<const Ring> rings) {
   Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
@@ -72,7 +65,6 @@ Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts)
 // Leaves out points that no triangle uses, and links that lie outside.
 PlanarMesh compact(const PlanarMesh& mesh) {
   PlanarMesh result;
-  result.complete = mesh.complete;
   std::vector<int> renamed(mesh.points.size(), -1);
   for (const auto& triangle : mesh.triangles)
     for (const int p : triangle) renamed[static_cast<std::size_t>(p)] = 0;
@@ -111,37 +103,10 @@ PlanarMesh triangulate(const Outline& outline) {
   return compact(mesh);
 }
 
-void check(const PlanarMeshOptions& options) {
-  if (!(options.max_length >= 0 && std::isfinite(options.max_length)))
-    throw Error(
-        ErrorCode::contract, "refine_triangulation",
-        fmt::format("max_length is {}; it must be finite and not negative", options.max_length));
-  if (!(options.min_angle >= 0 && options.min_angle <= 20.7))
-    throw Error(
-        ErrorCode::contract, "refine_triangulation",
-        fmt::format("min_angle is {} degrees; it must lie in [0, 20.7]", options.min_angle));
-}
-
 }  // namespace
 
 PlanarMesh triangulate(std::span<const Ring> rings, std::span<const Segment2> contacts) {
   return triangulate(outline(rings, contacts));
-}
-
-PlanarMesh refine_triangulation(std::span<const Ring> rings, std::span<const Segment2> contacts,
-                                const PlanarMeshOptions& options) {
-  check(options);
-  PlanarMeshOptions inner = options;
-  inner.max_length = options.max_length * (1 - length_margin);
-  const PlanarMesh coarse = triangulate(outline(rings, contacts));
-  if (auto refined = delaunay_refinement(coarse, inner)) {
-    bisect_long_edges(*refined, inner.max_length, inner.max_triangles);
-    return compact(*refined);
-  }
-  PlanarMesh mesh = coarse;
-  bisect_long_edges(mesh, inner.max_length, inner.max_triangles);
-  mesh.complete = false;
-  return mesh;
 }
 
 }  // namespace halfshade

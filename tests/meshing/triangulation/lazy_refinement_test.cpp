@@ -94,7 +94,7 @@ TEST_P(LazyRefinementLength, IsKeptWithGoodAngles) {
 
 INSTANTIATE_TEST_SUITE_P(Lengths, LazyRefinementLength, testing::Values(0.9, 0.31, 0.1, 0.033));
 
-TEST(LazyRefinement, SplitsConstraintsInTheMiddle) {
+TEST(LazyRefinement, DividesLongConstraintsIntoEqualParts) {
   ConstrainedMesh mesh = square();
   refine_lazily(mesh, {0.07, 20.7, 1e-4, 100000});
   int on_border = 0;
@@ -102,10 +102,24 @@ TEST(LazyRefinement, SplitsConstraintsInTheMiddle) {
     const bool is_horizontal = p.y() == 0 || p.y() == 1, is_vertical = p.x() == 0 || p.x() == 1;
     if (!is_horizontal && !is_vertical) continue;
     ++on_border;
-    const double along = 64 * (is_horizontal ? p.x() : p.y());
+    const double along = 15 * (is_horizontal ? p.x() : p.y());
+    EXPECT_NEAR(along, std::round(along), 1e-14);
+  }
+  EXPECT_EQ(on_border, 60) << "1/15 is short enough, and nothing else asks for more";
+}
+
+TEST(LazyRefinement, SplitsConstraintsForAnglesInTheMiddle) {
+  ConstrainedMesh mesh = make({{0, 0}, {0.5, 0}, {0.5001, 0}, {1, 0}, {1, 1}, {0, 1}},
+                              {{0, 1, 5}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}});
+  refine_lazily(mesh, {0, 20.7, 1e-6, 100000});
+  int on_left_half = 0;
+  for (const Vec2& p : mesh.points) {
+    if (p.y() != 0 || p.x() >= 0.5) continue;
+    ++on_left_half;
+    const double along = 0x1p20 * p.x();
     EXPECT_EQ(along, std::round(along));
   }
-  EXPECT_LE(on_border, 64) << "1/16 is short enough";
+  EXPECT_GE(on_left_half, 5);
 }
 
 TEST(LazyRefinement, PartsOfAConstraintKeepItsId) {

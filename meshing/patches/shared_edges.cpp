@@ -40,6 +40,16 @@ void thin(std::vector<double>& values, double distance) {
 
 }  // namespace
 
+WallEdges wall_edges(const CurveMesh& mesh) {
+  const std::vector<Vec2>& points = mesh.mesh.points;
+  WallEdges walls;
+  for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {
+    const auto& edge = mesh.mesh.constrained_edges[i];
+    if (mesh.is_d0[i]) walls.push_back({edge, {points[at(edge[0])], points[at(edge[1])]}});
+  }
+  return walls;
+}
+
 SharedEdges::SharedEdges(const SoundScene& scene)
     : scene_(scene), lines_(find_shared_lines(scene)) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
@@ -171,10 +181,10 @@ void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
   std::sort(agreed_[line].begin(), agreed_[line].end());
 }
 
-std::vector<int> SharedEdges::compare(std::span<const WallEdges> meshes) {
+std::vector<int> SharedEdges::compare(std::span<const CurveMesh> meshes) {
   std::vector<std::vector<Vertex>> vertices(lines_.lines.size());
   for (std::size_t r = 0; r < meshes.size(); ++r)
-    for (const WallEdge& edge : meshes[r]) {
+    for (const WallEdge& edge : wall_edges(meshes[r])) {
       const int w = wall_of(static_cast<int>(r), edge.ends);
       if (w < 0 || lines_.walls[at(w)].line < 0) continue;
       const int line = lines_.walls[at(w)].line;

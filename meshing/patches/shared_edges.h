@@ -2,6 +2,7 @@
 
 #include "meshing/geometry/box_tree.h"
 #include "meshing/patches/shared_lines.h"
+#include "meshing/triangulation/curve_mesh.h"
 
 #include <array>
 #include <span>
@@ -21,6 +22,9 @@ struct WallEdge {
   Segment2 ends;                ///< in the surface's frame
 };
 using WallEdges = std::vector<WallEdge>;
+
+/// The constrained edges of a mesh on rings and contact lines.
+WallEdges wall_edges(const CurveMesh& mesh);
 
 /// Brings the subdivision of walls that lie on each other into agreement: keeps, for every shared
 /// line, the points that all surfaces along it are to have.
@@ -49,7 +53,7 @@ class SharedEdges {
 
   /// Compares the meshes of all surfaces. Between neighbouring points of a line, the finest
   /// subdivision becomes that of all. Returns the surfaces that do not have it, sorted.
-  std::vector<int> compare(std::span<const WallEdges> meshes);
+  std::vector<int> compare(std::span<const CurveMesh> meshes);
 
  private:
   struct Vertex {

@@ -10,11 +10,10 @@ namespace {
 
 class PlaceFinder {
  public:
-  PlaceFinder(const SoundScene& scene, const SharedEdges& shared,
-              std::span<const WalledMesh> meshes)
+  PlaceFinder(const SoundScene& scene, const SharedEdges& shared, std::span<const CurveMesh> meshes)
       : scene_(scene), lines_(shared.lines()), meshes_(meshes), edges_(lines_.lines.size()) {
     for (std::size_t r = 0; r < meshes.size(); ++r)
-      for (const WallEdge& edge : meshes[r].walls) {
+      for (const WallEdge& edge : wall_edges(meshes[r])) {
         const int wall = shared.wall_of(static_cast<int>(r), edge.ends);
         if (wall < 0 || lines_.walls[at(wall)].line < 0) continue;
         collect(static_cast<int>(r), lines_.walls[at(wall)].line, edge);
@@ -89,8 +88,7 @@ class PlaceFinder {
 
   Vec3 position(int i) const {
     const auto [surface, point] = points_[at(i)];
-    return scene_.surfaces[at(surface)].frame.to_space(
-        meshes_[at(surface)].mesh->points[at(point)]);
+    return scene_.surfaces[at(surface)].frame.to_space(meshes_[at(surface)].mesh.points[at(point)]);
   }
 
   // Not if both have a point of the same surface.
@@ -114,7 +112,7 @@ class PlaceFinder {
   }
 
   void number(SharedPlaces& result) {
-    for (const WalledMesh& mesh : meshes_) result.place.emplace_back(mesh.mesh->points.size(), -1);
+    for (const CurveMesh& mesh : meshes_) result.place.emplace_back(mesh.mesh.points.size(), -1);
     place_.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto [surface, point] = points_[i];
@@ -132,7 +130,7 @@ class PlaceFinder {
   // Only surfaces that are not quite plane have points that move by more than rounding.
   void detach_turned(std::size_t r, SharedPlaces& result) const {
     const PlaneFrame& frame = scene_.surfaces[r].frame;
-    const PlanarMesh& mesh = *meshes_[r].mesh;
+    const PlanarMesh& mesh = meshes_[r].mesh;
     std::vector<int>& place = result.place[r];
     const auto position = [&](int p) {
       return place[at(p)] < 0 ? frame.to_space(mesh.points[at(p)])
@@ -184,7 +182,7 @@ class PlaceFinder {
 
   const SoundScene& scene_;
   const SharedLines& lines_;
-  std::span<const WalledMesh> meshes_;
+  std::span<const CurveMesh> meshes_;
   std::vector<std::vector<Edge>> edges_;       // of each line
   std::vector<Point> points_;                  // on shared lines, sorted
   std::vector<int> above_;                     // trees of joined points
@@ -198,7 +196,7 @@ class PlaceFinder {
 }  // namespace
 
 SharedPlaces shared_places(const SoundScene& scene, const SharedEdges& shared,
-                           std::span<const WalledMesh> meshes) {
+                           std::span<const CurveMesh> meshes) {
   return PlaceFinder(scene, shared, meshes).run();
 }
 

@@ -1,19 +1,13 @@
 #pragma once
 
 #include "meshing/patches/shared_edges.h"
-#include "meshing/triangulation/planar_mesh.h"
+#include "meshing/triangulation/curve_mesh.h"
 
 #include <array>
 #include <span>
 #include <vector>
 
 namespace halfshade {
-
-/// The mesh of a surface and which of its edges lie on rings and contact lines.
-struct WalledMesh {
-  const PlanarMesh* mesh = nullptr;
-  WallEdges walls;
-};
 
 /// Places in space that points of several surfaces' meshes share.
 struct SharedPlaces {
@@ -31,6 +25,6 @@ struct SharedPlaces {
 /// Joins the points of meshes that lie at the same place of a shared line; never two of one
 /// surface. A point whose triangles would turn over at the common place keeps its own.
 SharedPlaces shared_places(const SoundScene& scene, const SharedEdges& shared,
-                           std::span<const WalledMesh> meshes);
+                           std::span<const CurveMesh> meshes);
 
 }  // namespace halfshade

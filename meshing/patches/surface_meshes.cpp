@@ -76,9 +76,7 @@ SurfaceMeshes mesh_surfaces(const SurfaceMeshInput& input, SharedEdges& shared,
     const bool is_complete = parallel_for(
         open.size(), [&](std::size_t i) { mesh(open[i]); }, progress, "mesh");
     if (!is_complete || result.rounds == most_rounds) break;
-    std::vector<WallEdges> walls;
-    for (const CurveMesh& m : meshes) walls.push_back(wall_edges(m));
-    open = shared.compare(walls);
+    open = shared.compare(meshes);
   }
   for (std::size_t r = 0; r < count; ++r)
     if (meshes[r].mesh.triangles.empty())
@@ -97,34 +95,6 @@ void check_size(const SoundScene& scene, const PlanarMeshOptions& options) {
     throw Error(ErrorCode::too_large, "PatchMesh",
                 fmt::format("edges of at most {} need at least {:.0f} elements; {} are allowed",
                             options.max_length, least, options.max_triangles));
-}
-
-WallEdges wall_edges(const CurveMesh& mesh) {
-  const std::vector<Vec2>& points = mesh.mesh.points;
-  WallEdges walls;
-  for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {
-    const auto& edge = mesh.mesh.constrained_edges[i];
-    if (mesh.is_d0[i]) walls.push_back({edge, {points[at(edge[0])], points[at(edge[1])]}});
-  }
-  return walls;
-}
-
-std::vector<int> edge_orders(const CurveMesh& mesh, std::span<const int> curve_order) {
-  std::vector<int> orders;
-  for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {
-    int order = mesh.is_d0[i] ? 0 : -1;
-    for (int k = mesh.curve_begin[i]; k < mesh.curve_begin[i + 1]; ++k) {
-      const int id = mesh.curves[at(k)];
-      if (id < 0 || at(id) >= curve_order.size())
-        throw Error(
-            ErrorCode::contract, "PatchMesh",
-            fmt::format("a mesh names curve {}, but {} have an order", id, curve_order.size()));
-      const int own = curve_order[at(id)];
-      order = order < 0 ? own : std::min(order, own);
-    }
-    orders.push_back(order);
-  }
-  return orders;
 }
 
 }  // namespace halfshade

@@ -4,7 +4,6 @@
 #include "meshing/patches/shared_edges.h"
 #include "meshing/triangulation/curve_mesh.h"
 
-#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -33,12 +32,5 @@ SurfaceMeshes mesh_surfaces(const SurfaceMeshInput& input, SharedEdges& shared,
 
 /// Throws Error(too_large) where areas alone tell that `options` take too many triangles.
 void check_size(const SoundScene& scene, const PlanarMeshOptions& options);
-
-/// The constrained edges on rings and contact lines.
-WallEdges wall_edges(const CurveMesh& mesh);
-
-/// [constrained edge]: the lowest order of what lies there; 0 on rings and contact lines. Throws
-/// Error(contract) if a curve has no order.
-std::vector<int> edge_orders(const CurveMesh& mesh, std::span<const int> curve_order);
 
 }  // namespace halfshade

@@ -4,7 +4,7 @@
 #include "meshing/core/error.h"
 #include "meshing/geometry/corner_fans.h"
 #include "meshing/patches/element_mesh.h"
-#include "meshing/patches/shared_places.h"
+#include "meshing/patches/shared_points.h"
 
 #include <fmt/format.h>
 
@@ -49,13 +49,12 @@ class SurfaceAdder {
         point_[at(fans_.of_corner[t][k])] = planar.triangles[t][k];
   }
 
-  void add_vertices(const PlaneFrame& frame, const SharedPlaces& shared) {
+  void add_vertices(const PlaneFrame& frame, const SharedPoints& shared) {
     for (const int point : point_) {
-      const int place = shared.place[at(surface_)][at(point)];
-      const Vec3 p =
-          place < 0 ? frame.to_space(planar_.points[at(point)]) : shared.position[at(place)];
+      const int id = shared.id[at(surface_)][at(point)];
+      const Vec3 p = id < 0 ? frame.to_space(planar_.points[at(point)]) : shared.position[at(id)];
       vertices_.push_back(out_.triangles.add_vertex(to_openmesh(p)));
-      out_.triangles.data(vertices_.back()).shared_point = place;
+      out_.triangles.data(vertices_.back()).shared_point = id;
     }
   }
 
@@ -80,7 +79,7 @@ class SurfaceAdder {
   }
 
   // Splits edges where only neighbours have points. The parts are elements of their own.
-  void fill_gaps(const SharedPlaces& shared) {
+  void fill_gaps(const SharedPoints& shared) {
     const auto& gaps = shared.gaps[at(surface_)];
     if (gaps.empty()) return;
     TriangleMesh& mesh = out_.triangles;
@@ -93,9 +92,9 @@ class SurfaceAdder {
       auto edge = edges.at(gap.edge);
       Link link = ends(mesh, edge);
       if (point_of(link[1]) != gap.edge[1]) std::swap(link[0], link[1]);
-      for (const int place : gap.places) {
-        const auto middle = split_edge(mesh, edge, to_openmesh(shared.position[at(place)]));
-        mesh.data(middle).shared_point = place;
+      for (const int id : gap.points) {
+        const auto middle = split_edge(mesh, edge, to_openmesh(shared.position[at(id)]));
+        mesh.data(middle).shared_point = id;
         std::map<int, FaceHandle> halves;  // of one triangle, by its node
         for (const auto face : mesh.vf_range(middle))
           if (!halves.emplace(mesh.data(face).node, face).second)
@@ -122,7 +121,7 @@ class SurfaceAdder {
 ElementMesh build_element_mesh(const SoundScene& scene, const SharedEdges& shared,
                                std::span<const CurveMesh> meshes,
                                std::span<const int> curve_order) {
-  const SharedPlaces common = shared_places(scene, shared, meshes);
+  const SharedPoints common = shared_points(scene, shared, meshes);
   ElementMesh result;
   result.shared_points = static_cast<int>(common.position.size());
   for (std::size_t r = 0; r < meshes.size(); ++r) {

@@ -1,7 +1,7 @@
 #include "meshing/patches/discontinuity_mesh.h"
 
 #include "meshing/core/error.h"
-#include "meshing/patches/curve_lines.h"
+#include "meshing/patches/curve_polylines.h"
 #include "meshing/patches/shared_edges.h"
 #include "meshing/patches/surface_meshes.h"
 
@@ -56,8 +56,8 @@ CurveMeshOptions curve_mesh_options(double size, double scene_size,
 void share_ends(SharedEdges& shared, const SurfaceMeshInput& input) {
   std::vector<SharedEdges::End> ends;
   for (std::size_t r = 0; r < input.curves.size(); ++r)
-    for (const CurveLine& line : input.curves[r])
-      for (const Vec2& p : {line.points.front(), line.points.back()})
+    for (const CurvePolyline& curve : input.curves[r])
+      for (const Vec2& p : {curve.points.front(), curve.points.back()})
         ends.push_back({static_cast<int>(r), p, input.options[r].snap});
   shared.add(ends);
 }
@@ -69,8 +69,8 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
                                        const Progress& progress) {
   check(scene, found, options);
   check_size(scene, {options.max_length, options.min_angle, options.max_triangles});
-  CurveLines lines = curve_lines(scene, found, options);
-  SurfaceMeshInput input{std::move(lines.of_surface), {}};
+  CurvePolylines curves = curve_polylines(scene, found, options);
+  SurfaceMeshInput input{std::move(curves.of_surface), {}};
   for (const Surface& surface : scene.surfaces)
     input.options.push_back(
         curve_mesh_options(size_of(surface), scene.tolerance.scene_size, options));
@@ -79,14 +79,14 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
   const SurfaceMeshes made = mesh_surfaces(input, shared, options.max_triangles, progress);
 
   DiscontinuityMeshReport report;
-  report.kept = lines.kept;
-  report.culled = lines.culled;
+  report.kept = curves.kept;
+  report.culled = curves.culled;
   report.boundary_rounds = made.rounds;
   for (std::size_t r = 0; r < made.meshes.size(); ++r) {
     const CurveMesh& mesh = made.meshes[r];
     // Without those that were stopped before their curves were in.
     if (!input.curves[r].empty() && (mesh.mesh.complete || !mesh.curves.empty()))
-      report.deviation = std::max(report.deviation, mesh.deviation + lines.deviation[r]);
+      report.deviation = std::max(report.deviation, mesh.deviation + curves.deviation[r]);
     if (!mesh.mesh.complete) ++report.unfinished_surfaces;
   }
   std::vector<int> order;

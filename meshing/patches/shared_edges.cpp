@@ -40,61 +40,62 @@ void thin(std::vector<double>& values, double distance) {
 
 }  // namespace
 
-WallEdges wall_edges(const CurveMesh& mesh) {
+BorderEdges border_edges(const CurveMesh& mesh) {
   const std::vector<Vec2>& points = mesh.mesh.points;
-  WallEdges walls;
+  BorderEdges borders;
   for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {
     const auto& edge = mesh.mesh.constrained_edges[i];
-    if (mesh.is_d0[i]) walls.push_back({edge, {points[at(edge[0])], points[at(edge[1])]}});
+    if (mesh.is_d0[i]) borders.push_back({edge, {points[at(edge[0])], points[at(edge[1])]}});
   }
-  return walls;
+  return borders;
 }
 
 SharedEdges::SharedEdges(const SoundScene& scene)
     : scene_(scene), lines_(find_shared_lines(scene)) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     std::vector<Box> boxes;
-    for (int w = lines_.first_wall[r]; w < lines_.first_wall[r + 1]; ++w)
-      boxes.push_back(box_about(lines_.walls[at(w)].ends));
+    for (int w = lines_.first_border[r]; w < lines_.first_border[r + 1]; ++w)
+      boxes.push_back(box_about(lines_.borders[at(w)].ends));
     trees_.emplace_back(std::move(boxes));
   }
   for (const SharedLine& line : lines_.lines) {
     std::vector<double>& points = agreed_.emplace_back();
-    for (const int w : line.walls) {
-      points.push_back(lines_.walls[at(w)].begin);
-      points.push_back(lines_.walls[at(w)].end);
+    for (const int w : line.borders) {
+      points.push_back(lines_.borders[at(w)].begin);
+      points.push_back(lines_.borders[at(w)].end);
     }
     thin(points, scene.tolerance.length);
   }
 }
 
-int SharedEdges::wall_of(int surface, const Segment2& edge) const {
+int SharedEdges::border_of(int surface, const Segment2& edge) const {
   const Vec2 middle = 0.5 * (edge[0] + edge[1]);
   Box around = box_about({middle, middle});
   around.min().array() -= scene_.tolerance.planarity;
   around.max().array() += scene_.tolerance.planarity;
   std::pair<double, int> best{scene_.tolerance.planarity, -1};
   trees_[at(surface)].query_box(around, [&](int i) {
-    const int w = lines_.first_wall[at(surface)] + i;
-    const Segment2& wall = lines_.walls[at(w)].ends;
-    const double off = std::max(distance(edge[0], wall), distance(edge[1], wall));
+    const int w = lines_.first_border[at(surface)] + i;
+    const Segment2& border = lines_.borders[at(w)].ends;
+    const double off = std::max(distance(edge[0], border), distance(edge[1], border));
     if (off < best.first || (off == best.first && w < best.second)) best = {off, w};
   });
   return best.second;
 }
 
 void SharedEdges::add(std::span<const End> ends) {
-  std::vector<std::vector<std::pair<double, double>>> found(lines_.lines.size());  // place, snap
+  std::vector<std::vector<std::pair<double, double>>> found(
+      lines_.lines.size());  // where on the line, snap
   for (const End& end : ends) {
     Box around = box_about({end.point, end.point});
     around.min().array() -= end.snap;
     around.max().array() += end.snap;
     const auto r = at(end.surface);
     trees_[r].query_box(around, [&](int i) {
-      const Wall& wall = lines_.walls[at(lines_.first_wall[r] + i)];
-      if (wall.line < 0 || distance(end.point, wall.ends) > end.snap) return;
-      const double t = along(lines_.lines[at(wall.line)], scene_.surfaces[r].frame, end.point);
-      found[at(wall.line)].emplace_back(t, end.snap);
+      const BorderLine& border = lines_.borders[at(lines_.first_border[r] + i)];
+      if (border.line < 0 || distance(end.point, border.ends) > end.snap) return;
+      const double t = along(lines_.lines[at(border.line)], scene_.surfaces[r].frame, end.point);
+      found[at(border.line)].emplace_back(t, end.snap);
     });
   }
   for (std::size_t l = 0; l < found.size(); ++l) {
@@ -124,24 +125,24 @@ std::vector<double> SharedEdges::inside(int line, double begin, double end) cons
 
 Outline SharedEdges::outline(int surface) const {
   Outline result;
-  int w = lines_.first_wall[at(surface)];
-  const auto points_from = [&](const Wall& wall) {
-    std::vector<Vec2> points = {wall.ends[0]};
-    for (const double t : inside(wall.line, wall.begin, wall.end))
-      points.push_back(wall.ends[0] +
-                       (t - wall.begin) / (wall.end - wall.begin) * (wall.ends[1] - wall.ends[0]));
+  int w = lines_.first_border[at(surface)];
+  const auto points_from = [&](const BorderLine& border) {
+    std::vector<Vec2> points = {border.ends[0]};
+    for (const double t : inside(border.line, border.begin, border.end))
+      points.push_back(border.ends[0] + (t - border.begin) / (border.end - border.begin) *
+                                            (border.ends[1] - border.ends[0]));
     return points;
   };
   for (const Ring& ring : scene_.surfaces[at(surface)].rings) {
     Ring& longer = result.rings.emplace_back();
     for (std::size_t k = 0; k < ring.size(); ++k, ++w) {
-      const std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
+      const std::vector<Vec2> points = points_from(lines_.borders[at(w)]);
       longer.insert(longer.end(), points.begin(), points.end());
     }
   }
-  for (; w < lines_.first_wall[at(surface) + 1]; ++w) {
-    std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
-    points.push_back(lines_.walls[at(w)].ends[1]);
+  for (; w < lines_.first_border[at(surface) + 1]; ++w) {
+    std::vector<Vec2> points = points_from(lines_.borders[at(w)]);
+    points.push_back(lines_.borders[at(w)].ends[1]);
     for (std::size_t k = 1; k < points.size(); ++k)
       result.contacts.push_back({points[k - 1], points[k]});
   }
@@ -157,24 +158,24 @@ void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
   const std::vector<double> before = agreed_[line];
   for (auto first = vertices.begin(); first != vertices.end();) {
     const std::size_t interval = first->interval;
-    std::map<int, std::vector<double>> walls;
+    std::map<int, std::vector<double>> borders;
     for (; first != vertices.end() && first->interval == interval; ++first)
-      walls[first->wall].push_back(first->t);
-    const auto finest = std::max_element(walls.begin(), walls.end(), [](auto& a, auto& b) {
+      borders[first->border].push_back(first->t);
+    const auto finest = std::max_element(borders.begin(), borders.end(), [](auto& a, auto& b) {
       return a.second.size() < b.second.size();
     });
-    for (const int w : lines_.lines[line].walls) {
-      const Wall& wall = lines_.walls[at(w)];
-      if (std::min(wall.begin, wall.end) > before[interval - 1] + tolerance ||
-          std::max(wall.begin, wall.end) < before[interval] - tolerance)
+    for (const int w : lines_.lines[line].borders) {
+      const BorderLine& border = lines_.borders[at(w)];
+      if (std::min(border.begin, border.end) > before[interval - 1] + tolerance ||
+          std::max(border.begin, border.end) < before[interval] - tolerance)
         continue;
-      const auto own = walls.find(w);
-      const bool same = own != walls.end() &&
+      const auto own = borders.find(w);
+      const bool same = own != borders.end() &&
                         std::equal(own->second.begin(), own->second.end(), finest->second.begin(),
                                    finest->second.end(), [&](double a, double b) {
                                      return std::abs(a - b) <= tolerance;
                                    });
-      if (!same) differs[at(wall.surface)] = true;
+      if (!same) differs[at(border.surface)] = true;
     }
     agreed_[line].insert(agreed_[line].end(), finest->second.begin(), finest->second.end());
   }
@@ -184,10 +185,10 @@ void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
 std::vector<int> SharedEdges::compare(std::span<const CurveMesh> meshes) {
   std::vector<std::vector<Vertex>> vertices(lines_.lines.size());
   for (std::size_t r = 0; r < meshes.size(); ++r)
-    for (const WallEdge& edge : wall_edges(meshes[r])) {
-      const int w = wall_of(static_cast<int>(r), edge.ends);
-      if (w < 0 || lines_.walls[at(w)].line < 0) continue;
-      const int line = lines_.walls[at(w)].line;
+    for (const BorderEdge& edge : border_edges(meshes[r])) {
+      const int w = border_of(static_cast<int>(r), edge.ends);
+      if (w < 0 || lines_.borders[at(w)].line < 0) continue;
+      const int line = lines_.borders[at(w)].line;
       const std::vector<double>& points = agreed_[at(line)];
       for (const Vec2& p : edge.ends) {
         const double t = along(lines_.lines[at(line)], scene_.surfaces[r].frame, p);

@@ -17,32 +17,32 @@ struct Outline {
 };
 
 /// An edge of a surface's mesh on a ring or contact line.
-struct WallEdge {
+struct BorderEdge {
   std::array<int, 2> points{};  ///< of the mesh
   Segment2 ends;                ///< in the surface's frame
 };
-using WallEdges = std::vector<WallEdge>;
+using BorderEdges = std::vector<BorderEdge>;
 
 /// The constrained edges of a mesh on rings and contact lines.
-WallEdges wall_edges(const CurveMesh& mesh);
+BorderEdges border_edges(const CurveMesh& mesh);
 
-/// Brings the subdivision of walls that lie on each other into agreement: keeps, for every shared
+/// Brings the subdivision of borders that lie on each other into agreement: keeps, for every shared
 /// line, the points that all surfaces along it are to have.
 class SharedEdges {
  public:
-  /// Starts with the ends of all walls. `scene` must outlive the object.
+  /// Starts with the ends of all borders. `scene` must outlive the object.
   explicit SharedEdges(const SoundScene& scene);
 
   const SharedLines& lines() const { return lines_; }
 
-  /// The wall of a surface that an edge of its mesh lies on, or −1.
-  int wall_of(int surface, const Segment2& edge) const;
+  /// The border of a surface that an edge of its mesh lies on, or −1.
+  int border_of(int surface, const Segment2& edge) const;
 
   /// A point of a surface where something ends.
   struct End {
     int surface = 0;
     Vec2 point = Vec2::Zero();
-    double snap = 0;  ///< it may be moved this far along its wall
+    double snap = 0;  ///< it may be moved this far along its border
   };
   /// Adds those points that lie on shared lines, to within their snap, and not near points that
   /// are there already.
@@ -58,7 +58,7 @@ class SharedEdges {
  private:
   struct Vertex {
     std::size_t interval;  // of the line's points, by its end
-    int wall;
+    int border;
     double t;
     auto operator<=>(const Vertex&) const = default;
   };
@@ -67,7 +67,7 @@ class SharedEdges {
 
   const SoundScene& scene_;
   SharedLines lines_;
-  std::vector<BoxTree> trees_;               // of each surface's walls, in its frame
+  std::vector<BoxTree> trees_;               // of each surface's borders, in its frame
   std::vector<std::vector<double>> agreed_;  // [line]: sorted, farther apart than the tolerance
 };
 

@@ -10,7 +10,7 @@ namespace halfshade {
 
 /// What the surfaces are meshed with, one entry a surface.
 struct SurfaceMeshInput {
-  std::vector<std::vector<CurveLine>> curves;
+  std::vector<std::vector<CurvePolyline>> curves;
   std::vector<CurveMeshOptions> options;
 };
 
@@ -20,10 +20,10 @@ SurfaceMeshInput without_curves(const SoundScene& scene, const PlanarMeshOptions
 /// One mesh a surface.
 struct SurfaceMeshes {
   std::vector<CurveMesh> meshes;
-  int rounds = 0;  ///< until walls were subdivided alike
+  int rounds = 0;  ///< until borders were subdivided alike
 };
 
-/// Meshes every surface by mesh_with_curves, on all threads, and again those whose walls differ
+/// Meshes every surface by mesh_with_curves, on all threads, and again those whose borders differ
 /// from their neighbours', with the neighbours' points on them, until nothing differs or it has
 /// been tried often enough. If `progress` is stopped, surfaces not yet reached stay coarse, without
 /// curves and incomplete. Throws Error(too_large) for more than `max_triangles` in all.

@@ -11,7 +11,7 @@
 namespace halfshade {
 namespace {
 
-// Lines are clipped to a box that is wider than the rings' by this share of its size.
+// Curves are clipped to a box that is wider than the rings' by this share of its size.
 constexpr double clip_margin = 1e-3;
 
 // Corners of rings closer than this are one; of their size, and of their largest coordinate.
@@ -103,12 +103,12 @@ std::optional<CurveDrawing> draw_curves(const CurveInput& input, double snap) {
       drawing.graph.add_line((*part)[0], (*part)[1], std::min(weld, snap));
   if (!drawing.graph.settle()) return {};
   drawing.graph.freeze();
-  for (const CurveLine& line : input.lines)
-    for (std::size_t k = 1; k < line.points.size(); ++k)
-      if (const auto part = clip({line.points[k - 1], line.points[k]}, box)) {
+  for (const CurvePolyline& curve : input.curves)
+    for (std::size_t k = 1; k < curve.points.size(); ++k)
+      if (const auto part = clip({curve.points[k - 1], curve.points[k]}, box)) {
         const int edge = drawing.graph.add_line((*part)[0], (*part)[1]);
         if (edge >= 0)
-          drawing.pieces.push_back({{line.points[k - 1], line.points[k]}, line.id, edge});
+          drawing.pieces.push_back({{curve.points[k - 1], curve.points[k]}, curve.id, edge});
       }
   if (!drawing.graph.settle()) return {};
   return drawing;

@@ -14,7 +14,7 @@
 namespace halfshade {
 namespace {
 
-// If lines do not settle they are snapped more coarsely, this often and by this factor.
+// If curves do not settle they are snapped more coarsely, this often and by this factor.
 constexpr int most_attempts = 8;
 constexpr double coarser = 8;
 // Rounding of a midpoint and of the way back to space must not push an edge over the limit.
@@ -41,7 +41,7 @@ ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& 
       }
       triangle.corner[k] = point[at(p)];
       triangle.neighbour[k] = next < 0 ? -1 : renamed[at(next)];
-      triangle.line[k] = graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
+      triangle.constraint[k] = graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
     }
   }
   return mesh;
@@ -95,7 +95,7 @@ std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {
   return result;
 }
 
-// Edges are straight, so that their ends are farthest from the line. Those outside do not count.
+// Edges are straight, so that their ends are farthest from the curve. Those outside do not count.
 double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) {
   double largest = 0;
   const auto& graph = drawing.graph;
@@ -104,7 +104,7 @@ double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) 
       if (!is_used[at(part)]) return;
       const auto& edge = graph.edges()[at(part)];
       for (const int p : {edge.a, edge.b})
-        largest = std::max(largest, distance(graph.points()[at(p)], piece.place));
+        largest = std::max(largest, distance(graph.points()[at(p)], piece.segment));
     });
   return largest;
 }
@@ -117,20 +117,20 @@ CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     result.mesh.triangles.push_back(t.corner);
     for (std::size_t k = 0; k < 3; ++k)
-      if (t.line[k] >= 0) {
-        constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.line[k]);
-        is_used[at(t.line[k])] = true;
+      if (t.constraint[k] >= 0) {
+        constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.constraint[k]);
+        is_used[at(t.constraint[k])] = true;
       }
   }
   std::sort(constrained.begin(), constrained.end());
   constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   const auto along = curves_along(drawing);
   result.curve_begin.push_back(0);
-  for (const auto& [link, line] : constrained) {
+  for (const auto& [link, id] : constrained) {
     result.mesh.constrained_edges.push_back(link);
-    result.is_d0.push_back(drawing.graph.edges()[at(line)].is_fixed);
-    for (auto i = std::lower_bound(along.begin(), along.end(), std::pair(line, 0));
-         i != along.end() && i->first == line; ++i)
+    result.is_d0.push_back(drawing.graph.edges()[at(id)].is_fixed);
+    for (auto i = std::lower_bound(along.begin(), along.end(), std::pair(id, 0));
+         i != along.end() && i->first == id; ++i)
       result.curves.push_back(i->second);
     result.curve_begin.push_back(static_cast<int>(result.curves.size()));
   }
@@ -142,11 +142,12 @@ CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   throw Error(ErrorCode::contract, "mesh_with_curves", sentence);
 }
 
-void check(std::span<const CurveLine> lines) {
-  for (const CurveLine& line : lines) {
-    if (line.id < 0) fail(fmt::format("a line has the id {}; ids must not be negative", line.id));
-    for (const Vec2& p : line.points)
-      if (!p.allFinite()) fail(fmt::format("a point of line {} is not finite", line.id));
+void check(std::span<const CurvePolyline> curves) {
+  for (const CurvePolyline& curve : curves) {
+    if (curve.id < 0)
+      fail(fmt::format("a curve has the id {}; ids must not be negative", curve.id));
+    for (const Vec2& p : curve.points)
+      if (!p.allFinite()) fail(fmt::format("a point of curve {} is not finite", curve.id));
   }
 }
 
@@ -177,9 +178,9 @@ RefinementLimits limits_of(const CurveMeshOptions& options) {
 }  // namespace
 
 CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2> contacts,
-                           std::span<const CurveLine> lines, const CurveMeshOptions& options) {
+                           std::span<const CurvePolyline> curves, const CurveMeshOptions& options) {
   check(options);
-  check(lines);
+  check(curves);
   if (rings.empty()) {
     CurveMesh nothing;
     nothing.curve_begin = {0};
@@ -189,7 +190,7 @@ CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2
   for (int attempt = 0; attempt < most_attempts; ++attempt, snap *= coarser) {
     // In the end without the curves, which is known to go well.
     const bool is_last = attempt + 1 == most_attempts;
-    const auto drawing = draw_curves({rings, contacts, is_last ? lines.first(0) : lines}, snap);
+    const auto drawing = draw_curves({rings, contacts, is_last ? curves.first(0) : curves}, snap);
     if (!drawing) continue;
     auto mesh = triangulate(*drawing);
     if (!mesh) continue;

@@ -7,10 +7,10 @@
 
 namespace halfshade {
 
-/// A polyline that the mesh must have edges along.
-struct CurveLine {
+/// A curve as a polyline that the mesh must have edges along.
+struct CurvePolyline {
   std::vector<Vec2> points;  ///< ≥ 2
-  int id = 0;                ///< ≥ 0; several lines may share one
+  int id = 0;                ///< ≥ 0; several polylines may share one
 };
 
 struct CurveMeshOptions {
@@ -26,7 +26,7 @@ struct CurveMesh {
   PlanarMesh mesh;          ///< constrained_edges: all those on rings, contact lines and curves
   std::vector<bool> is_d0;  ///< [constrained edge] lies on a ring or contact line
   std::vector<int> curve_begin;  ///< [constrained edge] range of `curves`; one more at the end
-  std::vector<int> curves;       ///< ids of the lines that run along an edge, sorted
+  std::vector<int> curves;       ///< ids of the curves that run along an edge, sorted
   double deviation = 0;          ///< largest distance of a mesh edge from its curve, scene units
 };
 
@@ -37,7 +37,7 @@ struct CurveMesh {
 ///    on ring edges lie on them to rounding: the area is that of the polygon to 1e-12;
 /// 3. every curve inside the polygon is a chain of edges within `deviation`, which is a few `snap`
 ///    (curves outside are left out, those that reach over the border are cut there). If
-///    thousands of lines in one place do not settle, `snap` is enlarged, in the last resort they
+///    thousands of curves in one place do not settle, `snap` is enlarged, in the last resort they
 ///    are all left out and `mesh.complete` is false;
 /// 4. points are at least about `snap` apart, except where ring vertices are closer; no curve
 ///    crosses another except at a vertex;
@@ -45,6 +45,6 @@ struct CurveMesh {
 ///    take edges shorter than `shortest`.
 /// Deterministic. Throws Error(contract) for options out of range.
 CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2> contacts,
-                           std::span<const CurveLine> lines, const CurveMeshOptions& options);
+                           std::span<const CurvePolyline> curves, const CurveMeshOptions& options);
 
 }  // namespace halfshade

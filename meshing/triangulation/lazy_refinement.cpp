@@ -82,7 +82,8 @@ class Refiner {
   // The smallest angle lies between constraints, or its side between twins.
   bool is_forced(int t, const Shape& s) const {
     const auto& triangle = mesh_.triangle(t);
-    if (triangle.line[(s.shortest + 1) % 3] >= 0 && triangle.line[(s.shortest + 2) % 3] >= 0)
+    if (triangle.constraint[(s.shortest + 1) % 3] >= 0 &&
+        triangle.constraint[(s.shortest + 2) % 3] >= 0)
       return true;
     const int a = triangle.corner[s.shortest], b = triangle.corner[(s.shortest + 1) % 3];
     return corners_.are_twins(mesh_, a, added_on_[at(a)], b, added_on_[at(b)]);
@@ -113,7 +114,7 @@ class Refiner {
   bool split_long_constraint(int t, const Shape& s) {
     if (!is_long(s)) return false;
     for (std::size_t k = 0; k < 3; ++k)
-      if (mesh_.triangle(t).line[k] >= 0 && is_long(s.squared[k]) && split(t, s, {t, k}))
+      if (mesh_.triangle(t).constraint[k] >= 0 && is_long(s.squared[k]) && split(t, s, {t, k}))
         return true;
     return false;
   }
@@ -158,7 +159,7 @@ class Refiner {
     std::optional<Side> result;
     double longest = 0;
     for (const Cavity::Rim& r : cavity_.rim()) {
-      if (r.line < 0 && r.beyond >= 0) continue;
+      if (r.constraint < 0 && r.beyond >= 0) continue;
       const Vec2 u = point(r.from) - p, v = point(r.to) - p;
       const double length = (u - v).squaredNorm();
       if (length > longest && u.dot(v) <= lens_cosine * u.norm() * v.norm()) {
@@ -191,9 +192,9 @@ class Refiner {
     if (is_long(s) ? !is_long((point(b) - point(a)).squaredNorm())
                    : s.altitude() < limits_.shortest)
       return false;
-    const int line = triangle.line[side.k];
-    const Vec2 p = split_point(point(a), point(b), corners_.is_narrow_at(line, a),
-                               corners_.is_narrow_at(line, b));
+    const int constraint = triangle.constraint[side.k];
+    const Vec2 p = split_point(point(a), point(b), corners_.is_narrow_at(constraint, a),
+                               corners_.is_narrow_at(constraint, b));
     const auto corner = mesh_.triangle(t).corner;
     if (std::min((p - point(a)).norm(), (p - point(b)).norm()) < limits_.shortest) return false;
     if (!add(p, side, limits_.shortest)) return false;
@@ -204,9 +205,9 @@ class Refiner {
   // Adds a point, on a side if that is given, else into the present cavity, unless that makes an
   // edge shorter than `shortest`.
   bool add(const Vec2& p, const std::optional<Side>& on, double shortest) {
-    int line = -1;
+    int constraint = -1;
     if (on) {
-      line = mesh_.triangle(on->triangle).line[on->k];
+      constraint = mesh_.triangle(on->triangle).constraint[on->k];
       cavity_.find(p, *on);
     }
     for (const Cavity::Rim& r : cavity_.rim())
@@ -214,7 +215,7 @@ class Refiner {
           (point(r.to) - p).squaredNorm() < shortest * shortest)
         return false;
     if (!cavity_.fill(changed_)) return false;
-    added_on_.push_back(line);
+    added_on_.push_back(constraint);
     for (const int t : changed_) push(t);
     return true;
   }
@@ -224,7 +225,7 @@ class Refiner {
   NarrowCorners corners_;
   Cavity cavity_;
   double sine_squared_ = 0, off_centre_ = 0;
-  std::vector<int> added_on_;  // [point] line, −1: none, or an original point
+  std::vector<int> added_on_;  // [point] constraint, −1: none, or an original point
   std::vector<int> changed_;
   std::priority_queue<Entry> queue_;
 };

@@ -32,7 +32,7 @@ ConstrainedMesh make(const std::vector<Vec2>& points,
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corner[k], b = corner[(k + 1) % 3];
       t.neighbour[k] = beside.contains({b, a}) ? beside[{b, a}] : -1;
-      t.line[k] = line.contains({a, b}) ? line[{a, b}] : -1;
+      t.constraint[k] = line.contains({a, b}) ? line[{a, b}] : -1;
     }
   }
   return mesh;
@@ -54,7 +54,7 @@ void expect_delaunay_and_linked(const ConstrainedMesh& mesh) {
         orientation(mesh.point(t.corner[0]), mesh.point(t.corner[1]), mesh.point(t.corner[2])), 0);
     for (std::size_t k = 0; k < 3; ++k) {
       if (t.neighbour[k] < 0) {
-        EXPECT_GE(t.line[k], 0);
+        EXPECT_GE(t.constraint[k], 0);
         continue;
       }
       const auto& other = mesh.triangle(t.neighbour[k]);
@@ -63,8 +63,8 @@ void expect_delaunay_and_linked(const ConstrainedMesh& mesh) {
       ASSERT_LT(back, 3U);
       EXPECT_EQ(other.corner[back], t.corner[(k + 1) % 3]);
       EXPECT_EQ(other.corner[(back + 1) % 3], t.corner[k]);
-      EXPECT_EQ(other.line[back], t.line[k]);
-      if (t.line[k] < 0) {
+      EXPECT_EQ(other.constraint[back], t.constraint[k]);
+      if (t.constraint[k] < 0) {
         EXPECT_LE(in_circle(mesh.point(t.corner[0]), mesh.point(t.corner[1]),
                             mesh.point(t.corner[2]), mesh.point(other.corner[(back + 2) % 3])),
                   0);
@@ -128,10 +128,10 @@ TEST(LazyRefinement, PartsOfAConstraintKeepItsId) {
   std::map<int, double> length;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      if (t.line[k] >= 0) {
+      if (t.constraint[k] >= 0) {
         const Vec2 &a = mesh.point(t.corner[k]), &b = mesh.point(t.corner[(k + 1) % 3]);
-        length[t.line[k]] += (b - a).norm() / (t.neighbour[k] < 0 ? 1 : 2);
-        if (t.line[k] == 4) {
+        length[t.constraint[k]] += (b - a).norm() / (t.neighbour[k] < 0 ? 1 : 2);
+        if (t.constraint[k] == 4) {
           EXPECT_NEAR(a.x(), a.y(), 1e-15);
         }
       }

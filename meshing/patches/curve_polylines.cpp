@@ -1,4 +1,4 @@
-#include "meshing/patches/curve_lines.h"
+#include "meshing/patches/curve_polylines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,8 @@
 namespace halfshade {
 namespace {
 
-// Parts of the surface's size: of an element where no length is asked for, of the distance of a
-// mesh from its curves where no tolerance is, and of that distance at least, for jumps without
-// bound.
+// The distance of a mesh from its curves where no tolerance is asked for, and at least, for jumps
+// without bound; parts of the surface's size.
 constexpr double default_deviation = 1e-4;
 constexpr double least_deviation = 1e-5;
 // Part of an element beyond which a polyline would no longer look like its curve.
@@ -42,9 +41,9 @@ double flattening_deviation(const DiscontinuityCurve& curve, double surface_size
   return std::min(most, std::max(harmless, least_deviation * surface_size));
 }
 
-CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
-                       const DiscontinuityMeshOptions& options) {
-  CurveLines result;
+CurvePolylines curve_polylines(const SoundScene& scene, const Discontinuities& found,
+                               const DiscontinuityMeshOptions& options) {
+  CurvePolylines result;
   result.of_surface.resize(scene.surfaces.size());
   result.deviation.assign(scene.surfaces.size(), 0);
   std::vector<double> size;
@@ -60,10 +59,10 @@ CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
     ++result.kept;
     const double deviation = flattening_deviation(curve, size[r], options);
     if (!curve.arc.is_straight) result.deviation[r] = std::max(result.deviation[r], deviation);
-    CurveLine& line = result.of_surface[r].emplace_back();
-    line.id = static_cast<int>(id);
+    CurvePolyline& polyline = result.of_surface[r].emplace_back();
+    polyline.id = static_cast<int>(id);
     for (const double s : flatten(curve.arc, deviation))
-      line.points.push_back(point_at(curve.arc, s));
+      polyline.points.push_back(point_at(curve.arc, s));
   }
   return result;
 }

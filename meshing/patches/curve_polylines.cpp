@@ -1,17 +1,12 @@
 #include "meshing/patches/curve_polylines.h"
 
+#include "meshing/patches/margins.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
-
-// The distance of a mesh from its curves where no tolerance is asked for, and at least, for jumps
-// without bound; parts of the surface's size.
-constexpr double default_deviation = 1e-4;
-constexpr double least_deviation = 1e-5;
-// Part of an element beyond which a polyline would no longer look like its curve.
-constexpr double largest_deviation = 0.1;
 
 double factorial(int k) { return std::tgamma(k + 1.0); }
 
@@ -32,13 +27,13 @@ bool is_negligible(const DiscontinuityCurve& curve, double h, double irradiance_
 double flattening_deviation(const DiscontinuityCurve& curve, double surface_size,
                             const DiscontinuityMeshOptions& options) {
   if (!(options.irradiance_tolerance > 0) || curve.order == 0)
-    return default_deviation * surface_size;
+    return margins::default_deviation * surface_size;
   // Without a jump infinite, and cut off below.
   const double harmless =
       std::pow(factorial(curve.order) * options.irradiance_tolerance / largest_jump(curve),
                1.0 / curve.order);
-  const double most = largest_deviation * element_size(surface_size, options.max_length);
-  return std::min(most, std::max(harmless, least_deviation * surface_size));
+  const double most = margins::largest_deviation * element_size(surface_size, options.max_length);
+  return std::min(most, std::max(harmless, margins::least_deviation * surface_size));
 }
 
 CurvePolylines curve_polylines(const SoundScene& scene, const Discontinuities& found,
@@ -50,7 +45,7 @@ CurvePolylines curve_polylines(const SoundScene& scene, const Discontinuities& f
   for (const Surface& surface : scene.surfaces) size.push_back(size_of(surface));
   for (std::size_t id = 0; id < found.curves.size(); ++id) {
     const DiscontinuityCurve& curve = found.curves[id];
-    const auto r = static_cast<std::size_t>(curve.receiver);
+    const auto r = at(curve.receiver);
     if (is_negligible(curve, element_size(size[r], options.max_length),
                       options.irradiance_tolerance)) {
       ++result.culled;

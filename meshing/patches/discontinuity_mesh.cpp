@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/patches/curve_polylines.h"
+#include "meshing/patches/margins.h"
 #include "meshing/patches/shared_edges.h"
 #include "meshing/patches/surface_meshes.h"
 
@@ -12,14 +13,6 @@
 
 namespace halfshade {
 namespace {
-
-// Of the scene's size: far above the rounding of curves, far below what anyone can see. Of a
-// surface's size: so that those that are tiny keep their shape.
-constexpr double scene_snap = 1e-7;
-constexpr double surface_snap = 1e-4;
-// The shortest edge that refinement makes: a part of the surface's size, and of the longest.
-constexpr double shortest_of_size = 1.0 / 400;
-constexpr double shortest_of_longest = 1.0 / 8;
 
 void check(const SoundScene& scene, const Discontinuities& found,
            const DiscontinuityMeshOptions& options) {
@@ -33,7 +26,7 @@ void check(const SoundScene& scene, const Discontinuities& found,
                        options.irradiance_tolerance));
   for (std::size_t i = 0; i < found.curves.size(); ++i) {
     const DiscontinuityCurve& curve = found.curves[i];
-    if (curve.receiver < 0 || static_cast<std::size_t>(curve.receiver) >= scene.surfaces.size())
+    if (curve.receiver < 0 || at(curve.receiver) >= scene.surfaces.size())
       refuse(fmt::format("curve {} lies in surface {} of {}", i, curve.receiver,
                          scene.surfaces.size()));
     if (curve.order < 0) refuse(fmt::format("curve {} has order {}", i, curve.order));
@@ -44,10 +37,10 @@ CurveMeshOptions curve_mesh_options(double size, double scene_size,
                                     const DiscontinuityMeshOptions& options) {
   CurveMeshOptions result;
   result.quality = {options.max_length, options.min_angle, options.max_triangles};
-  result.snap = std::min(scene_snap * scene_size, surface_snap * size);
-  result.shortest = shortest_of_size * size;
+  result.snap = std::min(margins::snap_of_scene * scene_size, margins::snap_of_surface * size);
+  result.shortest = margins::shortest_with_curves * size;
   if (options.max_length > 0)
-    result.shortest = std::min(result.shortest, shortest_of_longest * options.max_length);
+    result.shortest = std::min(result.shortest, margins::shortest_of_longest * options.max_length);
   result.shortest = std::max(result.shortest, 2 * result.snap);
   return result;
 }

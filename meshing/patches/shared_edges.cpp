@@ -1,5 +1,7 @@
 #include "meshing/patches/shared_edges.h"
 
+#include "meshing/core/planar.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,13 +13,6 @@ Vec3 lifted(const Vec2& p) { return {p.x(), p.y(), 0}; }
 
 Box box_about(const Segment2& segment) {
   return {lifted(segment[0].cwiseMin(segment[1])), lifted(segment[0].cwiseMax(segment[1]))};
-}
-
-double distance(const Vec2& p, const Segment2& s) {
-  const Vec2 d = s[1] - s[0];
-  const double squared = d.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
-  return (s[0] + t * d - p).norm();
 }
 
 // The point nearest to t among sorted ones.
@@ -77,7 +72,8 @@ int SharedEdges::border_of(int surface, const Segment2& edge) const {
   trees_[at(surface)].query_box(around, [&](int i) {
     const int w = lines_.first_border[at(surface)] + i;
     const Segment2& border = lines_.borders[at(w)].ends;
-    const double off = std::max(distance(edge[0], border), distance(edge[1], border));
+    const double off = std::max(distance_to_segment(edge[0], border[0], border[1]),
+                                distance_to_segment(edge[1], border[0], border[1]));
     if (off < best.first || (off == best.first && w < best.second)) best = {off, w};
   });
   return best.second;
@@ -93,7 +89,9 @@ void SharedEdges::add(std::span<const End> ends) {
     const auto r = at(end.surface);
     trees_[r].query_box(around, [&](int i) {
       const BorderLine& border = lines_.borders[at(lines_.first_border[r] + i)];
-      if (border.line < 0 || distance(end.point, border.ends) > end.snap) return;
+      if (border.line < 0 ||
+          distance_to_segment(end.point, border.ends[0], border.ends[1]) > end.snap)
+        return;
       const double t = along(lines_.lines[at(border.line)], scene_.surfaces[r].frame, end.point);
       found[at(border.line)].emplace_back(t, end.snap);
     });

@@ -1,6 +1,7 @@
 #include "meshing/patches/shared_lines.h"
 
 #include "meshing/geometry/box_tree.h"
+#include "meshing/patches/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +11,6 @@
 
 namespace halfshade {
 namespace {
-
-// Surfaces that share an edge lie apart there by as much as their planes do, but never by this
-// share of an edge.
-constexpr double largest_gap = 0.01;
-// Planes at less than this angle (in its square) are parallel as far as their normals can tell.
-constexpr double least_squared_sine = 1e-12;
 
 struct Stretch {
   Vec3 from, to;
@@ -27,7 +22,8 @@ struct Stretch {
 Stretch stretch(const Surface& surface, const Segment2& ends, double shortest,
                 const Tolerance& tolerance) {
   return {surface.frame.to_space(ends[0]), surface.frame.to_space(ends[1]),
-          std::max(tolerance.length, std::min(2 * tolerance.planarity, largest_gap * shortest))};
+          std::max(tolerance.length,
+                   std::min(2 * tolerance.planarity, margins::largest_gap * shortest))};
 }
 
 void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& stretches) {
@@ -58,7 +54,7 @@ bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal
   // The offset as a sum of parts along the normals.
   const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
   const double squared_sine = normal_a.cross(normal_b).squaredNorm();
-  if (squared_sine <= least_squared_sine) return false;
+  if (squared_sine <= margins::least_squared_sine) return false;
   return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
          std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
 }
@@ -145,7 +141,7 @@ class BorderJoiner {
       gap = std::max(gap, offset.norm());
     }
     // Or they only touch at their ends, which overlap by as much as planes are off.
-    return gap <= largest_gap * (end - begin) ? gap : HUGE_VAL;
+    return gap <= margins::largest_gap * (end - begin) ? gap : HUGE_VAL;
   }
 
   // Whether borders of one surface would come to lie on each other.

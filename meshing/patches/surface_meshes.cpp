@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "meshing/patches/margins.h"
 
 #include <fmt/format.h>
 
@@ -14,10 +15,6 @@ namespace {
 
 // Neighbours mostly agree after one to four; what is left then is split plainly.
 constexpr int most_rounds = 8;
-// Without curves: the shortest edge that refinement makes, as a part of the surface's size and of
-// the longest edge. Strips as narrow as 1 : 1000 still get good angles, by some 1000 triangles.
-constexpr double shortest_of_size = 1.0 / 4000;
-constexpr double shortest_of_longest = 1.0 / 8;
 
 CurveMesh coarse_mesh(const Outline& outline) {
   CurveMesh result;
@@ -50,9 +47,9 @@ SurfaceMeshInput without_curves(const SoundScene& scene, const PlanarMeshOptions
     own.quality = options;
     ++own.quality.max_triangles;  // so that what ends early there is too large
     own.snap = scene.tolerance.length;
-    own.shortest = shortest_of_size * size_of(surface);
+    own.shortest = margins::shortest_without_curves * size_of(surface);
     if (options.max_length > 0)
-      own.shortest = std::min(own.shortest, shortest_of_longest * options.max_length);
+      own.shortest = std::min(own.shortest, margins::shortest_of_longest * options.max_length);
     own.shortest = std::max(own.shortest, 2 * own.snap);
   }
   return input;

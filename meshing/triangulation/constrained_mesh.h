@@ -19,8 +19,8 @@ struct ConstrainedMesh {
   std::vector<Vec2> points;
   std::vector<Triangle> triangles;
 
-  const Vec2& point(int p) const { return points[static_cast<std::size_t>(p)]; }
-  const Triangle& triangle(int t) const { return triangles[static_cast<std::size_t>(t)]; }
+  const Vec2& point(int p) const { return points[at(p)]; }
+  const Triangle& triangle(int t) const { return triangles[at(t)]; }
 };
 
 /// A side of a triangle.
@@ -63,7 +63,7 @@ class Cavity {
 
  private:
   void grow();
-  int starting_at(int vertex) const { return starting_at_[static_cast<std::size_t>(vertex)]; }
+  int starting_at(int vertex) const { return starting_at_[at(vertex)]; }
 
   ConstrainedMesh& mesh_;
   Vec2 p_ = Vec2::Zero();

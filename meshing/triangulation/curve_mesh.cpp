@@ -2,8 +2,10 @@
 
 #include "meshing/arrangement/hull_inside.h"
 #include "meshing/core/error.h"
+#include "meshing/core/planar.h"
 #include "meshing/triangulation/curve_drawing.h"
 #include "meshing/triangulation/lazy_refinement.h"
+#include "meshing/triangulation/margins.h"
 
 #include <fmt/format.h>
 
@@ -17,10 +19,6 @@ namespace {
 // If curves do not settle they are snapped more coarsely, this often and by this factor.
 constexpr int most_attempts = 8;
 constexpr double coarser = 8;
-// Rounding of a midpoint and of the way back to space must not push an edge over the limit.
-constexpr double length_margin = 1e-12;
-// Of max_length: what `shortest` is held below, so that edges of the right length can be made.
-constexpr double shortest_share = 0.25;
 
 // The triangles inside, numbered anew, with the points they use.
 ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& keep,
@@ -78,13 +76,6 @@ std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
   }
 }
 
-double distance(const Vec2& p, const Segment2& s) {
-  const Vec2 d = s[1] - s[0];
-  const double squared = d.squaredNorm();
-  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
-  return (s[0] + t * d - p).norm();
-}
-
 // Edges of the graph and the ids of the curves along them, sorted.
 std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {
   std::vector<std::pair<int, int>> result;
@@ -104,7 +95,8 @@ double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) 
       if (!is_used[at(part)]) return;
       const auto& edge = graph.edges()[at(part)];
       for (const int p : {edge.a, edge.b})
-        largest = std::max(largest, distance(graph.points()[at(p)], piece.segment));
+        largest = std::max(largest, distance_to_segment(graph.points()[at(p)], piece.segment[0],
+                                                        piece.segment[1]));
     });
   return largest;
 }
@@ -155,8 +147,8 @@ void check(const CurveMeshOptions& options) {
   const auto& [max_length, min_angle, max_triangles] = options.quality;
   if (!(max_length >= 0 && std::isfinite(max_length)))
     fail(fmt::format("max_length is {}; it must be finite and not negative", max_length));
-  if (!(min_angle >= 0 && min_angle <= 20.7))
-    fail(fmt::format("min_angle is {} degrees; it must lie in [0, 20.7]", min_angle));
+  if (!(min_angle >= 0 && min_angle <= delaunay_angle))
+    fail(fmt::format("min_angle is {} degrees; it must lie in [0, {}]", min_angle, delaunay_angle));
   if (!(options.snap > 0 && std::isfinite(options.snap)))
     fail(fmt::format("snap is {}; it must be finite and positive", options.snap));
   if (!(options.shortest > options.snap && std::isfinite(options.shortest)))
@@ -166,12 +158,12 @@ void check(const CurveMeshOptions& options) {
 
 RefinementLimits limits_of(const CurveMeshOptions& options) {
   RefinementLimits limits;
-  limits.max_length = options.quality.max_length * (1 - length_margin);
+  limits.max_length = options.quality.max_length * (1 - margins::length);
   limits.min_angle = options.quality.min_angle;
   limits.max_triangles = options.quality.max_triangles;
   limits.shortest = options.shortest;
   if (limits.max_length > 0)
-    limits.shortest = std::min(limits.shortest, shortest_share * limits.max_length);
+    limits.shortest = std::min(limits.shortest, margins::shortest * limits.max_length);
   return limits;
 }
 

@@ -31,7 +31,8 @@ struct CurveMesh {
 };
 
 /// The constrained Delaunay triangulation of a polygon with holes with edges along its rings,
-/// contact lines and curves, refined for quality. Guarantees, for any input:
+/// contact lines and curves, of which there may be none, refined for quality by Delaunay refinement
+/// (Chew 1993, Ruppert 1995; see curve_mesh.md). Guarantees, for any input:
 /// 1. it terminates, with a conforming, positively oriented mesh of the whole polygon;
 /// 2. ring vertices stay where they are, also those in the middle of a straight stretch, and points
 ///    on ring edges lie on them to rounding: the area is that of the polygon to 1e-12;
@@ -41,8 +42,11 @@ struct CurveMesh {
 ///    are all left out and `mesh.complete` is false;
 /// 4. points are at least about `snap` apart, except where ring vertices are closer; no curve
 ///    crosses another except at a vertex;
-/// 5. angles are at least `quality.min_angle`, save where curves meet at smaller ones or it would
-///    take edges shorter than `shortest`.
+/// 5. edges are at most `quality.max_length` long, and angles at least `quality.min_angle`, save
+/// near
+///    input angles below 24.3 degrees or where it would take edges shorter than `shortest`; length
+///    alone divides rings, contact lines and curves into as few equal parts as may be;
+/// 6. scaling everything by a power of two scales the mesh exactly, without curves and contacts.
 /// Deterministic. Throws Error(contract) for options out of range.
 CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2> contacts,
                            std::span<const CurvePolyline> curves, const CurveMeshOptions& options);

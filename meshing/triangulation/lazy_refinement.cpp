@@ -1,5 +1,7 @@
 #include "meshing/triangulation/lazy_refinement.h"
 
+#include "meshing/core/planar.h"
+#include "meshing/triangulation/margins.h"
 #include "meshing/triangulation/narrow_corners.h"
 
 #include <algorithm>
@@ -9,12 +11,6 @@
 
 namespace halfshade {
 namespace {
-
-// Off-centres lie a little nearer than the angle asks for (as in Üngör 2004), lest the new triangle
-// is bad by rounding.
-constexpr double off_centre_share = 0.95;
-// A point encroaches on a constraint that it sees under a larger angle: cos 120° (Chew's lens).
-constexpr double lens_cosine = -0.5;
 
 struct Shape {
   std::size_t shortest = 0, longest = 0;  // sides
@@ -33,7 +29,7 @@ class Refiner {
       : mesh_(mesh), limits_(limits), corners_(mesh), cavity_(mesh) {
     const double sine = std::sin(limits.min_angle * std::numbers::pi / 180);
     sine_squared_ = sine * sine;
-    off_centre_ = off_centre_share / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
+    off_centre_ = margins::off_centre / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
     added_on_.assign(mesh.points.size(), -1);
   }
 
@@ -70,7 +66,7 @@ class Refiner {
       if (s.squared[k] > s.squared[s.longest]) s.longest = k;
     }
     const Vec2 u = point(c[1]) - point(c[0]), v = point(c[2]) - point(c[0]);
-    s.twice_area = u.x() * v.y() - u.y() * v.x();
+    s.twice_area = cross_2d(u, v);
     return s;
   }
 
@@ -135,8 +131,9 @@ class Refiner {
     double distance = far;
     if (s.sine_squared() < sine_squared_) {
       // Not so near that the new sides are too short.
-      const double least = std::sqrt(
-          std::max(0.0, 1.0001 * limits_.shortest * limits_.shortest - 0.25 * length * length));
+      const double least =
+          std::sqrt(std::max(0.0, margins::not_shorter * limits_.shortest * limits_.shortest -
+                                      0.25 * length * length));
       distance = std::min(far, std::max(off_centre_ * length, least));
     }
     return Vec2(p + 0.5 * side + distance / length * normal);
@@ -162,7 +159,7 @@ class Refiner {
       if (r.constraint < 0 && r.beyond >= 0) continue;
       const Vec2 u = point(r.from) - p, v = point(r.to) - p;
       const double length = (u - v).squaredNorm();
-      if (length > longest && u.dot(v) <= lens_cosine * u.norm() * v.norm()) {
+      if (length > longest && u.dot(v) <= margins::lens_cosine * u.norm() * v.norm()) {
         longest = length;
         result = r.side;
       }

@@ -1,5 +1,8 @@
 #include "meshing/triangulation/narrow_corners.h"
 
+#include "meshing/core/planar.h"
+#include "meshing/triangulation/margins.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,12 +10,6 @@
 
 namespace halfshade {
 namespace {
-
-constexpr double narrow = std::numbers::pi / 3;
-// Constraints that turn by less than this (radians) continue each other.
-constexpr double straight = 0.01;
-// Distances of twins from their corner differ by less than this, relatively.
-constexpr double twin_tolerance = 1e-3;
 
 std::uint64_t key(int a, int b) {
   return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
@@ -26,7 +23,7 @@ double turned(double a, double b) { return std::abs(std::remainder(a - b, 2 * st
 
 double angle(const Vec2& apex, const Vec2& a, const Vec2& b) {
   const Vec2 u = a - apex, v = b - apex;
-  return std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v));
+  return std::atan2(cross_2d(u, v), u.dot(v));
 }
 
 }  // namespace
@@ -83,7 +80,7 @@ void NarrowCorners::unite_straight_constraints(const ConstrainedMesh& mesh) {
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const std::size_t j = opposite(ends, i);
     if (i < j && opposite(ends, j) == i &&
-        turned(ends[i].direction + std::numbers::pi, ends[j].direction) < straight)
+        turned(ends[i].direction + std::numbers::pi, ends[j].direction) < margins::straight)
       chain_[at(root(ends[j].constraint))] = root(ends[i].constraint);
   }
   for (int& constraint : chain_) constraint = root(constraint);
@@ -98,7 +95,7 @@ void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
       double sum = 0;
       int t = static_cast<int>(first), end = -1;
       std::size_t k = side;
-      while (end < 0 && t >= 0 && sum < narrow) {
+      while (end < 0 && t >= 0 && sum < margins::narrow) {
         const auto& triangle = mesh.triangle(t);
         sum += angle(mesh.point(apex), mesh.point(triangle.corner[(k + 1) % 3]),
                      mesh.point(triangle.corner[(k + 2) % 3]));
@@ -109,7 +106,7 @@ void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
         k = static_cast<std::size_t>(std::find(corner.begin(), corner.end(), apex) -
                                      corner.begin());
       }
-      if (end < 0 || sum >= narrow) continue;
+      if (end < 0 || sum >= margins::narrow) continue;
       narrow_.push_back(key(start, apex));
       narrow_.push_back(key(end, apex));
       corner_.try_emplace(key(chain_[at(start)], chain_[at(end)]), apex);
@@ -141,7 +138,7 @@ bool NarrowCorners::are_twins(const ConstrainedMesh& mesh, int a, int constraint
       if (found == corner_.end()) continue;
       const Vec2& apex = mesh.point(found->second);
       const double p = (mesh.point(a) - apex).norm(), q = (mesh.point(b) - apex).norm();
-      if (p > 0 && q > 0 && std::abs(p - q) < twin_tolerance * p) return true;
+      if (p > 0 && q > 0 && std::abs(p - q) < margins::twins * p) return true;
     }
   return false;
 }

@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/arrangement/hull_inside.h"
+#include "meshing/triangulation/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,9 +10,6 @@
 
 namespace halfshade {
 namespace {
-
-// Relative to the polygon's size: far above rounding, far below anything anyone draws.
-constexpr double relative_snap = 1e-13;
 
 double extent(std::span<const Ring> rings) {
   Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
@@ -42,7 +40,7 @@ Outline outline(std::span<const Ring> rings, std::span<const Segment2> contacts)
     segments.push_back({static_cast<int>(points.size()), static_cast<int>(points.size()) + 1});
     points.insert(points.end(), contact.begin(), contact.end());
   }
-  const double snap = relative_snap * extent(rings);
+  const double snap = margins::weld_of_size * extent(rings);
   const Arrangement arrangement = arrange(std::move(points), segments, {snap, snap});
   // A link that rings run along an even number of times has the same on both its sides.
   std::map<Link, bool> odd;
@@ -67,7 +65,7 @@ PlanarMesh compact(const PlanarMesh& mesh) {
   PlanarMesh result;
   std::vector<int> renamed(mesh.points.size(), -1);
   for (const auto& triangle : mesh.triangles)
-    for (const int p : triangle) renamed[static_cast<std::size_t>(p)] = 0;
+    for (const int p : triangle) renamed[at(p)] = 0;
   for (std::size_t p = 0; p < renamed.size(); ++p)
     if (renamed[p] == 0) {
       renamed[p] = static_cast<int>(result.points.size());
@@ -75,16 +73,13 @@ PlanarMesh compact(const PlanarMesh& mesh) {
     }
   std::vector<Link> edges;
   for (const auto& [a, b, c] : mesh.triangles) {
-    const std::array<int, 3> t = {renamed[static_cast<std::size_t>(a)],
-                                  renamed[static_cast<std::size_t>(b)],
-                                  renamed[static_cast<std::size_t>(c)]};
+    const std::array<int, 3> t = {renamed[at(a)], renamed[at(b)], renamed[at(c)]};
     result.triangles.push_back(t);
     for (std::size_t k = 0; k < 3; ++k) edges.push_back(sorted_link(t[k], t[(k + 1) % 3]));
   }
   std::sort(edges.begin(), edges.end());
   for (const auto& [a, b] : mesh.constrained_edges) {
-    const Link link =
-        sorted_link(renamed[static_cast<std::size_t>(a)], renamed[static_cast<std::size_t>(b)]);
+    const Link link = sorted_link(renamed[at(a)], renamed[at(b)]);
     if (link[0] >= 0 && std::binary_search(edges.begin(), edges.end(), link))
       result.constrained_edges.push_back(link);
   }

@@ -9,10 +9,15 @@
 
 namespace halfshade {
 
+/// Degrees. Delaunay refinement that ends for any polygon promises angles up to this, arctan 1/√7
+/// cut to three digits (Ruppert 1995; Chew 1993).
+inline constexpr double delaunay_angle = 20.7;
+
 /// What a refined mesh is to be like.
 struct PlanarMeshOptions {
-  double max_length = 0;    ///< no edge longer than this, in scene units; 0: no limit
-  double min_angle = 20.7;  ///< degrees, in [0, 20.7]; input angles below it are left as they are
+  double max_length = 0;                ///< no edge longer than this, in scene units; 0: no limit
+  double min_angle = delaunay_angle;    ///< degrees, in [0, delaunay_angle]; input angles below it
+                                        ///< are left as they are
   std::size_t max_triangles = 1000000;  ///< refinement stops here
 };
 

@@ -399,7 +399,7 @@ TEST(MeshWithCurves, RejectsOptionsAndLinesOutOfRange) {
       [] {
         mesh_with_curves(square, {}, {{CurvePolyline{{{0, NAN}, {1, 1}}, 3}}}, {});
       },
-      ErrorCode::contract, {"line 3"});
+      ErrorCode::contract, {"curve 3"});
   expect_error(
       [] {
         mesh_with_curves(square, {}, {{CurvePolyline{{{0, 0}, {1, 1}}, -1}}}, {});

@@ -1,17 +1,13 @@
 #pragma once
 
 #include "meshing/core/types.h"
+#include "meshing/geometry/link.h"
 
 #include <array>
 #include <span>
 #include <vector>
 
 namespace halfshade {
-
-/// Two points.
-using Link = std::array<int, 2>;
-
-inline Link sorted_link(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
 
 /// Segments of a plane, split wherever they meet.
 struct Arrangement {

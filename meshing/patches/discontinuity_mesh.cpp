@@ -1,7 +1,8 @@
 #include "meshing/patches/discontinuity_mesh.h"
 
 #include "meshing/core/error.h"
-#include "meshing/patches/curve_lines.h"
+#include "meshing/patches/curve_polylines.h"
+#include "meshing/patches/margins.h"
 #include "meshing/patches/shared_edges.h"
 #include "meshing/patches/surface_meshes.h"
 
@@ -12,14 +13,6 @@
 
 namespace halfshade {
 namespace {
-
-// Of the scene's size: far above the rounding of curves, far below what anyone can see. Of a
-// surface's size: so that those that are tiny keep their shape.
-constexpr double scene_snap = 1e-7;
-constexpr double surface_snap = 1e-4;
-// The shortest edge that refinement makes: a part of the surface's size, and of the longest.
-constexpr double shortest_of_size = 1.0 / 400;
-constexpr double shortest_of_longest = 1.0 / 8;
 
 void check(const SoundScene& scene, const Discontinuities& found,
            const DiscontinuityMeshOptions& options) {
@@ -33,7 +26,7 @@ void check(const SoundScene& scene, const Discontinuities& found,
                        options.irradiance_tolerance));
   for (std::size_t i = 0; i < found.curves.size(); ++i) {
     const DiscontinuityCurve& curve = found.curves[i];
-    if (curve.receiver < 0 || static_cast<std::size_t>(curve.receiver) >= scene.surfaces.size())
+    if (curve.receiver < 0 || at(curve.receiver) >= scene.surfaces.size())
       refuse(fmt::format("curve {} lies in surface {} of {}", i, curve.receiver,
                          scene.surfaces.size()));
     if (curve.order < 0) refuse(fmt::format("curve {} has order {}", i, curve.order));
@@ -44,22 +37,21 @@ CurveMeshOptions curve_mesh_options(double size, double scene_size,
                                     const DiscontinuityMeshOptions& options) {
   CurveMeshOptions result;
   result.quality = {options.max_length, options.min_angle, options.max_triangles};
-  result.snap = std::min(scene_snap * scene_size, surface_snap * size);
-  result.shortest = shortest_of_size * size;
+  result.snap = std::min(margins::snap_of_scene * scene_size, margins::snap_of_surface * size);
+  result.shortest = margins::shortest_with_curves * size;
   if (options.max_length > 0)
-    result.shortest = std::min(result.shortest, shortest_of_longest * options.max_length);
+    result.shortest = std::min(result.shortest, margins::shortest_of_longest * options.max_length);
   result.shortest = std::max(result.shortest, 2 * result.snap);
   return result;
 }
 
 // Curves on both sides of a shared edge end there in the same point but for rounding.
-void share_ends(SharedEdges& shared, const CurveLines& lines,
-                const std::vector<CurveMeshOptions>& options) {
+void share_ends(SharedEdges& shared, const SurfaceMeshInput& input) {
   std::vector<SharedEdges::End> ends;
-  for (std::size_t r = 0; r < options.size(); ++r)
-    for (const CurveLine& line : lines.of_surface[r])
-      for (const Vec2& p : {line.points.front(), line.points.back()})
-        ends.push_back({static_cast<int>(r), p, options[r].snap});
+  for (std::size_t r = 0; r < input.curves.size(); ++r)
+    for (const CurvePolyline& curve : input.curves[r])
+      for (const Vec2& p : {curve.points.front(), curve.points.back()})
+        ends.push_back({static_cast<int>(r), p, input.options[r].snap});
   shared.add(ends);
 }
 
@@ -70,43 +62,29 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
                                        const Progress& progress) {
   check(scene, found, options);
   check_size(scene, {options.max_length, options.min_angle, options.max_triangles});
-  const CurveLines lines = curve_lines(scene, found, options);
-  const std::size_t count = scene.surfaces.size();
-  std::vector<CurveMeshOptions> mesh_options;
+  CurvePolylines curves = curve_polylines(scene, found, options);
+  SurfaceMeshInput input{std::move(curves.of_surface), {}};
   for (const Surface& surface : scene.surfaces)
-    mesh_options.push_back(
+    input.options.push_back(
         curve_mesh_options(size_of(surface), scene.tolerance.scene_size, options));
   SharedEdges shared(scene);
-  share_ends(shared, lines, mesh_options);
+  share_ends(shared, input);
+  const SurfaceMeshes made = mesh_surfaces(input, shared, options.max_triangles, progress);
 
   DiscontinuityMeshReport report;
-  std::vector<CurveMesh> meshes(count);
-  report.boundary_rounds = mesh_alike(
-      shared, count,
-      [&](std::size_t r, const Outline& outline) {
-        meshes[r] =
-            mesh_with_curves(outline.rings, outline.contacts, lines.of_surface[r], mesh_options[r]);
-      },
-      [&](std::size_t r) { return wall_edges(meshes[r]); }, progress);
-
-  report.kept = lines.kept;
-  report.culled = lines.culled;
-  std::size_t triangles = 0;
-  for (std::size_t r = 0; r < count; ++r) {
-    if (meshes[r].mesh.triangles.empty()) {  // stopped before it was reached
-      const Outline outline = shared.outline(static_cast<int>(r));
-      meshes[r] = without_curves(triangulate(outline.rings, outline.contacts));
-      meshes[r].mesh.complete = false;
-    } else if (!lines.of_surface[r].empty()) {
-      report.deviation = std::max(report.deviation, meshes[r].deviation + lines.deviation[r]);
-    }
-    if (!meshes[r].mesh.complete) ++report.unfinished_surfaces;
-    triangles += meshes[r].mesh.triangles.size();
-    check_count(triangles, options.max_triangles, r, count);
+  report.kept = curves.kept;
+  report.culled = curves.culled;
+  report.boundary_rounds = made.rounds;
+  for (std::size_t r = 0; r < made.meshes.size(); ++r) {
+    const CurveMesh& mesh = made.meshes[r];
+    // Without those that were stopped before their curves were in.
+    if (!input.curves[r].empty() && (mesh.mesh.complete || !mesh.curves.empty()))
+      report.deviation = std::max(report.deviation, mesh.deviation + curves.deviation[r]);
+    if (!mesh.mesh.complete) ++report.unfinished_surfaces;
   }
   std::vector<int> order;
   for (const DiscontinuityCurve& curve : found.curves) order.push_back(curve.order);
-  return {PatchMesh(scene, meshes, order), report};
+  return {PatchMesh(scene, made.meshes, order), report};
 }
 
 }  // namespace halfshade

@@ -8,8 +8,8 @@
 namespace halfshade {
 
 struct DiscontinuityMeshOptions {
-  double max_length = 0;    ///< no element edge longer than this, scene units; 0: no limit
-  double min_angle = 20.7;  ///< degrees
+  double max_length = 0;  ///< no element edge longer than this, scene units; 0: no limit
+  double min_angle = delaunay_angle;  ///< degrees, in [0, delaunay_angle]
   std::size_t max_triangles = 4000000;
   /// Curves whose damage J_k h^k / k! stays below this irradiance (W/m²) for elements of size h
   /// are left out, and curves are flattened so that the misplacement stays below it. 0: complete.

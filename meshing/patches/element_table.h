@@ -26,9 +26,8 @@ struct ElementTable {
   int count() const { return static_cast<int>(corners.size()); }
   /// The three corners' positions.
   std::array<Vec3, 3> triangle(int element) const {
-    const auto& c = corners[static_cast<std::size_t>(element)];
-    return {points[static_cast<std::size_t>(c[0])], points[static_cast<std::size_t>(c[1])],
-            points[static_cast<std::size_t>(c[2])]};
+    const auto& c = corners[at(element)];
+    return {points[at(c[0])], points[at(c[1])], points[at(c[2])]};
   }
 };
 

@@ -28,7 +28,7 @@ int FaceLookup::face_at(const Vec2& point) const {
   visit_overlaps(tree_, flat_bounds(point, point), [&](int i) {
     if ((first < 0 || i < first) && is_inside(std::span(&rings_[at(i)], 1), point)) first = i;
   });
-  if (first >= 0) return faces_[static_cast<std::size_t>(first)];
+  if (first >= 0) return faces_[at(first)];
   std::size_t nearest = 0;
   double least = HUGE_VAL;
   for (std::size_t i = 0; i < faces_.size(); ++i) {

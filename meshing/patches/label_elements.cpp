@@ -18,7 +18,7 @@ std::vector<Region> label_elements(const SoundScene& scene, const OpaqueScene& o
                                    const ElementTable& elements,
                                    std::span<const LightSource> sources, const Progress& progress) {
   for (const LightSource& source : sources)
-    if (source.surface < 0 || static_cast<std::size_t>(source.surface) >= scene.surfaces.size())
+    if (source.surface < 0 || at(source.surface) >= scene.surfaces.size())
       throw Error(
           ErrorCode::contract, "label_elements",
           fmt::format("source {} is not among {} surfaces", source.surface, scene.surfaces.size()));

@@ -31,7 +31,7 @@ class PatchMesh {
             const Progress& progress = {});
 
   /// Takes the mesh of each surface as it is, one an entry. `curve_order[id]` is the order of the
-  /// discontinuity that the lines with that id stand for.
+  /// discontinuity curve with that id.
   PatchMesh(const SoundScene& scene, std::span<const CurveMesh> meshes,
             std::span<const int> curve_order);
   ~PatchMesh();

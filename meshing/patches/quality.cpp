@@ -1,6 +1,8 @@
 #include "meshing/patches/quality.h"
 
 #include "meshing/geometry/corner_fans.h"
+#include "meshing/patches/margins.h"
+#include "meshing/triangulation/planar_mesh.h"
 
 #include <Eigen/Geometry>
 
@@ -10,13 +12,6 @@
 
 namespace halfshade {
 namespace {
-
-// Angles that Delaunay refinement can reach, with or without a floor under its edges.
-constexpr double good_angle = 20.7;
-constexpr double tolerable_angle = 1;
-// Between edges that meet at less, refinement cannot keep its promise. Less what rounding takes
-// from an equilateral triangle.
-constexpr double narrow_angle = 60 - 1e-9;
 
 constexpr double bin_width = 5;
 constexpr double degrees = 180 / std::numbers::pi;
@@ -61,7 +56,7 @@ QualitySummary summarize_quality(const ElementTable& elements) {
   summary.worst_element = static_cast<int>(worst - angles.begin());
   summary.min_angle = *worst;
   for (int e = 0; e < elements.count(); ++e) {
-    const double angle = angles[static_cast<std::size_t>(e)];
+    const double angle = angles[at(e)];
     summary.mean_angle += angle / static_cast<double>(angles.size());
     ++summary.histogram[bin_of(angle, summary.histogram.size())];
     const auto triangle = elements.triangle(e);
@@ -92,7 +87,7 @@ std::vector<bool> at_input_angles(const ElementTable& elements) {
   for (std::size_t e = 0; e < joined.size(); ++e)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto sector = at(sectors.of_corner[e][k]);
-      if (bounded[sector] && angle[sector] < narrow_angle)
+      if (bounded[sector] && angle[sector] < margins::narrow_angle)
         narrow[at(elements.corners[e][k])] = true;
     }
   std::vector<bool> result;
@@ -116,8 +111,8 @@ AreaQuality summarize_area_quality(const ElementTable& elements) {
       continue;
     }
     rest += area;
-    if (angles[e] >= good_angle) good += area;
-    if (angles[e] >= tolerable_angle) tolerable += area;
+    if (angles[e] >= delaunay_angle) good += area;
+    if (angles[e] >= margins::tolerable_angle) tolerable += area;
     summary.min_angle = std::min(summary.min_angle, angles[e]);
   }
   if (rest > 0) {

@@ -33,7 +33,7 @@ struct AreaQuality {
   std::array<double, 12> histogram{};  ///< by smallest angle, in bins of 5 degrees
   double near_input_angles = 0;        ///< elements at input angles (see above)
   /// The others, as shares of their area (1 if there are none): those whose smallest angle is at
-  /// least 20.7 and at least 1 degree.
+  /// least delaunay_angle and at least 1 degree.
   double good = 1, tolerable = 1;
   double min_angle = 60;  ///< the smallest among the others, degrees
 };

@@ -1,20 +1,13 @@
 #include "meshing/patches/shared_edges.h"
 
-#include "meshing/core/parallel.h"
 #include "meshing/core/planar.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 namespace halfshade {
 namespace {
-
-// Neighbours mostly agree after two or three; what is left then is split plainly.
-constexpr int most_rounds = 8;
-
-double distance(const Vec2& p, const Segment2& s) { return distance_to_segment(p, s[0], s[1]); }
 
 // The point nearest to t among sorted ones.
 double gap(const std::vector<double>& sorted, double t) {
@@ -36,47 +29,61 @@ void thin(std::vector<double>& values, double distance) {
 
 }  // namespace
 
+BorderEdges border_edges(const CurveMesh& mesh) {
+  const std::vector<Vec2>& points = mesh.mesh.points;
+  BorderEdges borders;
+  for (std::size_t i = 0; i < mesh.mesh.constrained_edges.size(); ++i) {
+    const auto& edge = mesh.mesh.constrained_edges[i];
+    if (mesh.is_d0[i]) borders.push_back({edge, {points[at(edge[0])], points[at(edge[1])]}});
+  }
+  return borders;
+}
+
 SharedEdges::SharedEdges(const SoundScene& scene)
     : scene_(scene), lines_(find_shared_lines(scene)) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     std::vector<Bounds> boxes;
-    for (int w = lines_.first_wall[r]; w < lines_.first_wall[r + 1]; ++w)
-      boxes.push_back(flat_bounds(lines_.walls[at(w)].ends[0], lines_.walls[at(w)].ends[1]));
+    for (int w = lines_.first_border[r]; w < lines_.first_border[r + 1]; ++w)
+      boxes.push_back(flat_bounds(lines_.borders[at(w)].ends[0], lines_.borders[at(w)].ends[1]));
     trees_.push_back(make_flat_tree(boxes, 1));
   }
   for (const SharedLine& line : lines_.lines) {
     std::vector<double>& points = agreed_.emplace_back();
-    for (const int w : line.walls) {
-      points.push_back(lines_.walls[at(w)].begin);
-      points.push_back(lines_.walls[at(w)].end);
+    for (const int w : line.borders) {
+      points.push_back(lines_.borders[at(w)].begin);
+      points.push_back(lines_.borders[at(w)].end);
     }
     thin(points, scene.tolerance.length);
   }
 }
 
-int SharedEdges::wall_of(int surface, const Segment2& edge) const {
+int SharedEdges::border_of(int surface, const Segment2& edge) const {
   const Vec2 middle = 0.5 * (edge[0] + edge[1]);
   const Bounds around = flat_bounds(middle, middle).grown(scene_.tolerance.planarity);
   std::pair<double, int> best{scene_.tolerance.planarity, -1};
   visit_overlaps(trees_[at(surface)], around, [&](int i) {
-    const int w = lines_.first_wall[at(surface)] + i;
-    const Segment2& wall = lines_.walls[at(w)].ends;
-    const double off = std::max(distance(edge[0], wall), distance(edge[1], wall));
+    const int w = lines_.first_border[at(surface)] + i;
+    const Segment2& border = lines_.borders[at(w)].ends;
+    const double off = std::max(distance_to_segment(edge[0], border[0], border[1]),
+                                distance_to_segment(edge[1], border[0], border[1]));
     if (off < best.first || (off == best.first && w < best.second)) best = {off, w};
   });
   return best.second;
 }
 
 void SharedEdges::add(std::span<const End> ends) {
-  std::vector<std::vector<std::pair<double, double>>> found(lines_.lines.size());  // place, snap
+  std::vector<std::vector<std::pair<double, double>>> found(
+      lines_.lines.size());  // where on the line, snap
   for (const End& end : ends) {
     const Bounds around = flat_bounds(end.point, end.point).grown(end.snap);
     const auto r = at(end.surface);
     visit_overlaps(trees_[r], around, [&](int i) {
-      const Wall& wall = lines_.walls[at(lines_.first_wall[r] + i)];
-      if (wall.line < 0 || distance(end.point, wall.ends) > end.snap) return;
-      const double t = along(lines_.lines[at(wall.line)], scene_.surfaces[r].frame, end.point);
-      found[at(wall.line)].emplace_back(t, end.snap);
+      const BorderLine& border = lines_.borders[at(lines_.first_border[r] + i)];
+      if (border.line < 0 ||
+          distance_to_segment(end.point, border.ends[0], border.ends[1]) > end.snap)
+        return;
+      const double t = along(lines_.lines[at(border.line)], scene_.surfaces[r].frame, end.point);
+      found[at(border.line)].emplace_back(t, end.snap);
     });
   }
   for (std::size_t l = 0; l < found.size(); ++l) {
@@ -104,44 +111,26 @@ std::vector<double> SharedEdges::inside(int line, double begin, double end) cons
   return result;
 }
 
-std::vector<EdgePoints> SharedEdges::missing(int surface, const WallEdges& walls) const {
-  std::vector<EdgePoints> result;
-  const PlaneFrame& frame = scene_.surfaces[at(surface)].frame;
-  for (const WallEdge& edge : walls) {
-    const int w = wall_of(surface, edge.ends);
-    const int line = w < 0 ? -1 : lines_.walls[at(w)].line;
-    if (line < 0) continue;
-    const double begin = along(lines_.lines[at(line)], frame, edge.ends[0]);
-    const double end = along(lines_.lines[at(line)], frame, edge.ends[1]);
-    EdgePoints added{edge.points, {}};
-    for (const double t : inside(line, begin, end))
-      added.points.push_back(edge.ends[0] +
-                             (t - begin) / (end - begin) * (edge.ends[1] - edge.ends[0]));
-    if (!added.points.empty()) result.push_back(std::move(added));
-  }
-  return result;
-}
-
 Outline SharedEdges::outline(int surface) const {
   Outline result;
-  int w = lines_.first_wall[at(surface)];
-  const auto points_from = [&](const Wall& wall) {
-    std::vector<Vec2> points = {wall.ends[0]};
-    for (const double t : inside(wall.line, wall.begin, wall.end))
-      points.push_back(wall.ends[0] +
-                       (t - wall.begin) / (wall.end - wall.begin) * (wall.ends[1] - wall.ends[0]));
+  int w = lines_.first_border[at(surface)];
+  const auto points_from = [&](const BorderLine& border) {
+    std::vector<Vec2> points = {border.ends[0]};
+    for (const double t : inside(border.line, border.begin, border.end))
+      points.push_back(border.ends[0] + (t - border.begin) / (border.end - border.begin) *
+                                            (border.ends[1] - border.ends[0]));
     return points;
   };
   for (const Ring& ring : scene_.surfaces[at(surface)].rings) {
     Ring& longer = result.rings.emplace_back();
     for (std::size_t k = 0; k < ring.size(); ++k, ++w) {
-      const std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
+      const std::vector<Vec2> points = points_from(lines_.borders[at(w)]);
       longer.insert(longer.end(), points.begin(), points.end());
     }
   }
-  for (; w < lines_.first_wall[at(surface) + 1]; ++w) {
-    std::vector<Vec2> points = points_from(lines_.walls[at(w)]);
-    points.push_back(lines_.walls[at(w)].ends[1]);
+  for (; w < lines_.first_border[at(surface) + 1]; ++w) {
+    std::vector<Vec2> points = points_from(lines_.borders[at(w)]);
+    points.push_back(lines_.borders[at(w)].ends[1]);
     for (std::size_t k = 1; k < points.size(); ++k)
       result.contacts.push_back({points[k - 1], points[k]});
   }
@@ -157,37 +146,37 @@ void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
   const std::vector<double> before = agreed_[line];
   for (auto first = vertices.begin(); first != vertices.end();) {
     const std::size_t interval = first->interval;
-    std::map<int, std::vector<double>> walls;
+    std::map<int, std::vector<double>> borders;
     for (; first != vertices.end() && first->interval == interval; ++first)
-      walls[first->wall].push_back(first->t);
-    const auto finest = std::max_element(walls.begin(), walls.end(), [](auto& a, auto& b) {
+      borders[first->border].push_back(first->t);
+    const auto finest = std::max_element(borders.begin(), borders.end(), [](auto& a, auto& b) {
       return a.second.size() < b.second.size();
     });
-    for (const int w : lines_.lines[line].walls) {
-      const Wall& wall = lines_.walls[at(w)];
-      if (std::min(wall.begin, wall.end) > before[interval - 1] + tolerance ||
-          std::max(wall.begin, wall.end) < before[interval] - tolerance)
+    for (const int w : lines_.lines[line].borders) {
+      const BorderLine& border = lines_.borders[at(w)];
+      if (std::min(border.begin, border.end) > before[interval - 1] + tolerance ||
+          std::max(border.begin, border.end) < before[interval] - tolerance)
         continue;
-      const auto own = walls.find(w);
-      const bool same = own != walls.end() &&
+      const auto own = borders.find(w);
+      const bool same = own != borders.end() &&
                         std::equal(own->second.begin(), own->second.end(), finest->second.begin(),
                                    finest->second.end(), [&](double a, double b) {
                                      return std::abs(a - b) <= tolerance;
                                    });
-      if (!same) differs[at(wall.surface)] = true;
+      if (!same) differs[at(border.surface)] = true;
     }
     agreed_[line].insert(agreed_[line].end(), finest->second.begin(), finest->second.end());
   }
   std::sort(agreed_[line].begin(), agreed_[line].end());
 }
 
-std::vector<int> SharedEdges::compare(std::span<const WallEdges> meshes) {
+std::vector<int> SharedEdges::compare(std::span<const CurveMesh> meshes) {
   std::vector<std::vector<Vertex>> vertices(lines_.lines.size());
   for (std::size_t r = 0; r < meshes.size(); ++r)
-    for (const WallEdge& edge : meshes[r]) {
-      const int w = wall_of(static_cast<int>(r), edge.ends);
-      if (w < 0 || lines_.walls[at(w)].line < 0) continue;
-      const int line = lines_.walls[at(w)].line;
+    for (const BorderEdge& edge : border_edges(meshes[r])) {
+      const int w = border_of(static_cast<int>(r), edge.ends);
+      if (w < 0 || lines_.borders[at(w)].line < 0) continue;
+      const int line = lines_.borders[at(w)].line;
       const std::vector<double>& points = agreed_[at(line)];
       for (const Vec2& p : edge.ends) {
         const double t = along(lines_.lines[at(line)], scene_.surfaces[r].frame, p);
@@ -204,23 +193,6 @@ std::vector<int> SharedEdges::compare(std::span<const WallEdges> meshes) {
   for (std::size_t r = 0; r < differs.size(); ++r)
     if (differs[r]) result.push_back(static_cast<int>(r));
   return result;
-}
-
-int mesh_alike(SharedEdges& shared, std::size_t surfaces,
-               const std::function<void(std::size_t, const Outline&)>& mesh,
-               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress) {
-  std::vector<int> open(surfaces);
-  std::iota(open.begin(), open.end(), 0);
-  for (int round = 1;; ++round) {
-    const bool complete = parallel_for(
-        open.size(), [&](std::size_t i) { mesh(at(open[i]), shared.outline(open[i])); }, progress,
-        "mesh");
-    if (!complete || round == most_rounds) return round;
-    std::vector<WallEdges> all(surfaces);
-    for (std::size_t r = 0; r < surfaces; ++r) all[r] = walls(r);
-    open = shared.compare(all);
-    if (open.empty()) return round;
-  }
 }
 
 }  // namespace halfshade

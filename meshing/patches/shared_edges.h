@@ -1,12 +1,10 @@
 #pragma once
 
-#include "meshing/core/progress.h"
 #include "meshing/geometry/flat_tree.h"
 #include "meshing/patches/shared_lines.h"
-#include "meshing/triangulation/split_edges.h"
+#include "meshing/triangulation/curve_mesh.h"
 
 #include <array>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,29 +17,32 @@ struct Outline {
 };
 
 /// An edge of a surface's mesh on a ring or contact line.
-struct WallEdge {
+struct BorderEdge {
   std::array<int, 2> points{};  ///< of the mesh
   Segment2 ends;                ///< in the surface's frame
 };
-using WallEdges = std::vector<WallEdge>;
+using BorderEdges = std::vector<BorderEdge>;
 
-/// Brings the subdivision of walls that lie on each other into agreement: keeps, for every shared
+/// The constrained edges of a mesh on rings and contact lines.
+BorderEdges border_edges(const CurveMesh& mesh);
+
+/// Brings the subdivision of borders that lie on each other into agreement: keeps, for every shared
 /// line, the points that all surfaces along it are to have.
 class SharedEdges {
  public:
-  /// Starts with the ends of all walls. `scene` must outlive the object.
+  /// Starts with the ends of all borders. `scene` must outlive the object.
   explicit SharedEdges(const SoundScene& scene);
 
   const SharedLines& lines() const { return lines_; }
 
-  /// The wall of a surface that an edge of its mesh lies on, or −1.
-  int wall_of(int surface, const Segment2& edge) const;
+  /// The border of a surface that an edge of its mesh lies on, or −1.
+  int border_of(int surface, const Segment2& edge) const;
 
   /// A point of a surface where something ends.
   struct End {
     int surface = 0;
     Vec2 point = Vec2::Zero();
-    double snap = 0;  ///< it may be moved this far along its wall
+    double snap = 0;  ///< it may be moved this far along its border
   };
   /// Adds those points that lie on shared lines, to within their snap, and not near points that
   /// are there already.
@@ -50,17 +51,14 @@ class SharedEdges {
   /// What a surface is to be meshed with.
   Outline outline(int surface) const;
 
-  /// The points that a surface is to have and its mesh has not.
-  std::vector<EdgePoints> missing(int surface, const WallEdges& walls) const;
-
   /// Compares the meshes of all surfaces. Between neighbouring points of a line, the finest
   /// subdivision becomes that of all. Returns the surfaces that do not have it, sorted.
-  std::vector<int> compare(std::span<const WallEdges> meshes);
+  std::vector<int> compare(std::span<const CurveMesh> meshes);
 
  private:
   struct Vertex {
     std::size_t interval;  // of the line's points, by its end
-    int wall;
+    int border;
     double t;
     auto operator<=>(const Vertex&) const = default;
   };
@@ -69,16 +67,8 @@ class SharedEdges {
 
   const SoundScene& scene_;
   SharedLines lines_;
-  std::vector<FlatTree> trees_;              // of each surface's walls, in its frame
+  std::vector<FlatTree> trees_;              // of each surface's borders, in its frame
   std::vector<std::vector<double>> agreed_;  // [line]: sorted, farther apart than the tolerance
 };
-
-/// Calls `mesh(surface, outline)` for every surface, on all threads, and again for those whose
-/// walls differ from their neighbours' with more points on them, until nothing differs or
-/// `progress` is stopped or it has been tried often enough. `walls(surface)` tells what a mesh has
-/// come to. Returns the number of rounds.
-int mesh_alike(SharedEdges& shared, std::size_t surfaces,
-               const std::function<void(std::size_t, const Outline&)>& mesh,
-               const std::function<WallEdges(std::size_t)>& walls, const Progress& progress);
 
 }  // namespace halfshade

@@ -1,6 +1,7 @@
 #include "meshing/patches/shared_lines.h"
 
 #include "meshing/geometry/flat_tree.h"
+#include "meshing/patches/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -10,12 +11,6 @@
 
 namespace halfshade {
 namespace {
-
-// Surfaces that share an edge lie apart there by as much as their planes do, but never by this
-// share of an edge.
-constexpr double largest_gap = 0.01;
-// Planes at less than this angle (in its square) are parallel as far as their normals can tell.
-constexpr double least_squared_sine = 1e-12;
 
 struct Stretch {
   Vec3 from, to;
@@ -27,15 +22,16 @@ struct Stretch {
 Stretch stretch(const Surface& surface, const Segment2& ends, double shortest,
                 const Tolerance& tolerance) {
   return {surface.frame.to_space(ends[0]), surface.frame.to_space(ends[1]),
-          std::max(tolerance.length, std::min(2 * tolerance.planarity, largest_gap * shortest))};
+          std::max(tolerance.length,
+                   std::min(2 * tolerance.planarity, margins::largest_gap * shortest))};
 }
 
 void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& stretches) {
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     const Surface& surface = scene.surfaces[r];
-    out.first_wall.push_back(static_cast<int>(out.walls.size()));
+    out.first_border.push_back(static_cast<int>(out.borders.size()));
     const auto add = [&](const Segment2& ends, double shortest) {
-      out.walls.push_back({static_cast<int>(r), ends});
+      out.borders.push_back({static_cast<int>(r), ends});
       stretches.push_back(stretch(surface, ends, shortest, scene.tolerance));
     };
     for (const Ring& ring : surface.rings) {
@@ -46,7 +42,7 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
     }
     for (const Segment2& contact : surface.contacts) add(contact, (contact[1] - contact[0]).norm());
   }
-  out.first_wall.push_back(static_cast<int>(out.walls.size()));
+  out.first_border.push_back(static_cast<int>(out.borders.size()));
 }
 
 // Whether the planes of two surfaces, each off its corners by at most `planarity`, explain that an
@@ -58,7 +54,7 @@ bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal
   // The offset as a sum of parts along the normals.
   const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
   const double squared_sine = normal_a.cross(normal_b).squaredNorm();
-  if (squared_sine <= least_squared_sine) return false;
+  if (squared_sine <= margins::least_squared_sine) return false;
   return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
          std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
 }
@@ -69,11 +65,11 @@ struct Overlap {
   auto operator<=>(const Overlap&) const = default;
 };
 
-// Joins walls that lie on each other, the closest first.
-class WallJoiner {
+// Joins borders that lie on each other, the closest first.
+class BorderJoiner {
  public:
-  WallJoiner(const SoundScene& scene, const SharedLines& lines,
-             const std::vector<Stretch>& stretches)
+  BorderJoiner(const SoundScene& scene, const SharedLines& lines,
+               const std::vector<Stretch>& stretches)
       : scene_(scene), lines_(lines), stretches_(stretches), group_(stretches.size()) {
     std::iota(group_.begin(), group_.end(), 0);
     for (int w = 0; w < static_cast<int>(stretches.size()); ++w) members_.push_back({w});
@@ -97,8 +93,8 @@ class WallJoiner {
   }
 
  private:
-  const Vec3& normal(int wall) const {
-    return scene_.surfaces[at(lines_.walls[at(wall)].surface)].frame.normal;
+  const Vec3& normal(int border) const {
+    return scene_.surfaces[at(lines_.borders[at(border)].surface)].frame.normal;
   }
 
   std::vector<Overlap> find_overlaps() const {
@@ -109,7 +105,7 @@ class WallJoiner {
     std::vector<Overlap> overlaps;
     for (int i = 0; i < static_cast<int>(boxes.size()); ++i)
       visit_overlaps(tree, boxes[at(i)], [&](int j) {
-        if (j >= i || lines_.walls[at(i)].surface == lines_.walls[at(j)].surface) return;
+        if (j >= i || lines_.borders[at(i)].surface == lines_.borders[at(j)].surface) return;
         const bool j_is_longer = stretches_[at(i)].length() < stretches_[at(j)].length();
         const double gap = j_is_longer ? gap_between(j, i) : gap_between(i, j);
         if (gap < HUGE_VAL) overlaps.push_back({gap, j, i});
@@ -142,17 +138,17 @@ class WallJoiner {
       gap = std::max(gap, offset.norm());
     }
     // Or they only touch at their ends, which overlap by as much as planes are off.
-    return gap <= largest_gap * (end - begin) ? gap : HUGE_VAL;
+    return gap <= margins::largest_gap * (end - begin) ? gap : HUGE_VAL;
   }
 
-  // Whether walls of one surface would come to lie on each other.
+  // Whether borders of one surface would come to lie on each other.
   bool clash(const std::vector<int>& a, const std::vector<int>& b) const {
     const auto& [fewer, more] =
         std::minmax(a, b, [](auto& x, auto& y) { return x.size() < y.size(); });
     for (const int w : fewer) {
-      const int r = lines_.walls[at(w)].surface;
-      auto other = std::lower_bound(more.begin(), more.end(), lines_.first_wall[at(r)]);
-      for (; other != more.end() && *other < lines_.first_wall[at(r) + 1]; ++other) {
+      const int r = lines_.borders[at(w)].surface;
+      auto other = std::lower_bound(more.begin(), more.end(), lines_.first_border[at(r)]);
+      for (; other != more.end() && *other < lines_.first_border[at(r) + 1]; ++other) {
         const auto [t0, t1] = range_along(w, *other);
         if (std::min(std::max(t0, t1), stretches_[at(w)].length()) -
                 std::max(std::min(t0, t1), 0.0) >
@@ -166,7 +162,7 @@ class WallJoiner {
   const SoundScene& scene_;
   const SharedLines& lines_;
   const std::vector<Stretch>& stretches_;
-  std::vector<int> group_;                 // of each wall
+  std::vector<int> group_;                 // of each border
   std::vector<std::vector<int>> members_;  // of each group, sorted
 };
 
@@ -176,22 +172,22 @@ SharedLines find_shared_lines(const SoundScene& scene) {
   SharedLines result;
   std::vector<Stretch> stretches;
   collect(scene, result, stretches);
-  std::vector<std::vector<int>> groups = WallJoiner(scene, result, stretches).run();
-  for (std::vector<int>& walls : groups) {
-    if (walls.size() < 2) continue;
+  std::vector<std::vector<int>> groups = BorderJoiner(scene, result, stretches).run();
+  for (std::vector<int>& borders : groups) {
+    if (borders.size() < 2) continue;
     const auto& longest =
-        stretches[at(*std::max_element(walls.begin(), walls.end(), [&](int a, int b) {
+        stretches[at(*std::max_element(borders.begin(), borders.end(), [&](int a, int b) {
           return stretches[at(a)].length() < stretches[at(b)].length();
         }))];
     SharedLine line{longest.from, (longest.to - longest.from) / longest.length(), {}};
-    for (const int w : walls) {
-      Wall& wall = result.walls[at(w)];
-      const PlaneFrame& frame = scene.surfaces[at(wall.surface)].frame;
-      wall.line = static_cast<int>(result.lines.size());
-      wall.begin = along(line, frame, wall.ends[0]);
-      wall.end = along(line, frame, wall.ends[1]);
+    for (const int w : borders) {
+      BorderLine& border = result.borders[at(w)];
+      const PlaneFrame& frame = scene.surfaces[at(border.surface)].frame;
+      border.line = static_cast<int>(result.lines.size());
+      border.begin = along(line, frame, border.ends[0]);
+      border.end = along(line, frame, border.ends[1]);
     }
-    line.walls = std::move(walls);
+    line.borders = std::move(borders);
     result.lines.push_back(std::move(line));
   }
   return result;

@@ -13,15 +13,11 @@
 namespace halfshade {
 namespace {
 
-using Link = std::array<int, 2>;
-
-Link sorted(int a, int b) { return a < b ? Link{a, b} : Link{b, a}; }
-
 std::vector<Link> links_of(const std::vector<std::vector<int>>& rings) {
   std::vector<Link> links;
   for (const auto& ring : rings)
     for (std::size_t k = 0; k < ring.size(); ++k)
-      links.push_back(sorted(ring[k], ring[(k + 1) % ring.size()]));
+      links.push_back(sorted_link(ring[k], ring[(k + 1) % ring.size()]));
   std::sort(links.begin(), links.end());
   links.erase(std::unique(links.begin(), links.end()), links.end());
   return links;
@@ -70,7 +66,7 @@ class ContactFinder {
     }
     update_rings();
     for (const Link& link : inner_)
-      draft_.contacts.push_back(sorted(ids_[at(link[0])], ids_[at(link[1])]));
+      draft_.contacts.push_back(sorted_link(ids_[at(link[0])], ids_[at(link[1])]));
     std::sort(draft_.contacts.begin(), draft_.contacts.end());
   }
 
@@ -89,10 +85,10 @@ class ContactFinder {
     std::set<Link> on_border;
     for (std::size_t s = 0; s + edge_count < chains.size(); ++s)
       for (std::size_t k = 1; k < chains[s].size(); ++k)
-        on_border.insert(sorted(chains[s][k - 1], chains[s][k]));
+        on_border.insert(sorted_link(chains[s][k - 1], chains[s][k]));
     for (std::size_t s = chains.size() - edge_count; s < chains.size(); ++s)
       for (std::size_t k = 1; k < chains[s].size(); ++k) {
-        const Link link = sorted(chains[s][k - 1], chains[s][k]);
+        const Link link = sorted_link(chains[s][k - 1], chains[s][k]);
         if (!on_border.contains(link) && inside(link)) inner_.insert(link);
       }
   }

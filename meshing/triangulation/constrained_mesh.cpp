@@ -37,7 +37,7 @@ std::optional<Arrival> walk(const ConstrainedMesh& mesh, int triangle, const Vec
           return {};
       return Arrival{{triangle, 0}, false};
     }
-    if (t.neighbour[*exit] < 0 || t.line[*exit] >= 0) return Arrival{{triangle, *exit}, true};
+    if (t.neighbour[*exit] < 0 || t.constraint[*exit] >= 0) return Arrival{{triangle, *exit}, true};
     previous = triangle;
     triangle = t.neighbour[*exit];
   }
@@ -55,7 +55,7 @@ void Cavity::find(const Vec2& p, const Side& split) {
   p_ = p;
   const auto& t = mesh_.triangle(split.triangle);
   split_ends_ = {t.corner[split.k], t.corner[(split.k + 1) % 3]};
-  split_line_ = t.line[split.k];
+  split_constraint_ = t.constraint[split.k];
   inside_ = {split.triangle};
   if (t.neighbour[split.k] >= 0) inside_.push_back(t.neighbour[split.k]);
   grow();
@@ -71,7 +71,7 @@ void Cavity::grow() {
     for (std::size_t k = 0; k < 3; ++k) {
       if (is_split(t, k, split_ends_)) continue;
       const int next = t.neighbour[k];
-      if (next >= 0 && t.line[k] < 0) {
+      if (next >= 0 && t.constraint[k] < 0) {
         if (mark_[at(next)] == number_) continue;
         const auto& corner = mesh_.triangle(next).corner;
         if (in_circle(mesh_.point(corner[0]), mesh_.point(corner[1]), mesh_.point(corner[2]), p_) >
@@ -81,7 +81,7 @@ void Cavity::grow() {
           continue;
         }
       }
-      rim_.push_back({{inside_[i], k}, t.corner[k], t.corner[(k + 1) % 3], next, t.line[k]});
+      rim_.push_back({{inside_[i], k}, t.corner[k], t.corner[(k + 1) % 3], next, t.constraint[k]});
     }
   }
 }
@@ -93,8 +93,8 @@ bool Cavity::fill(std::vector<int>& changed) {
   mesh_.points.push_back(p_);
   starting_at_.resize(mesh_.points.size(), -1);
   changed.clear();
-  const auto line_to = [&](int vertex) {
-    return vertex == split_ends_[0] || vertex == split_ends_[1] ? split_line_ : -1;
+  const auto constraint_to = [&](int vertex) {
+    return vertex == split_ends_[0] || vertex == split_ends_[1] ? split_constraint_ : -1;
   };
   for (std::size_t i = 0; i < rim_.size(); ++i) {
     const Rim& r = rim_[i];
@@ -104,8 +104,9 @@ bool Cavity::fill(std::vector<int>& changed) {
     }
     const int t = inside_[i];
     changed.push_back(t);
-    mesh_.triangles[at(t)] = {
-        {point, r.from, r.to}, {-1, r.beyond, -1}, {line_to(r.from), r.line, line_to(r.to)}};
+    mesh_.triangles[at(t)] = {{point, r.from, r.to},
+                              {-1, r.beyond, -1},
+                              {constraint_to(r.from), r.constraint, constraint_to(r.to)}};
     starting_at_[at(r.from)] = t;
     if (r.beyond < 0) continue;
     auto& other = mesh_.triangles[at(r.beyond)];

@@ -12,15 +12,15 @@ namespace halfshade {
 /// corner k to corner k + 1.
 struct ConstrainedMesh {
   struct Triangle {
-    std::array<int, 3> corner{};     ///< counter-clockwise
-    std::array<int, 3> neighbour{};  ///< beyond each side; −1 at the border
-    std::array<int, 3> line{};       ///< of the constraint that each side lies on; −1: none
+    std::array<int, 3> corner{};      ///< counter-clockwise
+    std::array<int, 3> neighbour{};   ///< beyond each side; −1 at the border
+    std::array<int, 3> constraint{};  ///< id of the one that each side lies on; −1: none
   };
   std::vector<Vec2> points;
   std::vector<Triangle> triangles;
 
-  const Vec2& point(int p) const { return points[static_cast<std::size_t>(p)]; }
-  const Triangle& triangle(int t) const { return triangles[static_cast<std::size_t>(t)]; }
+  const Vec2& point(int p) const { return points[at(p)]; }
+  const Triangle& triangle(int t) const { return triangles[at(t)]; }
 };
 
 /// A side of a triangle.
@@ -45,7 +45,7 @@ class Cavity {
   struct Rim {
     Side side;  ///< of a triangle of the cavity
     int from, to;
-    int beyond, line;
+    int beyond, constraint;
   };
 
   explicit Cavity(ConstrainedMesh& mesh) : mesh_(mesh) {}
@@ -63,12 +63,12 @@ class Cavity {
 
  private:
   void grow();
-  int starting_at(int vertex) const { return starting_at_[static_cast<std::size_t>(vertex)]; }
+  int starting_at(int vertex) const { return starting_at_[at(vertex)]; }
 
   ConstrainedMesh& mesh_;
   Vec2 p_ = Vec2::Zero();
   std::array<int, 2> split_ends_ = {-1, -1};
-  int split_line_ = -1;
+  int split_constraint_ = -1;
   std::vector<int> inside_;
   std::vector<Rim> rim_;
   std::vector<unsigned> mark_;  // [triangle] number of the cavity it was last part of

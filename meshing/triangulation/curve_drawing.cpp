@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/arrangement/triangles_inside.h"
+#include "meshing/triangulation/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,13 +12,6 @@
 namespace halfshade {
 namespace {
 
-// Lines are clipped to a box that is wider than the rings' by this share of its size.
-constexpr double clip_margin = 1e-3;
-
-// Corners of rings closer than this are one; of their size, and of their largest coordinate.
-constexpr double weld_of_size = 1e-13, weld_of_coordinates = 32 * 0x1p-53;
-// Snap distances of at least this many roundings of the largest coordinate make safe decisions.
-constexpr double least_snap = 256 * 0x1p-53;
 struct Box2 {
   Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
 };
@@ -85,17 +79,17 @@ void add_rings(CurveDrawing& drawing, std::span<const Ring> rings, double weld) 
 }  // namespace
 
 double least_safe_snap(std::span<const Ring> rings) {
-  return least_snap * largest_coordinate(box_of(rings));
+  return margins::least_snap * largest_coordinate(box_of(rings));
 }
 
 std::optional<CurveDrawing> draw_curves(const CurveInput& input, double snap) {
   Box2 box = box_of(input.rings);
-  const double weld =
-      weld_of_size * (box.high - box.low).norm() + weld_of_coordinates * largest_coordinate(box);
+  const double weld = margins::weld_of_size * (box.high - box.low).norm() +
+                      margins::weld_of_coordinates * largest_coordinate(box);
   CurveDrawing drawing{SnapGraph(snap), {}, {}};
   add_rings(drawing, input.rings, weld);
   // Wide enough that ends made by clipping stay clear of the rings.
-  const double margin = 8 * snap + clip_margin * (box.high - box.low).norm();
+  const double margin = 8 * snap + margins::clip * (box.high - box.low).norm();
   box.low.array() -= margin;
   box.high.array() += margin;
   for (const Segment2& contact : input.contacts)
@@ -103,12 +97,12 @@ std::optional<CurveDrawing> draw_curves(const CurveInput& input, double snap) {
       drawing.graph.add_line((*part)[0], (*part)[1], std::min(weld, snap));
   if (!drawing.graph.settle()) return {};
   drawing.graph.freeze();
-  for (const CurveLine& line : input.lines)
-    for (std::size_t k = 1; k < line.points.size(); ++k)
-      if (const auto part = clip({line.points[k - 1], line.points[k]}, box)) {
+  for (const CurvePolyline& curve : input.curves)
+    for (std::size_t k = 1; k < curve.points.size(); ++k)
+      if (const auto part = clip({curve.points[k - 1], curve.points[k]}, box)) {
         const int edge = drawing.graph.add_line((*part)[0], (*part)[1]);
         if (edge >= 0)
-          drawing.pieces.push_back({{line.points[k - 1], line.points[k]}, line.id, edge});
+          drawing.pieces.push_back({{curve.points[k - 1], curve.points[k]}, curve.id, edge});
       }
   if (!drawing.graph.settle()) return {};
   return drawing;

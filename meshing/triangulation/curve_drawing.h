@@ -13,15 +13,15 @@ namespace halfshade {
 struct CurveInput {
   std::span<const Ring> rings;
   std::span<const Segment2> contacts;
-  std::span<const CurveLine> lines;
+  std::span<const CurvePolyline> curves;
 };
 
 /// A polygon and what lies in it as a planar graph. Edges are ids of the graph; one that has been
 /// split stands for its parts.
 struct CurveDrawing {
   struct Piece {
-    Segment2 place;  ///< as given
-    int id;          ///< of its line
+    Segment2 segment;  ///< as given
+    int id;            ///< of its curve
     int edge;
   };
   SnapGraph graph;
@@ -33,7 +33,7 @@ struct CurveDrawing {
 double least_safe_snap(std::span<const Ring> rings);
 
 /// Fixed in the graph: rings, and contact lines snapped to them. Free: the curves, as far as they
-/// lie near the polygon. Nothing comes back if the lines do not settle.
+/// lie near the polygon. Nothing comes back if they do not settle.
 std::optional<CurveDrawing> draw_curves(const CurveInput& input, double snap);
 
 }  // namespace halfshade

@@ -5,6 +5,7 @@
 #include "meshing/core/planar.h"
 #include "meshing/triangulation/curve_drawing.h"
 #include "meshing/triangulation/lazy_refinement.h"
+#include "meshing/triangulation/margins.h"
 
 #include <fmt/format.h>
 
@@ -15,13 +16,9 @@
 namespace halfshade {
 namespace {
 
-// If lines do not settle they are snapped more coarsely, this often and by this factor.
+// If curves do not settle they are snapped more coarsely, this often and by this factor.
 constexpr int most_attempts = 8;
 constexpr double coarser = 8;
-// Rounding of a midpoint and of the way back to space must not push an edge over the limit.
-constexpr double length_margin = 1e-12;
-// Of max_length: what `shortest` is held below, so that edges of the right length can be made.
-constexpr double shortest_share = 0.25;
 
 // The triangles inside, numbered anew, with the points they use.
 ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& keep,
@@ -42,7 +39,7 @@ ConstrainedMesh cut_out(const HullTriangulation& hull, const std::vector<bool>& 
       }
       triangle.corner[k] = point[at(p)];
       triangle.neighbour[k] = next < 0 ? -1 : renamed[at(next)];
-      triangle.line[k] = graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
+      triangle.constraint[k] = graph.edge_between(p, hull.triangles[t][(k + 1) % 3]);
     }
   }
   return mesh;
@@ -79,8 +76,6 @@ std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
   }
 }
 
-double distance(const Vec2& p, const Segment2& s) { return distance_to_segment(p, s[0], s[1]); }
-
 // Edges of the graph and the ids of the curves along them, sorted.
 std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {
   std::vector<std::pair<int, int>> result;
@@ -91,7 +86,7 @@ std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {
   return result;
 }
 
-// Edges are straight, so that their ends are farthest from the line. Those outside do not count.
+// Edges are straight, so that their ends are farthest from the curve. Those outside do not count.
 double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) {
   double largest = 0;
   const auto& graph = drawing.graph;
@@ -100,7 +95,8 @@ double deviation(const CurveDrawing& drawing, const std::vector<bool>& is_used) 
       if (!is_used[at(part)]) return;
       const auto& edge = graph.edges()[at(part)];
       for (const int p : {edge.a, edge.b})
-        largest = std::max(largest, distance(graph.points()[at(p)], piece.place));
+        largest = std::max(largest, distance_to_segment(graph.points()[at(p)], piece.segment[0],
+                                                        piece.segment[1]));
     });
   return largest;
 }
@@ -113,20 +109,20 @@ CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   for (const auto& t : mesh.triangles) {
     result.mesh.triangles.push_back(t.corner);
     for (std::size_t k = 0; k < 3; ++k)
-      if (t.line[k] >= 0) {
-        constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.line[k]);
-        is_used[at(t.line[k])] = true;
+      if (t.constraint[k] >= 0) {
+        constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.constraint[k]);
+        is_used[at(t.constraint[k])] = true;
       }
   }
   std::sort(constrained.begin(), constrained.end());
   constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   const auto along = curves_along(drawing);
   result.curve_begin.push_back(0);
-  for (const auto& [link, line] : constrained) {
+  for (const auto& [link, id] : constrained) {
     result.mesh.constrained_edges.push_back(link);
-    result.is_d0.push_back(drawing.graph.edges()[at(line)].is_fixed);
-    for (auto i = std::lower_bound(along.begin(), along.end(), std::pair(line, 0));
-         i != along.end() && i->first == line; ++i)
+    result.is_d0.push_back(drawing.graph.edges()[at(id)].is_fixed);
+    for (auto i = std::lower_bound(along.begin(), along.end(), std::pair(id, 0));
+         i != along.end() && i->first == id; ++i)
       result.curves.push_back(i->second);
     result.curve_begin.push_back(static_cast<int>(result.curves.size()));
   }
@@ -138,11 +134,12 @@ CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   throw Error(ErrorCode::contract, "mesh_with_curves", sentence);
 }
 
-void check(std::span<const CurveLine> lines) {
-  for (const CurveLine& line : lines) {
-    if (line.id < 0) fail(fmt::format("a line has the id {}; ids must not be negative", line.id));
-    for (const Vec2& p : line.points)
-      if (!p.allFinite()) fail(fmt::format("a point of line {} is not finite", line.id));
+void check(std::span<const CurvePolyline> curves) {
+  for (const CurvePolyline& curve : curves) {
+    if (curve.id < 0)
+      fail(fmt::format("a curve has the id {}; ids must not be negative", curve.id));
+    for (const Vec2& p : curve.points)
+      if (!p.allFinite()) fail(fmt::format("a point of curve {} is not finite", curve.id));
   }
 }
 
@@ -150,8 +147,8 @@ void check(const CurveMeshOptions& options) {
   const auto& [max_length, min_angle, max_triangles] = options.quality;
   if (!(max_length >= 0 && std::isfinite(max_length)))
     fail(fmt::format("max_length is {}; it must be finite and not negative", max_length));
-  if (!(min_angle >= 0 && min_angle <= 20.7))
-    fail(fmt::format("min_angle is {} degrees; it must lie in [0, 20.7]", min_angle));
+  if (!(min_angle >= 0 && min_angle <= delaunay_angle))
+    fail(fmt::format("min_angle is {} degrees; it must lie in [0, {}]", min_angle, delaunay_angle));
   if (!(options.snap > 0 && std::isfinite(options.snap)))
     fail(fmt::format("snap is {}; it must be finite and positive", options.snap));
   if (!(options.shortest > options.snap && std::isfinite(options.shortest)))
@@ -161,21 +158,21 @@ void check(const CurveMeshOptions& options) {
 
 RefinementLimits limits_of(const CurveMeshOptions& options) {
   RefinementLimits limits;
-  limits.max_length = options.quality.max_length * (1 - length_margin);
+  limits.max_length = options.quality.max_length * (1 - margins::length);
   limits.min_angle = options.quality.min_angle;
   limits.max_triangles = options.quality.max_triangles;
   limits.shortest = options.shortest;
   if (limits.max_length > 0)
-    limits.shortest = std::min(limits.shortest, shortest_share * limits.max_length);
+    limits.shortest = std::min(limits.shortest, margins::shortest * limits.max_length);
   return limits;
 }
 
 }  // namespace
 
 CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2> contacts,
-                           std::span<const CurveLine> lines, const CurveMeshOptions& options) {
+                           std::span<const CurvePolyline> curves, const CurveMeshOptions& options) {
   check(options);
-  check(lines);
+  check(curves);
   if (rings.empty()) {
     CurveMesh nothing;
     nothing.curve_begin = {0};
@@ -185,7 +182,7 @@ CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2
   for (int attempt = 0; attempt < most_attempts; ++attempt, snap *= coarser) {
     // In the end without the curves, which is known to go well.
     const bool is_last = attempt + 1 == most_attempts;
-    const auto drawing = draw_curves({rings, contacts, is_last ? lines.first(0) : lines}, snap);
+    const auto drawing = draw_curves({rings, contacts, is_last ? curves.first(0) : curves}, snap);
     if (!drawing) continue;
     auto mesh = triangulate(*drawing);
     if (!mesh) continue;

@@ -1,6 +1,7 @@
 #include "meshing/triangulation/lazy_refinement.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/triangulation/margins.h"
 #include "meshing/triangulation/narrow_corners.h"
 
 #include <algorithm>
@@ -10,12 +11,6 @@
 
 namespace halfshade {
 namespace {
-
-// Off-centres lie a little nearer than the angle asks for (as in Üngör 2004), lest the new triangle
-// is bad by rounding.
-constexpr double off_centre_share = 0.95;
-// A point encroaches on a constraint that it sees under a larger angle: cos 120° (Chew's lens).
-constexpr double lens_cosine = -0.5;
 
 struct Shape {
   std::size_t shortest = 0, longest = 0;  // sides
@@ -34,7 +29,7 @@ class Refiner {
       : mesh_(mesh), limits_(limits), corners_(mesh), cavity_(mesh) {
     const double sine = std::sin(limits.min_angle * std::numbers::pi / 180);
     sine_squared_ = sine * sine;
-    off_centre_ = off_centre_share / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
+    off_centre_ = margins::off_centre / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
     added_on_.assign(mesh.points.size(), -1);
   }
 
@@ -75,14 +70,16 @@ class Refiner {
     return s;
   }
 
-  bool is_long(const Shape& s) const {
-    return limits_.max_length > 0 && s.squared[s.longest] > limits_.max_length * limits_.max_length;
+  bool is_long(double squared_length) const {
+    return limits_.max_length > 0 && squared_length > limits_.max_length * limits_.max_length;
   }
+  bool is_long(const Shape& s) const { return is_long(s.squared[s.longest]); }
 
   // The smallest angle lies between constraints, or its side between twins.
   bool is_forced(int t, const Shape& s) const {
     const auto& triangle = mesh_.triangle(t);
-    if (triangle.line[(s.shortest + 1) % 3] >= 0 && triangle.line[(s.shortest + 2) % 3] >= 0)
+    if (triangle.constraint[(s.shortest + 1) % 3] >= 0 &&
+        triangle.constraint[(s.shortest + 2) % 3] >= 0)
       return true;
     const int a = triangle.corner[s.shortest], b = triangle.corner[(s.shortest + 1) % 3];
     return corners_.are_twins(mesh_, a, added_on_[at(a)], b, added_on_[at(b)]);
@@ -96,17 +93,26 @@ class Refiner {
   void push(int t) {
     const Shape s = shape(t);
     if (is_long(s))
-      queue_.push({1 + s.squared[s.longest], t, mesh_.triangle(t).corner});
+      queue_.push({s.squared[s.longest] / (limits_.max_length * limits_.max_length), t,
+                   mesh_.triangle(t).corner});
     else if (is_slim(t, s))
       queue_.push({-s.sine_squared(), t, mesh_.triangle(t).corner});
   }
 
   void improve(int t) {
     const Shape s = shape(t);
-    if (add_centre(t, s) || !is_long(s)) return;
+    if (split_long_constraint(t, s) || add_centre(t, s) || !is_long(s)) return;
     add(0.5 * (point(mesh_.triangle(t).corner[s.longest]) +
                point(mesh_.triangle(t).corner[(s.longest + 1) % 3])),
         Side{t, s.longest}, 0);
+  }
+
+  bool split_long_constraint(int t, const Shape& s) {
+    if (!is_long(s)) return false;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (mesh_.triangle(t).constraint[k] >= 0 && is_long(s.squared[k]) && split(t, s, {t, k}))
+        return true;
+    return false;
   }
 
   // The circumcentre, or for slim triangles a point on the way there from the middle of the
@@ -125,8 +131,9 @@ class Refiner {
     double distance = far;
     if (s.sine_squared() < sine_squared_) {
       // Not so near that the new sides are too short.
-      const double least = std::sqrt(
-          std::max(0.0, 1.0001 * limits_.shortest * limits_.shortest - 0.25 * length * length));
+      const double least =
+          std::sqrt(std::max(0.0, margins::not_shorter * limits_.shortest * limits_.shortest -
+                                      0.25 * length * length));
       distance = std::min(far, std::max(off_centre_ * length, least));
     }
     return Vec2(p + 0.5 * side + distance / length * normal);
@@ -149,10 +156,10 @@ class Refiner {
     std::optional<Side> result;
     double longest = 0;
     for (const Cavity::Rim& r : cavity_.rim()) {
-      if (r.line < 0 && r.beyond >= 0) continue;
+      if (r.constraint < 0 && r.beyond >= 0) continue;
       const Vec2 u = point(r.from) - p, v = point(r.to) - p;
       const double length = (u - v).squaredNorm();
-      if (length > longest && u.dot(v) <= lens_cosine * u.norm() * v.norm()) {
+      if (length > longest && u.dot(v) <= margins::lens_cosine * u.norm() * v.norm()) {
         longest = length;
         result = r.side;
       }
@@ -160,21 +167,31 @@ class Refiner {
     return result;
   }
 
-  // Splits a constraint that is in the way of triangle t's improvement.
-  bool split(int t, const Shape& s, const Side& side) {
-    if (!is_long(s) && s.altitude() < limits_.shortest) return false;
-    const auto& triangle = mesh_.triangle(side.triangle);
-    const int a = triangle.corner[side.k], b = triangle.corner[(side.k + 1) % 3];
-    const double length = (point(b) - point(a)).norm();
-    Vec2 p = 0.5 * (point(a) + point(b));
-    const int line = triangle.line[side.k];
-    const bool is_narrow_at_a = corners_.is_narrow_at(line, a);
-    if (is_narrow_at_a != corners_.is_narrow_at(line, b)) {
+  // Where to split a constraint.
+  Vec2 split_point(const Vec2& a, const Vec2& b, bool is_narrow_at_a, bool is_narrow_at_b) const {
+    const double length = (b - a).norm();
+    if (is_narrow_at_a != is_narrow_at_b) {
       // All round a narrow corner at the same distances, or splits answer each other without end.
       const double shell = std::exp2(std::round(std::log2(0.5 * length))) / length;
-      p = is_narrow_at_a ? Vec2(point(a) + shell * (point(b) - point(a)))
-                         : Vec2(point(b) + shell * (point(a) - point(b)));
+      return is_narrow_at_a ? Vec2(a + shell * (b - a)) : Vec2(b + shell * (a - b));
     }
+    // What is too long comes to as few equal parts as may be.
+    const double parts = is_long(length * length) ? std::ceil(length / limits_.max_length) : 2;
+    const double share = std::floor(0.5 * parts) / parts;
+    return share == 0.5 ? Vec2(0.5 * (a + b)) : Vec2(a + share * (b - a));
+  }
+
+  // Splits a constraint that is too long or in the way of triangle t's improvement. Length alone is
+  // no reason to split one that is short enough: then neighbours along it agree by themselves.
+  bool split(int t, const Shape& s, const Side& side) {
+    const auto& triangle = mesh_.triangle(side.triangle);
+    const int a = triangle.corner[side.k], b = triangle.corner[(side.k + 1) % 3];
+    if (is_long(s) ? !is_long((point(b) - point(a)).squaredNorm())
+                   : s.altitude() < limits_.shortest)
+      return false;
+    const int constraint = triangle.constraint[side.k];
+    const Vec2 p = split_point(point(a), point(b), corners_.is_narrow_at(constraint, a),
+                               corners_.is_narrow_at(constraint, b));
     const auto corner = mesh_.triangle(t).corner;
     if (std::min((p - point(a)).norm(), (p - point(b)).norm()) < limits_.shortest) return false;
     if (!add(p, side, limits_.shortest)) return false;
@@ -185,9 +202,9 @@ class Refiner {
   // Adds a point, on a side if that is given, else into the present cavity, unless that makes an
   // edge shorter than `shortest`.
   bool add(const Vec2& p, const std::optional<Side>& on, double shortest) {
-    int line = -1;
+    int constraint = -1;
     if (on) {
-      line = mesh_.triangle(on->triangle).line[on->k];
+      constraint = mesh_.triangle(on->triangle).constraint[on->k];
       cavity_.find(p, *on);
     }
     for (const Cavity::Rim& r : cavity_.rim())
@@ -195,7 +212,7 @@ class Refiner {
           (point(r.to) - p).squaredNorm() < shortest * shortest)
         return false;
     if (!cavity_.fill(changed_)) return false;
-    added_on_.push_back(line);
+    added_on_.push_back(constraint);
     for (const int t : changed_) push(t);
     return true;
   }
@@ -205,7 +222,7 @@ class Refiner {
   NarrowCorners corners_;
   Cavity cavity_;
   double sine_squared_ = 0, off_centre_ = 0;
-  std::vector<int> added_on_;  // [point] line, −1: none, or an original point
+  std::vector<int> added_on_;  // [point] constraint, −1: none, or an original point
   std::vector<int> changed_;
   std::priority_queue<Entry> queue_;
 };

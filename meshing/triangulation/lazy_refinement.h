@@ -8,7 +8,7 @@ namespace halfshade {
 
 struct RefinementLimits {
   double max_length = 0;  ///< scene units; 0: none
-  double min_angle = 0;   ///< degrees, at most 20.7
+  double min_angle = 0;   ///< degrees, at most delaunay_angle
   double shortest = 0;    ///< no edge shorter than this is made, except to keep to max_length; > 0
   std::size_t max_triangles = 0;
 };

@@ -1,6 +1,7 @@
 #include "meshing/triangulation/narrow_corners.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/triangulation/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,12 +10,6 @@
 
 namespace halfshade {
 namespace {
-
-constexpr double narrow = std::numbers::pi / 3;
-// Constraints that turn by less than this (radians) continue each other.
-constexpr double straight = 0.01;
-// Distances of twins from their corner differ by less than this, relatively.
-constexpr double twin_tolerance = 1e-3;
 
 std::uint64_t key(int a, int b) {
   return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
@@ -34,7 +29,7 @@ double angle(const Vec2& apex, const Vec2& a, const Vec2& b) {
 }  // namespace
 
 NarrowCorners::NarrowCorners(const ConstrainedMesh& mesh) {
-  unite_straight_lines(mesh);
+  unite_straight_constraints(mesh);
   find_corners(mesh);
   std::sort(narrow_.begin(), narrow_.end());
 }
@@ -44,20 +39,20 @@ std::vector<NarrowCorners::End> NarrowCorners::list_ends(const ConstrainedMesh& 
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = t.corner[k], b = t.corner[(k + 1) % 3];
-      if (t.line[k] < 0 || (t.neighbour[k] >= 0 && a > b)) continue;
-      ends.push_back({a, direction(mesh.point(a), mesh.point(b)), t.line[k]});
-      ends.push_back({b, direction(mesh.point(b), mesh.point(a)), t.line[k]});
+      if (t.constraint[k] < 0 || (t.neighbour[k] >= 0 && a > b)) continue;
+      ends.push_back({a, direction(mesh.point(a), mesh.point(b)), t.constraint[k]});
+      ends.push_back({b, direction(mesh.point(b), mesh.point(a)), t.constraint[k]});
     }
   std::sort(ends.begin(), ends.end());
   first_.assign(mesh.points.size() + 1, 0);
-  int line_count = 0;
+  int constraint_count = 0;
   for (const End& end : ends) {
     ++first_[at(end.point) + 1];
-    lines_.push_back(end.line);
-    line_count = std::max(line_count, end.line + 1);
+    constraints_.push_back(end.constraint);
+    constraint_count = std::max(constraint_count, end.constraint + 1);
   }
   std::partial_sum(first_.begin(), first_.end(), first_.begin());
-  chain_.resize(at(line_count));
+  chain_.resize(at(constraint_count));
   std::iota(chain_.begin(), chain_.end(), 0);
   return ends;
 }
@@ -75,42 +70,43 @@ std::size_t NarrowCorners::opposite(const std::vector<End>& ends, std::size_t i)
   return static_cast<std::size_t>((is_previous ? previous : next) - ends.begin());
 }
 
-void NarrowCorners::unite_straight_lines(const ConstrainedMesh& mesh) {
+void NarrowCorners::unite_straight_constraints(const ConstrainedMesh& mesh) {
   const std::vector<End> ends = list_ends(mesh);
-  const auto root = [&](int line) {
-    while (chain_[at(line)] != line) line = chain_[at(line)] = chain_[at(chain_[at(line)])];
-    return line;
+  const auto root = [&](int constraint) {
+    while (chain_[at(constraint)] != constraint)
+      constraint = chain_[at(constraint)] = chain_[at(chain_[at(constraint)])];
+    return constraint;
   };
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const std::size_t j = opposite(ends, i);
     if (i < j && opposite(ends, j) == i &&
-        turned(ends[i].direction + std::numbers::pi, ends[j].direction) < straight)
-      chain_[at(root(ends[j].line))] = root(ends[i].line);
+        turned(ends[i].direction + std::numbers::pi, ends[j].direction) < margins::straight)
+      chain_[at(root(ends[j].constraint))] = root(ends[i].constraint);
   }
-  for (int& line : chain_) line = root(line);
+  for (int& constraint : chain_) constraint = root(constraint);
 }
 
 void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
   for (std::size_t first = 0; first < mesh.triangles.size(); ++first)
     for (std::size_t side = 0; side < 3; ++side) {
-      const int start = mesh.triangles[first].line[side];
+      const int start = mesh.triangles[first].constraint[side];
       if (start < 0) continue;
       const int apex = mesh.triangles[first].corner[side];
       double sum = 0;
       int t = static_cast<int>(first), end = -1;
       std::size_t k = side;
-      while (end < 0 && t >= 0 && sum < narrow) {
+      while (end < 0 && t >= 0 && sum < margins::narrow) {
         const auto& triangle = mesh.triangle(t);
         sum += angle(mesh.point(apex), mesh.point(triangle.corner[(k + 1) % 3]),
                      mesh.point(triangle.corner[(k + 2) % 3]));
-        end = triangle.line[(k + 2) % 3];
+        end = triangle.constraint[(k + 2) % 3];
         t = triangle.neighbour[(k + 2) % 3];
         if (end >= 0 || t < 0) break;
         const auto& corner = mesh.triangle(t).corner;
         k = static_cast<std::size_t>(std::find(corner.begin(), corner.end(), apex) -
                                      corner.begin());
       }
-      if (end < 0 || sum >= narrow) continue;
+      if (end < 0 || sum >= margins::narrow) continue;
       narrow_.push_back(key(start, apex));
       narrow_.push_back(key(end, apex));
       corner_.try_emplace(key(chain_[at(start)], chain_[at(end)]), apex);
@@ -118,30 +114,31 @@ void NarrowCorners::find_corners(const ConstrainedMesh& mesh) {
     }
 }
 
-bool NarrowCorners::is_narrow_at(int line, int point) const {
-  return std::binary_search(narrow_.begin(), narrow_.end(), key(line, point));
+bool NarrowCorners::is_narrow_at(int constraint, int point) const {
+  return std::binary_search(narrow_.begin(), narrow_.end(), key(constraint, point));
 }
 
-void NarrowCorners::lines_at(int point, int line, std::vector<int>& lines) const {
-  lines.clear();
-  if (line >= 0)
-    lines.push_back(line);
+void NarrowCorners::constraints_at(int point, int constraint, std::vector<int>& constraints) const {
+  constraints.clear();
+  if (constraint >= 0)
+    constraints.push_back(constraint);
   else if (at(point) + 1 < first_.size())
-    lines.assign(lines_.begin() + first_[at(point)], lines_.begin() + first_[at(point) + 1]);
+    constraints.assign(constraints_.begin() + first_[at(point)],
+                       constraints_.begin() + first_[at(point) + 1]);
 }
 
-bool NarrowCorners::are_twins(const ConstrainedMesh& mesh, int a, int line_of_a, int b,
-                              int line_of_b) const {
-  std::vector<int> lines_a, lines_b;
-  lines_at(a, line_of_a, lines_a);
-  lines_at(b, line_of_b, lines_b);
-  for (const int m : lines_a)
-    for (const int n : lines_b) {
+bool NarrowCorners::are_twins(const ConstrainedMesh& mesh, int a, int constraint_of_a, int b,
+                              int constraint_of_b) const {
+  std::vector<int> constraints_a, constraints_b;
+  constraints_at(a, constraint_of_a, constraints_a);
+  constraints_at(b, constraint_of_b, constraints_b);
+  for (const int m : constraints_a)
+    for (const int n : constraints_b) {
       const auto found = corner_.find(key(chain_[at(m)], chain_[at(n)]));
       if (found == corner_.end()) continue;
       const Vec2& apex = mesh.point(found->second);
       const double p = (mesh.point(a) - apex).norm(), q = (mesh.point(b) - apex).norm();
-      if (p > 0 && q > 0 && std::abs(p - q) < twin_tolerance * p) return true;
+      if (p > 0 && q > 0 && std::abs(p - q) < margins::twins * p) return true;
     }
   return false;
 }

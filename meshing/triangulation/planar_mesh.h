@@ -9,9 +9,15 @@
 
 namespace halfshade {
 
+/// Degrees. Delaunay refinement that ends for any polygon promises angles up to this, arctan 1/√7
+/// cut to three digits (Ruppert 1995; Chew 1993).
+inline constexpr double delaunay_angle = 20.7;
+
+/// What a refined mesh is to be like.
 struct PlanarMeshOptions {
-  double max_length = 0;    ///< no edge longer than this, in scene units; 0: no limit
-  double min_angle = 20.7;  ///< degrees, in [0, 20.7]; input angles below it are left as they are
+  double max_length = 0;                ///< no edge longer than this, in scene units; 0: no limit
+  double min_angle = delaunay_angle;    ///< degrees, in [0, delaunay_angle]; input angles below it
+                                        ///< are left as they are
   std::size_t max_triangles = 1000000;  ///< refinement stops here
 };
 
@@ -21,20 +27,12 @@ struct PlanarMesh {
   std::vector<std::array<int, 3>> triangles;  ///< counter-clockwise
   /// Edges that lie on rings or contact lines, as sorted pairs of points, sorted.
   std::vector<std::array<int, 2>> constrained_edges;
-  /// False where the refinement ended early: at max_triangles, or because the polygon is so thin
-  /// that good angles would take far more triangles than its size deserves. Edge lengths hold in
-  /// the second case.
+  /// False where refinement ended early or curves had to be left out.
   bool complete = true;
 };
 
 /// The constrained Delaunay triangulation of a polygon with holes, without further points except
 /// where contact lines cross.
 PlanarMesh triangulate(std::span<const Ring> rings, std::span<const Segment2> contacts);
-
-/// The same, refined by Delaunay refinement (Chew 1993, Ruppert 1995) until every angle that the
-/// input does not force is at least `min_angle` and every edge is at most `max_length` long.
-/// Deterministic. Throws Error(contract) for options out of range.
-PlanarMesh refine_triangulation(std::span<const Ring> rings, std::span<const Segment2> contacts,
-                                const PlanarMeshOptions& options);
 
 }  // namespace halfshade

@@ -14,7 +14,7 @@ class LineFamily {
  public:
   LineFamily(std::string name, unsigned seed) : name_(std::move(name)), random_(seed) {}
 
-  std::vector<CurveLine> make(int n) {
+  std::vector<CurvePolyline> make(int n) {
     lines_.clear();
     for (int i = 0; i < n; ++i) add(i);
     return lines_;
@@ -68,7 +68,7 @@ class LineFamily {
   void add_arc_and_tangent() {
     const Vec2 centre = place(), radii(uniform(0.1, 0.4), uniform(0.05, 0.2));
     const double start = uniform(0, 2 * M_PI);
-    CurveLine arc;
+    CurvePolyline arc;
     arc.id = static_cast<int>(lines_.size());
     for (int k = 0; k <= 16; ++k)
       arc.points.push_back(centre + radii.cwiseProduct(unit(start + 0.1 * k)));
@@ -79,7 +79,7 @@ class LineFamily {
 
   std::string name_;
   std::mt19937 random_;
-  std::vector<CurveLine> lines_;
+  std::vector<CurvePolyline> lines_;
 };
 
 }  // namespace halfshade::test

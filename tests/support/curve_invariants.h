@@ -61,7 +61,7 @@ inline void expect_sound(const CurveMesh& curved, const std::vector<Ring>& rings
 
 /// Edges with a line's id lie along it, and together they cover what of it lies inside.
 inline void expect_follows(const CurveMesh& curved, const std::vector<Ring>& rings,
-                           const std::vector<CurveLine>& lines, double snap) {
+                           const std::vector<CurvePolyline>& lines, double snap) {
   EXPECT_LE(curved.deviation, 6 * snap);
   double rounding = 0;  // of midpoints
   for (const Vec2& p : curved.mesh.points) rounding = std::max(rounding, p.cwiseAbs().maxCoeff());
@@ -71,7 +71,7 @@ inline void expect_follows(const CurveMesh& curved, const std::vector<Ring>& rin
     for (int i = curved.curve_begin[e]; i < curved.curve_begin[e + 1]; ++i)
       edges_of[static_cast<std::size_t>(curved.curves[static_cast<std::size_t>(i)])].push_back(
           place_of(curved.mesh, curved.mesh.constrained_edges[e]));
-  for (const CurveLine& line : lines) {
+  for (const CurvePolyline& line : lines) {
     const auto& edges = edges_of[static_cast<std::size_t>(line.id)];
     const auto distance_to_line = [&](const Vec2& p) {
       double least = HUGE_VAL;

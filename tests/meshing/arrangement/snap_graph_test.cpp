@@ -41,9 +41,9 @@ std::set<std::array<double, 4>> places(const SnapGraph& graph) {
   return result;
 }
 
-std::vector<int> add(SnapGraph& graph, const std::vector<CurveLine>& lines) {
+std::vector<int> add(SnapGraph& graph, const std::vector<CurvePolyline>& lines) {
   std::vector<int> edges;
-  for (const CurveLine& line : lines)
+  for (const CurvePolyline& line : lines)
     for (std::size_t k = 1; k < line.points.size(); ++k)
       edges.push_back(graph.add_line(line.points[k - 1], line.points[k]));
   return edges;
@@ -63,7 +63,7 @@ bool cross(const Segment2& e, const Segment2& f) {
 
 class SnapGraphFamily : public testing::TestWithParam<std::tuple<const char*, unsigned>> {
  protected:
-  std::vector<CurveLine> lines(int n) const {
+  std::vector<CurvePolyline> lines(int n) const {
     return LineFamily(std::get<0>(GetParam()), std::get<1>(GetParam())).make(n);
   }
 };
@@ -104,7 +104,7 @@ TEST_P(SnapGraphFamily, EveryLineIsAChainCloseToIt) {
   SnapGraph graph(snap);
   const auto given = lines(40);
   std::vector<Segment2> segments;
-  for (const CurveLine& line : given)
+  for (const CurvePolyline& line : given)
     for (std::size_t k = 1; k < line.points.size(); ++k)
       segments.push_back({line.points[k - 1], line.points[k]});
   add_square(graph);

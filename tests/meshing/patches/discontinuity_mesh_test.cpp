@@ -225,7 +225,7 @@ TEST(PatchMeshOfCurveMeshes, RefusesMeshesAndCurvesThatDoNotFit) {
   for (const Surface& surface : scene.surfaces)
     meshes.push_back(mesh_with_curves(surface.rings, surface.contacts, {}, {}));
   EXPECT_EQ(PatchMesh(scene, meshes, {}).element_count() > 0, true);
-  const std::vector<CurveLine> lines = {{{{-0.2, -0.1}, {0.3, 0.2}}, 5}};
+  const std::vector<CurvePolyline> lines = {{{{-0.2, -0.1}, {0.3, 0.2}}, 5}};
   meshes[1] = mesh_with_curves(scene.surfaces[1].rings, {}, lines, {});
   test::expect_error(
       [&] {

@@ -16,23 +16,24 @@ using test::finish;
 
 std::set<int> surfaces_of(const SharedLines& shared, const SharedLine& line) {
   std::set<int> result;
-  for (const int w : line.walls) result.insert(shared.walls[static_cast<std::size_t>(w)].surface);
+  for (const int w : line.borders)
+    result.insert(shared.borders[static_cast<std::size_t>(w)].surface);
   return result;
 }
 
-TEST(SharedLines, ACubeHasTwelveWithTwoWallsEach) {
+TEST(SharedLines, ACubeHasTwelveWithTwoBorderLinesEach) {
   SoundScene scene;
   test::add_box(scene, {0, 0, 0}, {1, 2, 3});
   finish(scene);
   const SharedLines shared = find_shared_lines(scene);
-  EXPECT_EQ(shared.walls.size(), 24u);
+  EXPECT_EQ(shared.borders.size(), 24u);
   EXPECT_EQ(shared.lines.size(), 12u);
   double sum = 0;
   for (const SharedLine& line : shared.lines) {
-    EXPECT_EQ(line.walls.size(), 2u);
+    EXPECT_EQ(line.borders.size(), 2u);
     EXPECT_NEAR(line.direction.norm(), 1, 1e-15);
-    const Wall& a = shared.walls[static_cast<std::size_t>(line.walls[0])];
-    const Wall& b = shared.walls[static_cast<std::size_t>(line.walls[1])];
+    const BorderLine& a = shared.borders[static_cast<std::size_t>(line.borders[0])];
+    const BorderLine& b = shared.borders[static_cast<std::size_t>(line.borders[1])];
     // Faces that all look outwards run along their edge in opposite directions.
     EXPECT_NEAR(a.begin, b.end, 1e-14);
     EXPECT_NEAR(a.end, b.begin, 1e-14);
@@ -41,21 +42,21 @@ TEST(SharedLines, ACubeHasTwelveWithTwoWallsEach) {
   EXPECT_NEAR(sum, 4 * (1 + 2 + 3), 1e-12);
 }
 
-TEST(SharedLines, WallsAreListedBySurfaceRingsFirst) {
+TEST(SharedLines, BorderLinesAreListedBySurfaceRingsFirst) {
   SoundScene scene;
   add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
   add_surface(scene, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
   scene.surfaces[0].contacts = {{Vec2(-0.1, 0), Vec2(0.1, 0)}};
   finish(scene);
   const SharedLines shared = find_shared_lines(scene);
-  EXPECT_EQ(shared.first_wall, std::vector<int>({0, 5, 8}));
+  EXPECT_EQ(shared.first_border, std::vector<int>({0, 5, 8}));
   EXPECT_TRUE(shared.lines.empty());
   for (std::size_t k = 0; k < 4; ++k) {
-    EXPECT_EQ(shared.walls[k].surface, 0);
-    EXPECT_EQ(shared.walls[k].ends[0], scene.surfaces[0].rings[0][k]);
-    EXPECT_EQ(shared.walls[k].line, -1);
+    EXPECT_EQ(shared.borders[k].surface, 0);
+    EXPECT_EQ(shared.borders[k].ends[0], scene.surfaces[0].rings[0][k]);
+    EXPECT_EQ(shared.borders[k].line, -1);
   }
-  EXPECT_EQ(shared.walls[4].ends[1], Vec2(0.1, 0));
+  EXPECT_EQ(shared.borders[4].ends[1], Vec2(0.1, 0));
 }
 
 TEST(SharedLines, EdgesOfDifferentLengthAndContactLinesShareOne) {
@@ -95,7 +96,7 @@ TEST(SharedLines, CornersThatReachPastEachOtherAreNotShared) {
   EXPECT_TRUE(find_shared_lines(scene).lines.empty());
 }
 
-TEST(SharedLines, CoplanarWallsMustTouchWithinTheTolerance) {
+TEST(SharedLines, CoplanarBorderLinesMustTouchWithinTheTolerance) {
   for (const double gap : {0.5, 2.}) {
     SoundScene scene;
     add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
@@ -106,9 +107,9 @@ TEST(SharedLines, CoplanarWallsMustTouchWithinTheTolerance) {
   }
 }
 
-TEST(SharedLines, WallsOfPlanesOffTheirCornersAreFoundInOrderOfDistance) {
+TEST(SharedLines, BorderLinesOfPlanesOffTheirCornersAreFoundInOrderOfDistance) {
   SoundScene scene;
-  // A floor with its border at x = 0 and a contact line 1e-7 beside it; a wall off by 3e-8 and a
+  // A floor with its border at x = 0 and a contact line 1e-7 beside it; a border off by 3e-8 and a
   // box's side off by as much from the contact line.
   const double gap = 1e-7, off = 3e-8;
   add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
@@ -119,7 +120,7 @@ TEST(SharedLines, WallsOfPlanesOffTheirCornersAreFoundInOrderOfDistance) {
   finish(scene);
   const SharedLines shared = find_shared_lines(scene);
   ASSERT_EQ(shared.lines.size(), 2u);
-  for (const SharedLine& line : shared.lines) EXPECT_EQ(line.walls.size(), 2u);
+  for (const SharedLine& line : shared.lines) EXPECT_EQ(line.borders.size(), 2u);
   EXPECT_EQ(surfaces_of(shared, shared.lines[0]), std::set<int>({0, 1}));
   EXPECT_EQ(surfaces_of(shared, shared.lines[1]), std::set<int>({0, 2}));
 }
@@ -131,7 +132,8 @@ TEST(SharedLines, PlacesAlongALineKeepTheirDigitsFarFromTheOrigin) {
   finish(scene);
   const SharedLines shared = find_shared_lines(scene);
   EXPECT_EQ(shared.lines.size(), 12u);
-  for (const Wall& wall : shared.walls) EXPECT_NEAR(std::abs(wall.end - wall.begin), 1, 1e-15);
+  for (const BorderLine& border : shared.borders)
+    EXPECT_NEAR(std::abs(border.end - border.begin), 1, 1e-15);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ double area_with_angle_below(const PlanarMesh& mesh, double degrees) {
 
 class CurveMeshFamily : public testing::TestWithParam<std::tuple<const char*, unsigned>> {
  protected:
-  std::vector<CurveLine> lines(int n) const {
+  std::vector<CurvePolyline> lines(int n) const {
     return LineFamily(std::get<0>(GetParam()), std::get<1>(GetParam())).make(n);
   }
 };
@@ -142,7 +142,7 @@ TEST(MeshWithCurves, ShadowOfASquareUnderASquareHasTwentyFiveRegions) {
   // occluder ±3/8 seen from one of the light ±1/2 falls on z = 0 at 2 (±3/8) − (±1/2).
   const std::vector<Ring> floor = {
       {{-1.9371, -1.9371}, {1.8613, -1.9371}, {1.8613, 1.8613}, {-1.9371, 1.8613}}};
-  std::vector<CurveLine> lines;
+  std::vector<CurvePolyline> lines;
   for (const double c : {-1.25, -0.25, 0.25, 1.25}) {
     lines.push_back({{{c, -3}, {c, 3}}, static_cast<int>(lines.size())});
     lines.push_back({{{-3, c}, {3, c}}, static_cast<int>(lines.size())});
@@ -169,10 +169,10 @@ TEST(MeshWithCurves, WithoutCurvesIsAPlainMesh) {
 }
 
 TEST(MeshWithCurves, EdgesKnowEveryLineAlongThem) {
-  const std::vector<CurveLine> lines = {{{{0.1, 0.5}, {0.7, 0.5}}, 4},
-                                        {{{0.9, 0.5 + 2e-8}, {0.3, 0.5 - 2e-8}}, 2},
-                                        {{{0.2, 0.5}, {0.4, 0.5}, {0.4, 0.9}}, 4},
-                                        {{{0.3, 0}, {0.6, 0}}, 7}};
+  const std::vector<CurvePolyline> lines = {{{{0.1, 0.5}, {0.7, 0.5}}, 4},
+                                            {{{0.9, 0.5 + 2e-8}, {0.3, 0.5 - 2e-8}}, 2},
+                                            {{{0.2, 0.5}, {0.4, 0.5}, {0.4, 0.9}}, 4},
+                                            {{{0.3, 0}, {0.6, 0}}, 7}};
   const CurveMesh mesh = mesh_with_curves(square, {}, lines, unrefined());
   std::map<std::vector<int>, double> length;
   for (std::size_t e = 0; e < mesh.is_d0.size(); ++e) {
@@ -200,8 +200,8 @@ TEST(MeshWithCurves, AnglesAreGoodAwayFromNarrowInputAngles) {
     EXPECT_LE(area_with_angle_below(mesh.mesh, 1), 1e-6);
   }
   // Lines that meet at right angles or not at all leave no excuse anywhere.
-  std::vector<CurveLine> lines = LineFamily("AxisAligned", 1).make(40);
-  std::erase_if(lines, [](const CurveLine& line) { return line.id % 4 == 0; });
+  std::vector<CurvePolyline> lines = LineFamily("AxisAligned", 1).make(40);
+  std::erase_if(lines, [](const CurvePolyline& line) { return line.id % 4 == 0; });
   const CurveMesh mesh = mesh_with_curves(square, {}, lines, options);
   EXPECT_GE(angle_and_length(mesh.mesh).first, 20.699);
 }
@@ -217,10 +217,10 @@ TEST(MeshWithCurves, RingVerticesOnStraightStretchesSurviveHoweverClose) {
                                     {1, 0.5},
                                     {1, 1},
                                     {0, 1}}};
-  const std::vector<CurveLine> lines = {{{{0.25, -0.1}, {0.3, 0.8}}, 0},
-                                        {{{0.25 + 2e-9, 0}, {0.9, 0.5}}, 1},
-                                        {{{0.1, 1e-8}, {0.9, -1e-8}}, 2},
-                                        {{{1 - 2e-8, 0.2}, {1, 0.9}}, 3}};
+  const std::vector<CurvePolyline> lines = {{{{0.25, -0.1}, {0.3, 0.8}}, 0},
+                                            {{{0.25 + 2e-9, 0}, {0.9, 0.5}}, 1},
+                                            {{{0.1, 1e-8}, {0.9, -1e-8}}, 2},
+                                            {{{1 - 2e-8, 0.2}, {1, 0.9}}, 3}};
   for (const double max_length : {0.0, 0.1}) {
     CurveMeshOptions options;
     options.quality.max_length = max_length;
@@ -231,8 +231,8 @@ TEST(MeshWithCurves, RingVerticesOnStraightStretchesSurviveHoweverClose) {
 }
 
 TEST(MeshWithCurves, SliversKeepTheirWidth) {
-  std::vector<CurveLine> lines = LineFamily("Random", 5).make(50);
-  for (CurveLine& line : lines)
+  std::vector<CurvePolyline> lines = LineFamily("Random", 5).make(50);
+  for (CurvePolyline& line : lines)
     for (Vec2& p : line.points) p.y() -= 0.5;
   for (const double width : {1e-6, 1e-9, 1e-11}) {
     const std::vector<Ring> rings = {{{0, 0}, {1, 0}, {1, width}, {0, width}}};
@@ -251,8 +251,8 @@ TEST(MeshWithCurves, SliversKeepTheirWidth) {
 TEST(MeshWithCurves, ShallowLinesThroughNeedlesSettle) {
   for (const double height : {1e-3, 1e-5, 1e-7, 1e-8, 2e-9}) {
     const std::vector<Ring> rings = {{{0, 0}, {0.4, 0}, {1, 0}, {0.5, height}}};
-    std::vector<CurveLine> lines = LineFamily("Random", 9).make(40);
-    for (CurveLine& line : lines)
+    std::vector<CurvePolyline> lines = LineFamily("Random", 9).make(40);
+    for (CurvePolyline& line : lines)
       for (Vec2& p : line.points) p.y() = 1e-5 * (p.y() - 0.5);
     const CurveMesh mesh = mesh_with_curves(rings, {}, lines, unrefined());
     EXPECT_TRUE(mesh.mesh.complete);
@@ -272,7 +272,7 @@ TEST(MeshWithCurves, ContactLinesAreKeptAlsoWhereCurvesRunAlongThem) {
                                           {Vec2(0.5, 0.1), Vec2(0.5, 0.9)},
                                           {Vec2(0, 0.2), Vec2(1, 0.2)}};
   auto lines = LineFamily("Random", 3).make(20);
-  for (CurveLine& line : lines) line.id += 2;
+  for (CurvePolyline& line : lines) line.id += 2;
   lines.push_back({{{0.2, 0.5 + 3e-8}, {0.6, 0.5 - 3e-8}}, 0});
   lines.push_back({{{0.5, -1}, {0.5, 2}}, 1});
   for (const double max_length : {0.0, 0.1}) {
@@ -297,7 +297,7 @@ TEST(MeshWithCurves, PointsOfContactLinesStayWhereTheyAreHoweverClose) {
   const std::vector<Segment2> contacts = {{Vec2(0.1, 0.5), Vec2(0.4, 0.5)},
                                           {Vec2(0.4, 0.5), Vec2(0.4 + 1e-9, 0.5)},
                                           {Vec2(0.4 + 1e-9, 0.5), Vec2(0.9, 0.5)}};
-  const std::vector<CurveLine> lines = {{{{0.4 + 5e-8, 0}, {0.4 + 5e-8, 1}}, 0}};
+  const std::vector<CurvePolyline> lines = {{{{0.4 + 5e-8, 0}, {0.4 + 5e-8, 1}}, 0}};
   const CurveMesh mesh = mesh_with_curves(square, contacts, lines, {});
   std::set<std::array<double, 2>> places;
   for (const Vec2& p : mesh.mesh.points) places.insert({p.x(), p.y()});
@@ -322,7 +322,7 @@ TEST(MeshWithCurves, HoleThatTouchesTheOutlineInAVertex) {
 }
 
 TEST(MeshWithCurves, LinesOutsideAreLeftOutAndThoseOverTheBorderCut) {
-  const std::vector<CurveLine> lines = {
+  const std::vector<CurvePolyline> lines = {
       {{{2, 0}, {2, 1}}, 0}, {{{0.5, 0.5}, {9, 0.5}}, 1}, {{{1.2, -1}, {1.0005, 3}}, 2}};
   const CurveMesh mesh = mesh_with_curves(square, {}, lines, unrefined());
   expect_sound(mesh, square);
@@ -334,13 +334,13 @@ TEST(MeshWithCurves, FarFromTheOriginItIsTheSame) {
   // Coordinates that are exact there, too.
   const auto rounded = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
   auto lines = LineFamily("Random", 4).make(30);
-  for (CurveLine& line : lines)
+  for (CurvePolyline& line : lines)
     for (Vec2& p : line.points) p = Vec2(rounded(p.x()), rounded(p.y()));
   const CurveMesh here = mesh_with_curves(square, {}, lines, {});
   const Vec2 far(1e6, -1e6);
   std::vector<Ring> rings = square;
   for (Vec2& p : rings[0]) p += far;
-  for (CurveLine& line : lines)
+  for (CurvePolyline& line : lines)
     for (Vec2& p : line.points) p += far;
   const CurveMesh there = mesh_with_curves(rings, {}, lines, {});
   expect_sound(there, rings);
@@ -357,7 +357,7 @@ TEST(MeshWithCurves, ScalesWithPowersOfTwoExactly) {
     std::vector<Ring> rings = square;
     for (Vec2& p : rings[0]) p *= scale;
     auto scaled = lines;
-    for (CurveLine& line : scaled)
+    for (CurvePolyline& line : scaled)
       for (Vec2& p : line.points) p *= scale;
     CurveMeshOptions options;
     options.snap *= scale;
@@ -397,12 +397,12 @@ TEST(MeshWithCurves, RejectsOptionsAndLinesOutOfRange) {
   fails([](auto& o) { o.shortest = o.snap; }, "shortest is 1e-07");
   expect_error(
       [] {
-        mesh_with_curves(square, {}, {{CurveLine{{{0, NAN}, {1, 1}}, 3}}}, {});
+        mesh_with_curves(square, {}, {{CurvePolyline{{{0, NAN}, {1, 1}}, 3}}}, {});
       },
-      ErrorCode::contract, {"line 3"});
+      ErrorCode::contract, {"curve 3"});
   expect_error(
       [] {
-        mesh_with_curves(square, {}, {{CurveLine{{{0, 0}, {1, 1}}, -1}}}, {});
+        mesh_with_curves(square, {}, {{CurvePolyline{{{0, 0}, {1, 1}}, -1}}}, {});
       },
       ErrorCode::contract, {"-1"});
 }

@@ -32,7 +32,7 @@ ConstrainedMesh make(const std::vector<Vec2>& points,
     for (std::size_t k = 0; k < 3; ++k) {
       const int a = corner[k], b = corner[(k + 1) % 3];
       t.neighbour[k] = beside.contains({b, a}) ? beside[{b, a}] : -1;
-      t.line[k] = line.contains({a, b}) ? line[{a, b}] : -1;
+      t.constraint[k] = line.contains({a, b}) ? line[{a, b}] : -1;
     }
   }
   return mesh;
@@ -54,7 +54,7 @@ void expect_delaunay_and_linked(const ConstrainedMesh& mesh) {
         orientation(mesh.point(t.corner[0]), mesh.point(t.corner[1]), mesh.point(t.corner[2])), 0);
     for (std::size_t k = 0; k < 3; ++k) {
       if (t.neighbour[k] < 0) {
-        EXPECT_GE(t.line[k], 0);
+        EXPECT_GE(t.constraint[k], 0);
         continue;
       }
       const auto& other = mesh.triangle(t.neighbour[k]);
@@ -63,8 +63,8 @@ void expect_delaunay_and_linked(const ConstrainedMesh& mesh) {
       ASSERT_LT(back, 3U);
       EXPECT_EQ(other.corner[back], t.corner[(k + 1) % 3]);
       EXPECT_EQ(other.corner[(back + 1) % 3], t.corner[k]);
-      EXPECT_EQ(other.line[back], t.line[k]);
-      if (t.line[k] < 0) {
+      EXPECT_EQ(other.constraint[back], t.constraint[k]);
+      if (t.constraint[k] < 0) {
         EXPECT_LE(in_circle(mesh.point(t.corner[0]), mesh.point(t.corner[1]),
                             mesh.point(t.corner[2]), mesh.point(other.corner[(back + 2) % 3])),
                   0);
@@ -94,7 +94,7 @@ TEST_P(LazyRefinementLength, IsKeptWithGoodAngles) {
 
 INSTANTIATE_TEST_SUITE_P(Lengths, LazyRefinementLength, testing::Values(0.9, 0.31, 0.1, 0.033));
 
-TEST(LazyRefinement, SplitsConstraintsInTheMiddle) {
+TEST(LazyRefinement, DividesLongConstraintsIntoEqualParts) {
   ConstrainedMesh mesh = square();
   refine_lazily(mesh, {0.07, 20.7, 1e-4, 100000});
   int on_border = 0;
@@ -102,10 +102,24 @@ TEST(LazyRefinement, SplitsConstraintsInTheMiddle) {
     const bool is_horizontal = p.y() == 0 || p.y() == 1, is_vertical = p.x() == 0 || p.x() == 1;
     if (!is_horizontal && !is_vertical) continue;
     ++on_border;
-    const double along = 64 * (is_horizontal ? p.x() : p.y());
+    const double along = 15 * (is_horizontal ? p.x() : p.y());
+    EXPECT_NEAR(along, std::round(along), 1e-14);
+  }
+  EXPECT_EQ(on_border, 60) << "1/15 is short enough, and nothing else asks for more";
+}
+
+TEST(LazyRefinement, SplitsConstraintsForAnglesInTheMiddle) {
+  ConstrainedMesh mesh = make({{0, 0}, {0.5, 0}, {0.5001, 0}, {1, 0}, {1, 1}, {0, 1}},
+                              {{0, 1, 5}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}});
+  refine_lazily(mesh, {0, 20.7, 1e-6, 100000});
+  int on_left_half = 0;
+  for (const Vec2& p : mesh.points) {
+    if (p.y() != 0 || p.x() >= 0.5) continue;
+    ++on_left_half;
+    const double along = 0x1p20 * p.x();
     EXPECT_EQ(along, std::round(along));
   }
-  EXPECT_LE(on_border, 64) << "1/16 is short enough";
+  EXPECT_GE(on_left_half, 5);
 }
 
 TEST(LazyRefinement, PartsOfAConstraintKeepItsId) {
@@ -114,10 +128,10 @@ TEST(LazyRefinement, PartsOfAConstraintKeepItsId) {
   std::map<int, double> length;
   for (const auto& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k)
-      if (t.line[k] >= 0) {
+      if (t.constraint[k] >= 0) {
         const Vec2 &a = mesh.point(t.corner[k]), &b = mesh.point(t.corner[(k + 1) % 3]);
-        length[t.line[k]] += (b - a).norm() / (t.neighbour[k] < 0 ? 1 : 2);
-        if (t.line[k] == 4) {
+        length[t.constraint[k]] += (b - a).norm() / (t.neighbour[k] < 0 ? 1 : 2);
+        if (t.constraint[k] == 4) {
           EXPECT_NEAR(a.x(), a.y(), 1e-15);
         }
       }

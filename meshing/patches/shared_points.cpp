@@ -1,4 +1,4 @@
-#include "meshing/patches/shared_places.h"
+#include "meshing/patches/shared_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,16 +8,16 @@
 namespace halfshade {
 namespace {
 
-class PlaceFinder {
+class SharedPointFinder {
  public:
-  PlaceFinder(const SoundScene& scene, const SharedEdges& shared,
-              std::span<const WalledMesh> meshes)
+  SharedPointFinder(const SoundScene& scene, const SharedEdges& shared,
+                    std::span<const CurveMesh> meshes)
       : scene_(scene), lines_(shared.lines()), meshes_(meshes), edges_(lines_.lines.size()) {
     for (std::size_t r = 0; r < meshes.size(); ++r)
-      for (const WallEdge& edge : meshes[r].walls) {
-        const int wall = shared.wall_of(static_cast<int>(r), edge.ends);
-        if (wall < 0 || lines_.walls[at(wall)].line < 0) continue;
-        collect(static_cast<int>(r), lines_.walls[at(wall)].line, edge);
+      for (const BorderEdge& edge : border_edges(meshes[r])) {
+        const int border = shared.border_of(static_cast<int>(r), edge.ends);
+        if (border < 0 || lines_.borders[at(border)].line < 0) continue;
+        collect(static_cast<int>(r), lines_.borders[at(border)].line, edge);
       }
     std::sort(points_.begin(), points_.end());
     points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
@@ -26,10 +26,10 @@ class PlaceFinder {
     for (const Point& p : points_) owners_.push_back({p.surface});
   }
 
-  SharedPlaces run() {
+  SharedPoints run() {
     std::vector<std::vector<Site>> sites;
     for (const auto& edges : edges_) join(sites.emplace_back(sites_of(edges)));
-    SharedPlaces result;
+    SharedPoints result;
     number(result);
     for (std::size_t r = 0; r < meshes_.size(); ++r) detach_turned(r, result);
     result.gaps.resize(meshes_.size());
@@ -56,11 +56,11 @@ class PlaceFinder {
     std::array<double, 2> t;
   };
 
-  void collect(int surface, int line, const WallEdge& wall) {
-    Edge edge{surface, wall.points, {}};
+  void collect(int surface, int line, const BorderEdge& border) {
+    Edge edge{surface, border.points, {}};
     for (std::size_t k = 0; k < 2; ++k) {
-      points_.push_back({surface, wall.points[k]});
-      edge.t[k] = along(lines_.lines[at(line)], scene_.surfaces[at(surface)].frame, wall.ends[k]);
+      points_.push_back({surface, border.points[k]});
+      edge.t[k] = along(lines_.lines[at(line)], scene_.surfaces[at(surface)].frame, border.ends[k]);
     }
     if (edge.points[0] > edge.points[1]) {
       std::swap(edge.points[0], edge.points[1]);
@@ -89,8 +89,7 @@ class PlaceFinder {
 
   Vec3 position(int i) const {
     const auto [surface, point] = points_[at(i)];
-    return scene_.surfaces[at(surface)].frame.to_space(
-        meshes_[at(surface)].mesh->points[at(point)]);
+    return scene_.surfaces[at(surface)].frame.to_space(meshes_[at(surface)].mesh.points[at(point)]);
   }
 
   // Not if both have a point of the same surface.
@@ -113,93 +112,92 @@ class PlaceFinder {
     }
   }
 
-  void number(SharedPlaces& result) {
-    for (const WalledMesh& mesh : meshes_) result.place.emplace_back(mesh.mesh->points.size(), -1);
-    place_.resize(points_.size());
+  void number(SharedPoints& result) {
+    for (const CurveMesh& mesh : meshes_) result.id.emplace_back(mesh.mesh.points.size(), -1);
+    shared_.resize(points_.size());
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const auto [surface, point] = points_[i];
       const auto first = at(root(static_cast<int>(i)));  // the lowest of those joined
       if (first == i) {
-        place_[i] = static_cast<int>(result.position.size());
+        shared_[i] = static_cast<int>(result.position.size());
         result.position.push_back(position(static_cast<int>(i)));
         surfaces_at_.push_back(owners_[i]);
       }
-      place_[i] = place_[first];
-      result.place[at(surface)][at(point)] = place_[i];
+      shared_[i] = shared_[first];
+      result.id[at(surface)][at(point)] = shared_[i];
     }
   }
 
   // Only surfaces that are not quite plane have points that move by more than rounding.
-  void detach_turned(std::size_t r, SharedPlaces& result) const {
+  void detach_turned(std::size_t r, SharedPoints& result) const {
     const PlaneFrame& frame = scene_.surfaces[r].frame;
-    const PlanarMesh& mesh = *meshes_[r].mesh;
-    std::vector<int>& place = result.place[r];
+    const PlanarMesh& mesh = meshes_[r].mesh;
+    std::vector<int>& id = result.id[r];
     const auto position = [&](int p) {
-      return place[at(p)] < 0 ? frame.to_space(mesh.points[at(p)])
-                              : result.position[at(place[at(p)])];
+      return id[at(p)] < 0 ? frame.to_space(mesh.points[at(p)]) : result.position[at(id[at(p)])];
     };
     for (bool changed = true; changed;) {
       changed = false;
       for (const auto& t : mesh.triangles) {
-        if (std::all_of(t.begin(), t.end(), [&](int p) { return place[at(p)] < 0; })) continue;
+        if (std::all_of(t.begin(), t.end(), [&](int p) { return id[at(p)] < 0; })) continue;
         const Vec3 a = position(t[0]);
         if ((position(t[1]) - a).cross(position(t[2]) - a).dot(frame.normal) > 0) continue;
-        for (const int p : t) place[at(p)] = -1;
+        for (const int p : t) id[at(p)] = -1;
         changed = true;
       }
     }
   }
 
   // Each once, in the order of the line.
-  std::vector<std::pair<double, int>> places_at(const std::vector<Site>& sites) const {
+  std::vector<std::pair<double, int>> shared_at(const std::vector<Site>& sites) const {
     std::vector<std::pair<int, double>> first;
-    for (const Site& site : sites) first.emplace_back(place_[at(site.point)], site.t);
+    for (const Site& site : sites) first.emplace_back(shared_[at(site.point)], site.t);
     std::sort(first.begin(), first.end());
-    std::vector<std::pair<double, int>> places;
+    std::vector<std::pair<double, int>> shared;
     for (std::size_t i = 0; i < first.size(); ++i)
       if (i == 0 || first[i].first != first[i - 1].first)
-        places.emplace_back(first[i].second, first[i].first);
-    std::sort(places.begin(), places.end());
-    return places;
+        shared.emplace_back(first[i].second, first[i].first);
+    std::sort(shared.begin(), shared.end());
+    return shared;
   }
 
   void find_gaps(const std::vector<Edge>& edges, const std::vector<Site>& sites,
-                 SharedPlaces& result) const {
-    const std::vector<std::pair<double, int>> places = places_at(sites);
+                 SharedPoints& result) const {
+    const std::vector<std::pair<double, int>> shared = shared_at(sites);
     for (const Edge& edge : edges) {
       const auto [low, high] = std::minmax(edge.t[0], edge.t[1]);
-      SharedPlaces::Gap gap{edge.points, {}};
-      auto p = std::upper_bound(places.begin(), places.end(),
+      SharedPoints::Gap gap{edge.points, {}};
+      auto p = std::upper_bound(shared.begin(), shared.end(),
                                 std::pair(low + scene_.tolerance.length, INT32_MAX));
-      for (; p != places.end() && p->first < high - scene_.tolerance.length; ++p) {
+      for (; p != shared.end() && p->first < high - scene_.tolerance.length; ++p) {
         const std::vector<int>& owners = surfaces_at_[at(p->second)];
         if (!std::binary_search(owners.begin(), owners.end(), edge.surface))
-          gap.places.push_back(p->second);
+          gap.points.push_back(p->second);
       }
-      if (gap.places.empty()) continue;
-      if (edge.t[0] > edge.t[1]) std::reverse(gap.places.begin(), gap.places.end());
+      if (gap.points.empty()) continue;
+      if (edge.t[0] > edge.t[1]) std::reverse(gap.points.begin(), gap.points.end());
       result.gaps[at(edge.surface)].push_back(std::move(gap));
     }
   }
 
   const SoundScene& scene_;
   const SharedLines& lines_;
-  std::span<const WalledMesh> meshes_;
+  std::span<const CurveMesh> meshes_;
   std::vector<std::vector<Edge>> edges_;       // of each line
   std::vector<Point> points_;                  // on shared lines, sorted
   std::vector<int> above_;                     // trees of joined points
   std::vector<std::vector<int>> owners_;       // of roots: the surfaces that have a point there
-  std::vector<int> place_;                     // of each point
-  std::vector<std::vector<int>> surfaces_at_;  // of each place
+  std::vector<int> shared_;                    // [point] its shared point
+  std::vector<std::vector<int>> surfaces_at_;  // [shared point]
   // Two planes are off a common corner by this much at most, and its rounding.
   const double farthest_ = 4 * std::max(scene_.tolerance.planarity, scene_.tolerance.length);
 };
 
 }  // namespace
 
-SharedPlaces shared_places(const SoundScene& scene, const SharedEdges& shared,
-                           std::span<const WalledMesh> meshes) {
-  return PlaceFinder(scene, shared, meshes).run();
+SharedPoints shared_points(const SoundScene& scene, const SharedEdges& shared,
+                           std::span<const CurveMesh> meshes) {
+  return SharedPointFinder(scene, shared, meshes).run();
 }
 
 }  // namespace halfshade

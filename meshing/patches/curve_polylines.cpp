@@ -1,18 +1,12 @@
-#include "meshing/patches/curve_lines.h"
+#include "meshing/patches/curve_polylines.h"
+
+#include "meshing/patches/margins.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
-
-// Parts of the surface's size: of an element where no length is asked for, of the distance of a
-// mesh from its curves where no tolerance is, and of that distance at least, for jumps without
-// bound.
-constexpr double default_deviation = 1e-4;
-constexpr double least_deviation = 1e-5;
-// Part of an element beyond which a polyline would no longer look like its curve.
-constexpr double largest_deviation = 0.1;
 
 double factorial(int k) { return std::tgamma(k + 1.0); }
 
@@ -33,25 +27,25 @@ bool is_negligible(const DiscontinuityCurve& curve, double h, double irradiance_
 double flattening_deviation(const DiscontinuityCurve& curve, double surface_size,
                             const DiscontinuityMeshOptions& options) {
   if (!(options.irradiance_tolerance > 0) || curve.order == 0)
-    return default_deviation * surface_size;
+    return margins::default_deviation * surface_size;
   // Without a jump infinite, and cut off below.
   const double harmless =
       std::pow(factorial(curve.order) * options.irradiance_tolerance / largest_jump(curve),
                1.0 / curve.order);
-  const double most = largest_deviation * element_size(surface_size, options.max_length);
-  return std::min(most, std::max(harmless, least_deviation * surface_size));
+  const double most = margins::largest_deviation * element_size(surface_size, options.max_length);
+  return std::min(most, std::max(harmless, margins::least_deviation * surface_size));
 }
 
-CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
-                       const DiscontinuityMeshOptions& options) {
-  CurveLines result;
+CurvePolylines curve_polylines(const SoundScene& scene, const Discontinuities& found,
+                               const DiscontinuityMeshOptions& options) {
+  CurvePolylines result;
   result.of_surface.resize(scene.surfaces.size());
   result.deviation.assign(scene.surfaces.size(), 0);
   std::vector<double> size;
   for (const Surface& surface : scene.surfaces) size.push_back(size_of(surface));
   for (std::size_t id = 0; id < found.curves.size(); ++id) {
     const DiscontinuityCurve& curve = found.curves[id];
-    const auto r = static_cast<std::size_t>(curve.receiver);
+    const auto r = at(curve.receiver);
     if (is_negligible(curve, element_size(size[r], options.max_length),
                       options.irradiance_tolerance)) {
       ++result.culled;
@@ -60,10 +54,10 @@ CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
     ++result.kept;
     const double deviation = flattening_deviation(curve, size[r], options);
     if (!curve.arc.is_straight) result.deviation[r] = std::max(result.deviation[r], deviation);
-    CurveLine& line = result.of_surface[r].emplace_back();
-    line.id = static_cast<int>(id);
+    CurvePolyline& polyline = result.of_surface[r].emplace_back();
+    polyline.id = static_cast<int>(id);
     for (const double s : flatten(curve.arc, deviation))
-      line.points.push_back(point_at(curve.arc, s));
+      polyline.points.push_back(point_at(curve.arc, s));
   }
   return result;
 }

@@ -18,13 +18,13 @@ double flattening_deviation(const DiscontinuityCurve& curve, double surface_size
                             const DiscontinuityMeshOptions& options);
 
 /// The curves that a mesh is to follow, as polylines.
-struct CurveLines {
-  std::vector<std::vector<CurveLine>> of_surface;  ///< id: index into Discontinuities::curves
+struct CurvePolylines {
+  std::vector<std::vector<CurvePolyline>> of_surface;  ///< id: index into Discontinuities::curves
   std::vector<double> deviation;  ///< of each surface: of polylines from their curves at most
   std::size_t kept = 0, culled = 0;
 };
 
-CurveLines curve_lines(const SoundScene& scene, const Discontinuities& found,
-                       const DiscontinuityMeshOptions& options);
+CurvePolylines curve_polylines(const SoundScene& scene, const Discontinuities& found,
+                               const DiscontinuityMeshOptions& options);
 
 }  // namespace halfshade

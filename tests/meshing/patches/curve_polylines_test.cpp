@@ -1,4 +1,4 @@
-#include "meshing/patches/curve_lines.h"
+#include "meshing/patches/curve_polylines.h"
 
 #include "tests/support/sound_scenes.h"
 
@@ -78,14 +78,14 @@ TEST(FlatteningDeviation, IsASmallPartOfTheSurfaceWithoutTolerance) {
                    4e-4);
 }
 
-TEST(CurveLines, KeepEndsExactlyAndStayWithinTheirDeviation) {
+TEST(CurvePolylines, KeepEndsExactlyAndStayWithinTheirDeviation) {
   const SoundScene scene = test::s1();
   Discontinuities found;
   found.curves.push_back(curve_of(2, {1, 1, 1}));
   found.curves.push_back(curve_of(2, {1, 1, 1}));
   found.curves[0].receiver = found.curves[1].receiver = 2;
   found.curves[1].arc = quarter_circle();
-  const CurveLines lines = curve_lines(scene, found, {});
+  const CurvePolylines lines = curve_polylines(scene, found, {});
   EXPECT_EQ(lines.kept, 2u);
   EXPECT_EQ(lines.culled, 0u);
   ASSERT_EQ(lines.of_surface.size(), 3u);
@@ -93,7 +93,7 @@ TEST(CurveLines, KeepEndsExactlyAndStayWithinTheirDeviation) {
   ASSERT_EQ(lines.of_surface[2].size(), 2u);
   EXPECT_EQ(lines.of_surface[2][0].points, std::vector<Vec2>({{0, 0}, {1, 0}}));
   EXPECT_EQ(lines.of_surface[2][0].id, 0);
-  const CurveLine& round = lines.of_surface[2][1];
+  const CurvePolyline& round = lines.of_surface[2][1];
   EXPECT_EQ(round.id, 1);
   EXPECT_EQ(round.points.front(), Vec2(1, 0));
   EXPECT_EQ(round.points.back(), Vec2(0, 1));
@@ -107,7 +107,7 @@ TEST(CurveLines, KeepEndsExactlyAndStayWithinTheirDeviation) {
   EXPECT_LT(round.points.size(), 40u);
 }
 
-TEST(CurveLines, CulledCurvesAreCountedAndLeftOut) {
+TEST(CurvePolylines, CulledCurvesAreCountedAndLeftOut) {
   const SoundScene scene = test::s1();
   Discontinuities found;
   for (const double jump : {1., 1e-3, 1e-6}) {
@@ -115,8 +115,8 @@ TEST(CurveLines, CulledCurvesAreCountedAndLeftOut) {
     found.curves.back().receiver = 2;
   }
   // Elements of 0.1: damages 0.1, 1e-4 and 1e-7.
-  const CurveLines lines =
-      curve_lines(scene, found, {.max_length = 0.1, .irradiance_tolerance = 1e-5});
+  const CurvePolylines lines =
+      curve_polylines(scene, found, {.max_length = 0.1, .irradiance_tolerance = 1e-5});
   EXPECT_EQ(lines.kept, 2u);
   EXPECT_EQ(lines.culled, 1u);
   ASSERT_EQ(lines.of_surface[2].size(), 2u);

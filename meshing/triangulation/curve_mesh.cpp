@@ -2,7 +2,6 @@
 
 #include "meshing/arrangement/hull_inside.h"
 #include "meshing/core/error.h"
-#include "meshing/core/planar.h"
 #include "meshing/triangulation/curve_drawing.h"
 #include "meshing/triangulation/lazy_refinement.h"
 
@@ -79,7 +78,12 @@ std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
   }
 }
 
-double distance(const Vec2& p, const Segment2& s) { return distance_to_segment(p, s[0], s[1]); }
+double distance(const Vec2& p, const Segment2& s) {
+  const Vec2 d = s[1] - s[0];
+  const double squared = d.squaredNorm();
+  const double t = squared > 0 ? std::clamp((p - s[0]).dot(d) / squared, 0.0, 1.0) : 0;
+  return (s[0] + t * d - p).norm();
+}
 
 // Edges of the graph and the ids of the curves along them, sorted.
 std::vector<std::pair<int, int>> curves_along(const CurveDrawing& drawing) {

@@ -3,17 +3,17 @@
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/planar.h"
 #include "meshing/discontinuity/rounding.h"
+#include "meshing/events/rounding.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <span>
 
 namespace halfshade {
 namespace {
 
-// The sine of the angle below which a receiver does not cross the emitter's plane.
-constexpr double parallel = 1e-9;
-// Contact lines with a smaller jump of the form factor, absolute, are none.
-constexpr double least_jump = 1e-9;
 // Places along a contact line at which a jump is looked for.
 constexpr int contact_samples = 8;
 
@@ -50,66 +50,102 @@ std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterSce
   return points;
 }
 
+/// The line in which the planes of a receiver and the emitter meet.
+struct CommonLine {
+  Vec3 origin, direction;  ///< the latter of unit length
+  Vec2 start, along;       ///< the same in the receiver's frame
+};
+
+std::optional<CommonLine> common_line(const PlaneFrame& receiver, const PlaneFrame& emitter) {
+  const Vec3 direction = receiver.normal.cross(emitter.normal);
+  if (direction.norm() < grazing_sine) return std::nullopt;
+  // A point of both planes: from the receiver's origin down its steepest line.
+  const Vec3 steepest = direction.cross(receiver.normal);
+  CommonLine line;
+  line.origin =
+      receiver.origin - emitter.height(receiver.origin) / emitter.normal.dot(steepest) * steepest;
+  line.direction = direction.normalized();
+  line.start = receiver.to_plane(line.origin);
+  line.along = receiver.to_plane(line.origin + line.direction) - line.start;
+  return line;
+}
+
+/// Parameters along the line between which the view of the emitter's corners, along its plane, is
+/// limited by the same things.
+std::vector<double> view_limits(const OpaqueScene& opaque, const EmitterScene& emitter_scene,
+                                const CommonLine& line) {
+  const PlaneFrame& plane = emitter_scene.frame;
+  const Vec2 p = plane.to_plane(line.origin);
+  const Vec2 u = plane.to_plane(line.origin + line.direction) - p;
+  std::vector<double> cuts;
+  for (const Vec3& limit : limits_in_plane(opaque.topology(), emitter_scene))
+    for (const OutlinePoint& corner : emitter_scene.corners) {
+      const Vec2 apex = plane.to_plane(corner.position);
+      const Vec2 onwards = plane.to_plane(limit) - apex;
+      cuts.push_back(cross_2d(apex - p, onwards) / cross_2d(u, onwards));
+    }
+  return cuts;
+}
+
+/// The ends of a range and the cuts within, sorted.
+std::vector<double> cut_range(const std::array<double, 2>& range, std::span<const double> cuts) {
+  std::vector<double> t = {range[0], range[1]};
+  for (const double cut : cuts)
+    if (cut > range[0] && cut < range[1]) t.push_back(cut);
+  std::sort(t.begin(), t.end());
+  return t;
+}
+
+/// Appends a piece of the line in which a receiver meets the emitter's plane, or makes the last
+/// curve longer if that is such a piece and ends within `slack` (a length) of this one.
+void append_plane_curve(const EmitterScene& emitter_scene, int receiver, const Vec2& from,
+                        const Vec2& to, double slack, std::vector<DiscontinuityCurve>& curves) {
+  const CurveSource source = {
+      CurveKind::face, {Feature{Feature::Kind::face, emitter_scene.emitter}}, 1};
+  if (!curves.empty() && curves.back().receiver == receiver && curves.back().sources[0] == source &&
+      (curves.back().arc.to - from).norm() <= slack) {
+    curves.back().arc = straight_arc(curves.back().arc.from, to);
+    return;
+  }
+  DiscontinuityCurve curve;
+  curve.receiver = receiver;
+  curve.emitter = emitter_scene.emitter;
+  curve.kind = CurveKind::face;
+  curve.order = 1;
+  curve.arc = straight_arc(from, to);
+  curve.sight_plane = emitter_scene.frame.normal;
+  curve.sources = {source};
+  curves.push_back(std::move(curve));
+}
+
 }  // namespace
 
 void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
                           const EmitterScene& emitter_scene, int receiver,
                           std::vector<DiscontinuityCurve>& curves) {
+  if (receiver == emitter_scene.emitter) return;
   const Surface& target = scene.surfaces[at(receiver)];
-  const Vec3 direction = target.frame.normal.cross(emitter_scene.frame.normal);
-  if (direction.norm() < parallel || receiver == emitter_scene.emitter) return;
-  // A point of both planes: from the receiver's origin down its steepest line.
-  const Vec3 steepest = direction.cross(target.frame.normal);
-  const Vec3 origin = target.frame.origin - emitter_scene.frame.height(target.frame.origin) /
-                                                emitter_scene.frame.normal.dot(steepest) * steepest;
-  const Vec2 start = target.frame.to_plane(origin);
-  const Vec2 along = target.frame.to_plane(origin + direction.normalized()) - start;
-  const auto inside = stretches(target, start, along);
+  const std::optional<CommonLine> line = common_line(target.frame, emitter_scene.frame);
+  if (!line) return;
+  const auto inside = stretches(target, line->start, line->along);
   if (inside.empty()) return;
-  std::vector<double> cuts;
-  const std::vector<Vec3> limits = limits_in_plane(opaque.topology(), emitter_scene);
-  std::vector<Vec2> apexes;
-  for (const OutlinePoint& corner : emitter_scene.corners)
-    apexes.push_back(emitter_scene.frame.to_plane(corner.position));
-  const Vec2 p = emitter_scene.frame.to_plane(origin);
-  const Vec2 u = emitter_scene.frame.to_plane(origin + direction.normalized()) - p;
-  for (const Vec3& limit : limits) {
-    const Vec2 y = emitter_scene.frame.to_plane(limit);
-    for (const Vec2& apex : apexes)
-      cuts.push_back(cross_2d(apex - p, y - apex) / cross_2d(u, y - apex));
-  }
+  const std::vector<double> cuts = view_limits(opaque, emitter_scene, *line);
   // Into the half-space in front of the emitter.
-  const Vec3 left3 = target.frame.normal.cross(direction.normalized());
-  const double ahead = emitter_scene.frame.normal.dot(left3) > 0 ? 1 : -1;
+  const Vec3 left = target.frame.normal.cross(line->direction);
+  const double ahead = emitter_scene.frame.normal.dot(left) > 0 ? 1 : -1;
   const double step = side_step(scene, opaque);
+  const auto place = [&](double t) -> Vec2 { return line->start + t * line->along; };
   VisiblePartFinder finder(opaque);
   VisiblePart part;
-  for (const auto& [t0, t1] : inside) {
-    std::vector<double> t = {t0, t1};
-    for (const double cut : cuts)
-      if (cut > t0 && cut < t1) t.push_back(cut);
-    std::sort(t.begin(), t.end());
+  for (const auto& range : inside) {
+    const std::vector<double> t = cut_range(range, cuts);
     for (std::size_t k = 1; k < t.size(); ++k) {
-      if (t[k] - t[k - 1] < 4 * step) continue;
-      const double middle = 0.5 * (t[k - 1] + t[k]);
-      const Vec3 point = target.frame.to_space(start + middle * along) + ahead * step * left3;
+      if (t[k] - t[k - 1] < least_steps * step) continue;
+      const Vec3 point =
+          target.frame.to_space(place(0.5 * (t[k - 1] + t[k]))) + ahead * step * left;
       finder.find(point, target.frame.normal, emitter_scene.emitter, part);
       if (part.region == Region::umbra || part.region == Region::away) continue;
-      if (!curves.empty() && curves.back().receiver == receiver &&
-          curves.back().sources[0].features[0].id == emitter_scene.emitter &&
-          (curves.back().arc.to - (start + t[k - 1] * along)).norm() <= step) {
-        curves.back().arc = straight_arc(curves.back().arc.from, start + t[k] * along);
-        continue;
-      }
-      DiscontinuityCurve curve;
-      curve.receiver = receiver;
-      curve.emitter = emitter_scene.emitter;
-      curve.kind = CurveKind::face;
-      curve.order = 1;
-      curve.arc = straight_arc(start + t[k - 1] * along, start + t[k] * along);
-      curve.sight_plane = emitter_scene.frame.normal;
-      curve.sources = {{CurveKind::face, {Feature{Feature::Kind::face, emitter_scene.emitter}}, 1}};
-      curves.push_back(std::move(curve));
+      append_plane_curve(emitter_scene, receiver, place(t[k - 1]), place(t[k]), step, curves);
     }
   }
 }

@@ -7,12 +7,6 @@
 namespace halfshade {
 namespace {
 
-// What is hidden counts from 1e-15 of the emitter's area on, so that corners are seen to be cut off
-// only at some distance; what lies closer together is told apart by the narrow step.
-constexpr double wide_step = 300;
-// Edges shorter than this share of the scene's size call for the narrow step.
-constexpr double fine_detail = 1e-4;
-
 bool has_shorter_edges(const EmitterScene& emitter_scene, double length) {
   const auto is_short = [&](const Span3& span) { return span.direction().norm() < length; };
   return std::any_of(emitter_scene.edges.begin(), emitter_scene.edges.end(),

@@ -1,16 +1,14 @@
 #include "meshing/discontinuity/event_jump.h"
 
+#include "meshing/core/planar.h"
+#include "meshing/events/rounding.h"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 namespace halfshade {
-
 namespace {
-
-/// Lines that make an angle with a sine below this on the emitter coincide: a thousand times what
-/// rounding does to lines that are the same.
-constexpr double coinciding = 1e-12;
 
 /// What a point sees of a line: the line on the emitter where n·y = 0, y being relative to where
 /// the lines meet, and how n·y changes there as the point moves on.
@@ -18,8 +16,6 @@ struct SeenLine {
   Vec2 normal;  ///< unit length
   double rate = 0;
 };
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Normal of the plane through the point and a line.
 Vec3 sight_plane(const Vec3& point, const Line3& line) {
@@ -65,10 +61,10 @@ double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
   double det = 0, sines = 1;
   int coincide = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const double sine = cross(seen[i].normal, seen[(i + 1) % 3].normal);
+    const double sine = cross_2d(seen[i].normal, seen[(i + 1) % 3].normal);
     det += sine * seen[(i + 2) % 3].rate;
     sines *= std::abs(sine);
-    coincide += std::abs(sine) < coinciding ? 1 : 0;
+    coincide += std::abs(sine) < parallel_sine ? 1 : 0;
   }
   if (coincide >= 2) return 0;
   if (coincide == 1) return std::numeric_limits<double>::infinity();

@@ -1,4 +1,5 @@
 #include "meshing/core/planar.h"
+#include "meshing/discontinuity/rounding.h"
 #include "meshing/discontinuity/stacked_curves.h"
 #include "meshing/geometry/box_tree.h"
 
@@ -11,16 +12,12 @@
 #include <utility>
 
 namespace halfshade {
-
 namespace {
 
-/// Ends of pieces that were cut at each other's ends are at most this many tolerances apart.
-constexpr double slack = 3;
-
 /// The triangle an arc lies in and what is within some length of it.
-class Hull {
+class ControlTriangle {
  public:
-  Hull(const ConicArc& arc, double length)
+  ControlTriangle(const ConicArc& arc, double length)
       : corners_{arc.from, arc.control, arc.to},
         side_(cross_2d(arc.control - arc.from, arc.to - arc.from) < 0 ? -1 : 1),
         length_(length) {
@@ -29,7 +26,7 @@ class Hull {
     box_.max() += Vec3(length, length, 0);
   }
 
-  /// False only if the hull and a box do not meet.
+  /// False only if it and a box do not meet.
   bool meets(const Box& box) const {
     if (!box.intersects(box_)) return false;
     const Vec2 centre = box.center().head<2>(), half = 0.5 * box.sizes().head<2>();
@@ -69,9 +66,7 @@ class ArcCutter {
   }
 
  private:
-  const ConicArc& arc(std::size_t i) const {
-    return curves_[static_cast<std::size_t>(which_[i])].arc;
-  }
+  const ConicArc& arc(std::size_t i) const { return curves_[at(which_[i])].arc; }
 
   /// Of arc k: numbers 2 k and 2 k + 1.
   std::vector<Box> end_points() const {
@@ -88,9 +83,9 @@ class ArcCutter {
     const double size = (arc(i).control - arc(i).from).norm() + (arc(i).to - arc(i).control).norm();
     const std::vector<double> pieces = flatten(arc(i), std::max(thin * size, tolerance_));
     for (std::size_t k = 0; k + 1 < pieces.size(); ++k) {
-      const Hull hull(part(arc(i), pieces[k], pieces[k + 1]), tolerance_);
-      ends_.query([&](const Box& box) { return hull.meets(box); },
-                  [&](int end) { visit(static_cast<std::size_t>(end / 2), end % 2); });
+      const ControlTriangle triangle(part(arc(i), pieces[k], pieces[k + 1]), tolerance_);
+      ends_.query([&](const Box& box) { return triangle.meets(box); },
+                  [&](int end) { visit(at(end / 2), end % 2); });
     }
   }
 
@@ -106,7 +101,7 @@ class ArcCutter {
     const Vec2 start = point_at(arc(i), end);
     double until = end;  // the nearest place, beyond the tolerance, where one of them ends
     const auto consider = [&](const Vec2& p) {
-      if ((p - start).norm() <= slack * tolerance_) return;
+      if ((p - start).norm() <= joined_ends * tolerance_) return;
       const std::optional<double> s = parameter_of(i, p);
       if (s && (until == end || std::abs(*s - end) < std::abs(until - end))) until = *s;
     };
@@ -126,8 +121,8 @@ class ArcCutter {
     std::vector<double> kept = {0};
     for (const double s : cuts) {
       const Vec2 p = point_at(arc, s);
-      if ((p - point_at(arc, kept.back())).norm() > slack * tolerance_ &&
-          (p - arc.to).norm() > slack * tolerance_)
+      if ((p - point_at(arc, kept.back())).norm() > joined_ends * tolerance_ &&
+          (p - arc.to).norm() > joined_ends * tolerance_)
         kept.push_back(s);
     }
     kept.push_back(1);
@@ -188,7 +183,7 @@ std::size_t count_unions(std::span<const ArcPiece> pieces, std::size_t curves) {
   std::vector<int> parent(curves);
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int i) {
-    while (parent[static_cast<std::size_t>(i)] != i) i = parent[static_cast<std::size_t>(i)];
+    while (parent[at(i)] != i) i = parent[at(i)];
     return i;
   };
   std::size_t unions = 0;
@@ -196,7 +191,7 @@ std::size_t count_unions(std::span<const ArcPiece> pieces, std::size_t curves) {
     for (const StackedCurve& other : piece.equals) {
       const int a = root(piece.curve), b = root(other.curve);
       if (a == b) continue;
-      parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+      parent[at(std::max(a, b))] = std::min(a, b);
       ++unions;
     }
   return unions;
@@ -206,7 +201,7 @@ std::size_t count_unions(std::span<const ArcPiece> pieces, std::size_t curves) {
 void write(std::span<const DiscontinuityCurve> curves, std::span<const ArcPiece> pieces,
            std::vector<MergedCurve>& merged) {
   const int place = pieces.front().curve;
-  const DiscontinuityCurve& whole = curves[static_cast<std::size_t>(place)];
+  const DiscontinuityCurve& whole = curves[at(place)];
   if (pieces.size() == 1 && pieces.front().equals.size() == 1) {
     merged.push_back({place, whole});
     return;
@@ -233,14 +228,14 @@ std::size_t merge_conics(std::span<const DiscontinuityCurve> curves, std::span<c
   const std::vector<std::vector<double>> cuts = ArcCutter(curves, which, tolerance).cuts();
   std::vector<ArcPiece> pieces;
   for (std::size_t i = 0; i < which.size(); ++i) {
-    const ConicArc& arc = curves[static_cast<std::size_t>(which[i])].arc;
+    const ConicArc& arc = curves[at(which[i])].arc;
     for (std::size_t k = 0; k + 1 < cuts[i].size(); ++k) {
       const bool all = cuts[i].size() == 2;
       const ConicArc piece = all ? arc : part(arc, cuts[i][k], cuts[i][k + 1]);
       pieces.push_back({which[i], cuts[i][k], cuts[i][k + 1], piece, point_at(piece, 0.5), {}});
     }
   }
-  gather_equals(pieces, slack * tolerance);
+  gather_equals(pieces, joined_ends * tolerance);
   for (std::size_t begin = 0; begin < pieces.size();) {
     std::size_t end = begin;
     while (end < pieces.size() && pieces[end].curve == pieces[begin].curve) ++end;

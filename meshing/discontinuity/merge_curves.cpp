@@ -1,5 +1,6 @@
 #include "meshing/discontinuity/merge_curves.h"
 
+#include "meshing/discontinuity/rounding.h"
 #include "meshing/discontinuity/stacked_curves.h"
 
 #include <algorithm>
@@ -7,12 +8,7 @@
 #include <utility>
 
 namespace halfshade {
-
 namespace {
-
-/// Normals of planes that are farther apart than this (as a difference of unit vectors) belong to
-/// different planes: far more than rounding, far less than what a scene can mean.
-constexpr double same_plane = 1e-7;
 
 bool is_same_plane(const Vec3& a, const Vec3& b) {
   return (a - b).norm() <= same_plane || (a + b).norm() <= same_plane;
@@ -23,7 +19,7 @@ Vec3 common_plane(std::span<const DiscontinuityCurve> curves, std::span<const St
                   int order) {
   const DiscontinuityCurve* first = nullptr;
   for (const StackedCurve& member : members) {
-    const DiscontinuityCurve& curve = curves[static_cast<std::size_t>(member.curve)];
+    const DiscontinuityCurve& curve = curves[at(member.curve)];
     if (curve.order != order) continue;
     if (!first) first = &curve;
     if (!is_same_plane(first->sight_plane, curve.sight_plane)) return Vec3::Zero();
@@ -42,7 +38,7 @@ void sort_unique(std::vector<T>& items) {
 DiscontinuityCurve stack(std::span<const DiscontinuityCurve> curves,
                          std::span<const StackedCurve> members, const ConicArc& arc) {
   const auto curve_of = [&](const StackedCurve& member) -> const DiscontinuityCurve& {
-    return curves[static_cast<std::size_t>(member.curve)];
+    return curves[at(member.curve)];
   };
   const auto rank = [](const DiscontinuityCurve& c) { return std::pair(c.order, c.kind); };
   DiscontinuityCurve result = curve_of(members.front());
@@ -78,7 +74,7 @@ std::size_t merge_coincident(std::vector<DiscontinuityCurve>& curves, double tol
   std::vector<int> order(curves.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
   const auto pair_of = [&](int i) {
-    const DiscontinuityCurve& curve = curves[static_cast<std::size_t>(i)];
+    const DiscontinuityCurve& curve = curves[at(i)];
     return std::pair(curve.receiver, curve.emitter);
   };
   std::stable_sort(order.begin(), order.end(),
@@ -88,8 +84,8 @@ std::size_t merge_coincident(std::vector<DiscontinuityCurve>& curves, double tol
   for (auto begin = order.begin(); begin != order.end();) {
     const auto end = std::upper_bound(begin, order.end(), *begin,
                                       [&](int i, int j) { return pair_of(i) < pair_of(j); });
-    const auto middle = std::stable_partition(
-        begin, end, [&](int i) { return curves[static_cast<std::size_t>(i)].arc.is_straight; });
+    const auto middle =
+        std::stable_partition(begin, end, [&](int i) { return curves[at(i)].arc.is_straight; });
     count += merge_straight(curves, {begin, middle}, tolerance, merged);
     count += merge_conics(curves, {middle, end}, tolerance, merged);
     begin = end;

@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace halfshade {
-
 namespace {
 
 /// A straight curve on the common line of its group.
@@ -56,7 +55,7 @@ class Line {
   }
 
  private:
-  const DiscontinuityCurve& curve(int i) const { return curves_[static_cast<std::size_t>(i)]; }
+  const DiscontinuityCurve& curve(int i) const { return curves_[at(i)]; }
 
   void keep(int i) { merged_.push_back({i, curve(i)}); }
 
@@ -149,11 +148,11 @@ std::size_t merge_straight(std::span<const DiscontinuityCurve> curves, std::span
                            double tolerance, std::vector<MergedCurve>& merged) {
   std::vector<std::array<Vec2, 2>> segments;
   for (const int i : which) {
-    const ConicArc& arc = curves[static_cast<std::size_t>(i)].arc;
+    const ConicArc& arc = curves[at(i)].arc;
     segments.push_back({arc.from, arc.to});
   }
   const std::vector<int> group = collinear_groups(segments, tolerance);
-  const auto group_of = [&](int k) { return group[static_cast<std::size_t>(k)]; };
+  const auto group_of = [&](int k) { return group[at(k)]; };
   std::vector<int> order(which.size());
   std::iota(order.begin(), order.end(), 0);
   // The longest curve of a group, after which it is named, first.
@@ -164,7 +163,7 @@ std::size_t merge_straight(std::span<const DiscontinuityCurve> curves, std::span
   std::size_t count = 0;
   std::vector<int> members;
   for (std::size_t k = 0; k < order.size(); ++k) {
-    members.push_back(which[static_cast<std::size_t>(order[k])]);
+    members.push_back(which[at(order[k])]);
     if (k + 1 < order.size() && group_of(order[k]) == group_of(order[k + 1])) continue;
     count += line.merge(members);
     members.clear();

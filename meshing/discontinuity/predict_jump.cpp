@@ -9,11 +9,11 @@
 namespace halfshade {
 namespace {
 
+// Places along a curve.
 constexpr std::array<double, 3> samples = {1. / 6, 1. / 2, 5. / 6};
-// Edges count as in the plane of sight if they are within so many times what counts as joined.
-constexpr double in_plane = 4;
-// A jump of the slope that is this small a share of what makes it is rounding.
-constexpr double least_share = 1e-6;
+// The limit of a jump for ever smaller steps is this share of it at a step, or the jump is due to
+// the step.
+constexpr double share_in_limit = 0.5;
 
 }  // namespace
 
@@ -53,7 +53,7 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
   // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
   // the whole jump is due to the step.
   const double limit = 2 * near - at_step(2 * step_);
-  return std::abs(limit) > 0.5 * std::abs(near) ? limit : 0;
+  return std::abs(limit) > share_in_limit * std::abs(near) ? limit : 0;
 }
 
 double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const {

@@ -7,13 +7,6 @@
 #include <limits>
 
 namespace halfshade {
-namespace {
-
-// Side steps, relative to the scene's size and to a rounding of the largest coordinate.
-constexpr double relative_step = 1e-9;
-constexpr double roundings_per_step = 1e4;
-
-}  // namespace
 
 double side_step(const SoundScene& scene, const OpaqueScene& opaque) {
   return std::max(

@@ -1,5 +1,7 @@
 #include "meshing/discontinuity/sight_casting.h"
 
+#include "meshing/discontinuity/rounding.h"
+#include "meshing/events/rounding.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -7,11 +9,6 @@
 
 namespace halfshade {
 namespace {
-
-// A line passes a triangle clearly if it stays this share of the triangle away from its border and
-// this sine away from its plane.
-constexpr double clearly_inside = 1e-7;
-constexpr double clearly_across = 1e-9;
 
 /// Whether a ray misses a box that is enlarged by `slack`.
 class RayBoxTest {
@@ -67,7 +64,7 @@ void SightCaster::find_crossings(const SightLine& line) {
         const Vec3 c = opaque_.vertices[at(corner[2])] - line.start;
         const Vec3 normal = (b - a).cross(c - a);
         const double across = normal.dot(line.direction), size = normal.norm();
-        if (!(std::abs(across) > clearly_across * size)) return;
+        if (!(std::abs(across) > grazing_sine * size)) return;
         const double u = b.cross(c).dot(line.direction) / across;
         const double v = c.cross(a).dot(line.direction) / across;
         const double least = std::min({u, v, 1 - u - v});

@@ -5,14 +5,6 @@
 #include "meshing/discontinuity/rounding.h"
 
 namespace halfshade {
-namespace {
-
-// Pieces of swath shorter than this many side steps on the receiver cannot be decided.
-constexpr double least_steps = 4;
-// Arcs this flat, in side steps, are straight.
-constexpr double straight_enough = 0.1;
-
-}  // namespace
 
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
                          const EmitterScene& emitter_scene, const TraceLimits& limits)

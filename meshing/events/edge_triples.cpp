@@ -1,4 +1,5 @@
 #include "meshing/events/events.h"
+#include "meshing/events/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -13,8 +14,6 @@ namespace {
 
 // How often spans are halved until one of them is nearer to the emitter than the other.
 constexpr int most_halvings = 6;
-// The sine of the angle between spans below which they have no common point.
-constexpr double parallel = 1e-12;
 
 /// False only if the convex hull of four points misses that of the emitter.
 bool hull_meets(const EmitterScene& emitter_scene, const std::array<Vec2, 4>& points) {
@@ -104,11 +103,7 @@ bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b,
 }
 
 bool are_collinear(const Span3& a, const Span3& b, double slack) {
-  const Vec3 along = a.direction().normalized();
-  const auto off = [&](const Vec3& p) {
-    return (p - a.from - along.dot(p - a.from) * along).norm();
-  };
-  return off(b.from) <= slack && off(b.to) <= slack;
+  return distance_to_line(b.from, a) <= slack && distance_to_line(b.to, a) <= slack;
 }
 
 /// The plane of two coplanar spans that are not collinear, as point and unit normal.
@@ -144,8 +139,7 @@ void coplanar_swath(const EmitterScene& emitter_scene, Swath swath, const Span3&
   swath.source.kind = CurveKind::face;
   swath.apex = third.at(a / (a - b));
   swath.base = base;
-  const Vec3 along = base.direction().normalized(), to = swath.apex - base.from;
-  if ((to - along.dot(to) * along).norm() > emitter_scene.slack) sink(swath);
+  if (distance_to_line(swath.apex, base) > emitter_scene.slack) sink(swath);
 }
 
 /// Lines through the point where two spans cross, if they do so other than at their ends, and a
@@ -153,18 +147,14 @@ void coplanar_swath(const EmitterScene& emitter_scene, Swath swath, const Span3&
 void crossing_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& a, const Span3& b,
                     const Span3& third, const SwathSink& sink) {
   const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
-  if (!(normal.norm() > parallel * u.norm() * v.norm())) return;
+  if (!(normal.norm() > parallel_sine * u.norm() * v.norm())) return;
   const double s = (b.from - a.from).cross(v).dot(normal) / normal.squaredNorm();
   const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
   if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;
-  const auto is_end = [&](const Span3& span, const Vec3& p) {
-    return (p - span.from).norm() <= emitter_scene.slack ||
-           (p - span.to).norm() <= emitter_scene.slack;
-  };
   swath.apex = a.at(s);
-  if (is_end(a, swath.apex) && is_end(b, swath.apex)) return;  // events with a vertex
-  const Vec3 along = third.direction().normalized(), to = swath.apex - third.from;
-  if ((to - along.dot(to) * along).norm() <= emitter_scene.slack) return;
+  if (is_end(swath.apex, a, emitter_scene.slack) && is_end(swath.apex, b, emitter_scene.slack))
+    return;  // events with a vertex
+  if (distance_to_line(swath.apex, third) <= emitter_scene.slack) return;
   swath.is_planar = true;
   swath.base = third;
   sink(swath);

@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 #include "meshing/events/emitter_border.h"
+#include "meshing/events/rounding.h"
 #include "meshing/events/silhouette_edges.h"
 #include "meshing/geometry/convex_hull.h"
 
@@ -14,22 +15,12 @@
 #include <string>
 
 namespace halfshade {
-namespace {
-
-// Lines that run along a face to within this sine may have it on either side.
-constexpr double grazing = 1e-9;
-// What the repair has joined agrees to this share of the tolerance by which it joins.
-constexpr double exact_share = 1e-3;
-// Positions agree to this many roundings of the largest coordinate.
-constexpr double position_roundings = 1e3;
-
-}  // namespace
 
 EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
   const OpaqueTopology& topology = opaque.topology();
   slack =
-      std::max(exact_share * scene.tolerance.length,
+      std::max(joined_share * scene.tolerance.length,
                position_roundings * std::numeric_limits<double>::epsilon() * topology.magnitude);
   joined = std::max(slack, scene.tolerance.length);
   rings = scene.surfaces[at(surface)].rings;
@@ -85,7 +76,7 @@ bool EmitterScene::may_be_silhouette(const SilhouetteEdge& edge, const Vec3& dir
   int weight = 0;
   for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f) {
     const double side = faces[at(f)].normal.dot(direction);
-    if (std::abs(side) <= grazing) return true;
+    if (std::abs(side) <= grazing_sine) return true;
     weight += side > 0 ? faces[at(f)].direction : -faces[at(f)].direction;
   }
   return weight != 0;

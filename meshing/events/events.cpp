@@ -11,15 +11,6 @@
 namespace halfshade {
 namespace {
 
-bool is_end(const Vec3& p, const Span3& span, double slack) {
-  return (p - span.from).norm() <= slack || (p - span.to).norm() <= slack;
-}
-
-double distance_to_line(const Vec3& p, const Span3& span) {
-  const Vec3 along = span.direction().normalized();
-  return (p - span.from - along.dot(p - span.from) * along).norm();
-}
-
 void normalize(std::vector<EdgeId>& group) {
   std::sort(group.begin(), group.end());
   group.erase(std::unique(group.begin(), group.end()), group.end());

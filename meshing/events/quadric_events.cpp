@@ -1,5 +1,7 @@
 #include "meshing/events/quadric_events.h"
 
+#include "meshing/events/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,9 +10,6 @@
 namespace halfshade {
 
 namespace {
-
-/// Bound for the relative error of a sum of three 3 × 3 determinants of rounded differences.
-constexpr double determinant_error = 32 * std::numeric_limits<double>::epsilon();
 
 /// det[a, b, c].
 double det(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c)); }
@@ -89,9 +88,8 @@ QuadraticRoots roots(const Quadratic& coefficients) {
     return {false, 1, {-c / b, 0}};
   }
   const double d = discriminant(a, b, c);
-  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  if (d <= rounding * (b * b)) {
-    if (d < -rounding * (b * b)) return {};
+  if (d <= discriminant_error * (b * b)) {
+    if (d < -discriminant_error * (b * b)) return {};
     return {false, 1, {-b / (2 * a), 0}};
   }
   const double sum = -(b + std::copysign(std::sqrt(d), b)) / 2;
@@ -149,7 +147,7 @@ Quadratic meeting(const LineFamily& family, const Line3& f) {
 // nⱼ·(aᵢ + s dᵢ − x) = 0; and nⱼ·(aᵢ − x) = nⱼ·(aᵢ − aⱼ), because nⱼ is normal to aⱼ − x.
 LinearRatio parameter_on(const LineFamily& family, int i) {
   const std::size_t other = i == 1 ? 1 : 0;  // in constant and slope
-  const Line3& on = family.lines[static_cast<std::size_t>(i)];
+  const Line3& on = family.lines[at(i)];
   const Vec3 between = family.lines[other + 1].point - on.point;
   return {family.constant[other].dot(between), family.slope[other].dot(between),
           family.constant[other].dot(on.direction), family.slope[other].dot(on.direction)};

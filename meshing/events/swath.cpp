@@ -1,5 +1,7 @@
 #include "meshing/events/swath.h"
 
+#include "meshing/events/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,11 +9,6 @@ namespace halfshade {
 namespace {
 
 using Interval = std::array<double, 2>;
-
-// Shares of an edge by which a line may miss it, from rounding.
-constexpr double edge_margin = 1e-10;
-// Lines flatter to the emitter than this do not come from it.
-constexpr double flattest = 1e-12;
 
 /// Normal of the plane through a point and an edge.
 Vec3 plane_through(const Vec3& point, const Span3& edge) {
@@ -22,8 +19,7 @@ Vec3 plane_through(const Vec3& point, const Span3& edge) {
 void add_roots(const Quadratic& polynomial, std::vector<double>& parameters) {
   const QuadraticRoots found = roots(polynomial);
   for (int k = 0; k < found.count; ++k)
-    if (const double t = found.at[static_cast<std::size_t>(k)]; t > 0 && t < 1)
-      parameters.push_back(t);
+    if (const double t = found.at[at(k)]; t > 0 && t < 1) parameters.push_back(t);
 }
 
 bool lies_within(double s) { return s >= -edge_margin && s <= 1 + edge_margin; }
@@ -32,7 +28,7 @@ std::optional<SightLine> line_through(const PlaneFrame& emitter, const Vec3* poi
                                       Vec3 direction) {
   direction.normalize();
   const double away = emitter.normal.dot(direction);
-  if (!(std::abs(away) > flattest)) return std::nullopt;
+  if (!(std::abs(away) > parallel_sine)) return std::nullopt;
   if (away < 0) direction = -direction;
   double least = HUGE_VAL, most = -HUGE_VAL;
   SightLine line{points[0], points[0], direction};
@@ -140,7 +136,7 @@ SwathBounds bounds_of(const Swath& swath, double t0, double t1) {
   bounds.near = box_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
   const auto reach = [&](int i) {
     const LinearRatio ratio = parameter_on(swath.family, i);
-    const Span3& edge = swath.edges[static_cast<std::size_t>(i)];
+    const Span3& edge = swath.edges[at(i)];
     return box_of(edge.at(std::clamp(value(ratio, t0), 0., 1.)),
                   edge.at(std::clamp(value(ratio, t1), 0., 1.)));
   };
@@ -189,7 +185,7 @@ std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, doubl
             (f.constant[0] + t * f.slope[0]).cross(f.slope[1]);
   }
   const double speed = plane.normal.dot(d), height = plane.height(x);
-  if (!(std::abs(speed) > flattest * d.norm())) return std::nullopt;
+  if (!(std::abs(speed) > parallel_sine * d.norm())) return std::nullopt;
   const double along = -height / speed;
   const double along_dot = -(plane.normal.dot(x_dot) + along * plane.normal.dot(d_dot)) / speed;
   return Trace{x + along * d, x_dot + along_dot * d + along * d_dot};

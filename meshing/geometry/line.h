@@ -18,4 +18,15 @@ struct Span3 {
   Vec3 at(double s) const { return from + s * (to - from); }
 };
 
+/// Distance of a point from the line that a span lies on.
+inline double distance_to_line(const Vec3& p, const Span3& span) {
+  const Vec3 along = span.direction().normalized();
+  return (p - span.from - along.dot(p - span.from) * along).norm();
+}
+
+/// Whether a point is one of a span's ends, to within `slack` (a length).
+inline bool is_end(const Vec3& p, const Span3& span, double slack) {
+  return (p - span.from).norm() <= slack || (p - span.to).norm() <= slack;
+}
+
 }  // namespace halfshade

@@ -1,7 +1,7 @@
 #include "meshing/triangulation/curve_drawing.h"
 
 #include "meshing/arrangement/arrangement.h"
-#include "meshing/arrangement/hull_inside.h"
+#include "meshing/arrangement/triangles_inside.h"
 
 #include <algorithm>
 #include <cmath>

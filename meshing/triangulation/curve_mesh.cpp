@@ -1,6 +1,6 @@
 #include "meshing/triangulation/curve_mesh.h"
 
-#include "meshing/arrangement/hull_inside.h"
+#include "meshing/arrangement/triangles_inside.h"
 #include "meshing/core/error.h"
 #include "meshing/triangulation/curve_drawing.h"
 #include "meshing/triangulation/lazy_refinement.h"
@@ -72,7 +72,7 @@ std::optional<ConstrainedMesh> triangulate(const CurveDrawing& drawing) {
     if (edge.part_count == 0) links.push_back({edge.a, edge.b});
   try {
     const HullTriangulation hull = constrained_delaunay(drawing.graph.points(), links);
-    return cut_out(hull, inside(hull, border_of(drawing)), drawing.graph);
+    return cut_out(hull, triangles_inside(hull, border_of(drawing)), drawing.graph);
   } catch (const Error&) {
     return {};
   }

@@ -1,7 +1,7 @@
 #include "meshing/triangulation/planar_mesh.h"
 
 #include "meshing/arrangement/arrangement.h"
-#include "meshing/arrangement/hull_inside.h"
+#include "meshing/arrangement/triangles_inside.h"
 #include "meshing/core/error.h"
 #include "meshing/triangulation/delaunay_refinement.h"
 #include "meshing/triangulation/length_bisection.h"
@@ -102,7 +102,7 @@ PlanarMesh compact(const PlanarMesh& mesh) {
 
 PlanarMesh triangulate(const Outline& outline) {
   const HullTriangulation hull = constrained_delaunay(outline.points, outline.links);
-  const std::vector<bool> keep = inside(hull, outline.border);
+  const std::vector<bool> keep = triangles_inside(hull, outline.border);
   PlanarMesh mesh;
   mesh.points = outline.points;
   mesh.constrained_edges = outline.links;

@@ -1,6 +1,6 @@
 #include "meshing/events/swath.h"
 
-#include "tests/support/sound_scenes.h"
+#include "tests/support/random_swaths.h"
 
 #include <gtest/gtest.h>
 
@@ -14,43 +14,12 @@
 namespace halfshade {
 namespace {
 
+using test::emitter;
 using test::Random;
-
-/// Of a light at z = 2 that looks down.
-const PlaneFrame emitter = make_frame({0, 0, 2}, -Vec3::UnitZ());
-
-Vec3 in_room(Random& random) { return random.in_box({-1, -1, 0.1}, {1, 1, 1.9}); }
-
-Span3 random_span(Random& random) { return {in_room(random), in_room(random)}; }
-
-Swath random_fan(Random& random) {
-  Swath swath;
-  swath.apex = in_room(random);
-  swath.base = random_span(random);
-  return swath;
-}
-
-/// Three skew edges that a line through the light's plane meets well inside them.
-Swath random_ruled(Random& random) {
-  const Vec3 foot = random.in_box({-0.5, -0.5, 0}, {0.5, 0.5, 0});
-  const Vec3 along = Vec3(random(-0.4, 0.4), random(-0.4, 0.4), 1);
-  std::array<Span3, 3> edges;
-  double height = 0.1;
-  for (Span3& edge : edges) {
-    height += random(0.15, 0.5);
-    const Vec3 span = random(0.4, 1.5) * (random.direction() + Vec3(0, 0, 0.1));
-    edge.from = foot + height * along - random(0.1, 0.9) * span;
-    edge.to = edge.from + span;
-  }
-  std::swap(edges[0], edges[static_cast<std::size_t>(random.integer(0, 2))]);
-  Swath swath;
-  set_edges(swath, edges);
-  return swath;
-}
-
-Swath random_swath(Random& random) {
-  return random.integer(0, 1) == 0 ? random_fan(random) : random_ruled(random);
-}
+using test::random_fan;
+using test::random_ruled;
+using test::random_span;
+using test::random_swath;
 
 double distance_to_line(const Vec3& p, const SightLine& line) {
   return (p - line.start).cross(line.direction).norm();
@@ -269,86 +238,6 @@ TEST(GrazingParameters, AreWhereTheLineRunsAlongThePlane) {
     });
   }
   EXPECT_GT(found, 50);
-}
-
-/// Whether an infinite line meets a box, by slabs.
-bool hits(const SightLine& line, const Vec3& low, const Vec3& high) {
-  double near = -HUGE_VAL, far = HUGE_VAL;
-  for (int k = 0; k < 3; ++k) {
-    const double a = (low[k] - line.start[k]) / line.direction[k];
-    const double b = (high[k] - line.start[k]) / line.direction[k];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far;
-}
-
-TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
-  Random random(8);
-  int hit = 0, excluded = 0;
-  for (int round = 0; round < 1500; ++round) {
-    const Swath swath = random_swath(random);
-    std::vector<double> limits = {0, 1};
-    if (!swath.is_planar) own_limits(swath, limits);
-    std::sort(limits.begin(), limits.end());
-    const auto k = static_cast<std::size_t>(random.integer(1, static_cast<int>(limits.size()) - 1));
-    const double width = limits[k] - limits[k - 1], from = random(0, 1), to = random(from, 1);
-    const double t0 = limits[k - 1] + from * width, t1 = limits[k - 1] + to * width;
-    if (!line_at(swath, emitter, 0.5 * (t0 + t1))) continue;
-    const SwathBounds bounds = bounds_of(swath, t0, t1);
-    for (int box = 0; box < 10; ++box) {
-      Vec3 low = random.in_box({-2, -2, -1}, {2, 2, 2});
-      if (box % 2 == 0) {  // near one of its lines
-        const auto line = line_at(swath, emitter, t0 + random(0, 1) * (t1 - t0));
-        if (line) low = line->start + random(-0.5, 3) * line->direction;
-      }
-      const Vec3 high = low + random.in_box({0.01, 0.01, 0.01}, {0.5, 0.5, 0.5});
-      low -= random.in_box({0, 0, 0}, {0.1, 0.1, 0.1});
-      bool is_hit = false;
-      for (int i = 0; i <= 50; ++i)
-        if (const auto line = line_at(swath, emitter, t0 + 0.02 * i * (t1 - t0)))
-          is_hit = is_hit || hits(*line, low, high);
-      const bool meets = bounds.meets(low, high, 1e-12);
-      EXPECT_TRUE(meets || !is_hit) << round;
-      hit += is_hit;
-      excluded += !meets;
-    }
-  }
-  EXPECT_GT(hit, 1500);
-  EXPECT_GT(excluded, 3000) << "a bounds that excludes nothing is of no use";
-}
-
-TEST(SwathBounds, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
-  Random random(11);
-  int compared = 0;
-  for (int round = 0; round < 500; ++round) {
-    const Swath swath = random_swath(random);
-    const double t = random(0, 1);
-    const auto line = line_at(swath, emitter, t);
-    if (!line || std::abs(line->direction.z()) < 0.2) continue;
-    const SwathBounds bounds = bounds_of(swath, t, t);
-    if ((bounds.near.center() - bounds.far.center()).norm() < 0.1) continue;
-    const Vec3 size = Vec3::Constant(1e-6), across = line->direction.unitOrthogonal();
-    for (int k = 0; k < 5; ++k) {
-      const Vec3 p = line->start + random(0, 2) * line->direction;
-      EXPECT_TRUE(bounds.meets(p - size, p + size, 1e-9)) << round;
-      const Vec3 beside = p + 1e-3 * across;
-      EXPECT_FALSE(bounds.meets(beside - size, beside + size, 1e-9)) << round;
-    }
-    ++compared;
-  }
-  EXPECT_GT(compared, 200);
-}
-
-TEST(SwathBounds, SlackLetsItReachFarther) {
-  Swath swath;
-  swath.apex = {0, 0, 2};
-  swath.base = {{1, -1, 1}, {1, 1, 1}};  // in the plane x + z = 2
-  const SwathBounds bounds = bounds_of(swath, 0, 1);
-  EXPECT_NEAR(std::abs(bounds.normal.dot(Vec3(1, 0, 1).normalized())), 1, 1e-14);
-  const Vec3 low(0.6, -0.1, 1.5), high(0.7, 0.1, 1.6);  // from that plane 0.1/√2
-  EXPECT_FALSE(bounds.meets(low, high, 0.0707));
-  EXPECT_TRUE(bounds.meets(low, high, 0.0708));
 }
 
 TEST(Trace, LiesOnThePlaneAndOnTheLine) {

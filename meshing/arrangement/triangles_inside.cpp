@@ -1,10 +1,10 @@
-#include "meshing/arrangement/hull_inside.h"
+#include "meshing/arrangement/triangles_inside.h"
 
 #include <algorithm>
 
 namespace halfshade {
 
-std::vector<bool> inside(const HullTriangulation& hull, std::span<const Link> border) {
+std::vector<bool> triangles_inside(const HullTriangulation& hull, std::span<const Link> border) {
   const auto is_border = [&](int a, int b) {
     return std::binary_search(border.begin(), border.end(), sorted_link(a, b));
   };

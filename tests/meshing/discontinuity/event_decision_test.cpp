@@ -20,16 +20,17 @@ struct Table : LitScene {
   Table() : LitScene(SceneMaker().square_light().up({-0.375, -0.375}, {0.375, 0.375}, 1).floor()) {}
 
   /// Ids of what lies in x = .375 at the table, and of the light's edges.
-  std::vector<int> group() const {
-    std::vector<int> ids;
+  std::vector<EdgeId> group() const {
+    std::vector<EdgeId> ids;
     for (const SilhouetteEdge& edge : emitter_scene.edges)
-      if (edge.whole.from.x() == 0.375 && edge.whole.to.x() == 0.375) ids.push_back(edge.id);
+      if (edge.whole.from.x() == 0.375 && edge.whole.to.x() == 0.375)
+        ids.push_back(EdgeId::edge(edge.id));
     for (const OutlinePiece& piece : emitter_scene.outline) ids.push_back(piece.id);
     std::sort(ids.begin(), ids.end());
     return ids;
   }
 
-  bool differs(double x, const std::vector<int>& ids) const {
+  bool differs(double x, const std::vector<EdgeId>& ids) const {
     EventDecider decider(scene, opaque, emitter_scene);
     return decider.decide({{x, 0.1, 0}, Vec3::UnitZ(), Vec3::UnitX()}, ids).differs;
   }
@@ -37,7 +38,7 @@ struct Table : LitScene {
 
 TEST(EventDecider, SeesADifferenceOnTheCurveAndNoneBesideIt) {
   const Table table;
-  const std::vector<int> ids = table.group();
+  const std::vector<EdgeId> ids = table.group();
   ASSERT_EQ(ids.size(), 5u);
   EXPECT_TRUE(table.differs(0.25, ids));
   EXPECT_FALSE(table.differs(0.24, ids));

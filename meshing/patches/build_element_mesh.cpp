@@ -3,7 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/geometry/corner_fans.h"
 #include "meshing/geometry/link.h"
-#include "meshing/patches/element_mesh.h"
+#include "meshing/patches/detail/element_mesh.h"
 #include "meshing/patches/shared_points.h"
 
 #include <fmt/format.h>

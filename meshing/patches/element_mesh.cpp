@@ -1,4 +1,4 @@
-#include "meshing/patches/element_mesh.h"
+#include "meshing/patches/detail/element_mesh.h"
 
 #include "meshing/geometry/link.h"
 

@@ -1,7 +1,7 @@
 #include "meshing/patches/make_element_table.h"
 
 #include "meshing/geometry/corner_fans.h"
-#include "meshing/patches/element_mesh.h"
+#include "meshing/patches/detail/element_mesh.h"
 
 namespace halfshade {
 namespace {

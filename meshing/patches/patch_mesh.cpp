@@ -2,7 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/patches/build_element_mesh.h"
-#include "meshing/patches/element_mesh.h"
+#include "meshing/patches/detail/element_mesh.h"
 #include "meshing/patches/make_element_table.h"
 #include "meshing/patches/refine_elements.h"
 #include "meshing/patches/surface_meshes.h"

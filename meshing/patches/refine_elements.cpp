@@ -2,7 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/geometry/link.h"
-#include "meshing/patches/element_mesh.h"
+#include "meshing/patches/detail/element_mesh.h"
 
 #include <fmt/format.h>
 

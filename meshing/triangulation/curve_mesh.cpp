@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/triangles_inside.h"
 #include "meshing/core/error.h"
+#include "meshing/core/planar.h"
 #include "meshing/triangulation/curve_drawing.h"
 #include "meshing/triangulation/lazy_refinement.h"
 #include "meshing/triangulation/margins.h"

@@ -1,5 +1,7 @@
 #include "meshing/discontinuity/curve_fitting.h"
 
+#include "tests/support/critical_conic.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -30,7 +32,7 @@ TEST(FitArcs, OfThreeEdgesRunAlongTheirCriticalConicWithoutGaps) {
   set_edges(swath, edges);
   std::array<Line3, 3> lines;
   for (std::size_t k = 0; k < 3; ++k) lines[k] = {edges[k].from, edges[k].direction()};
-  const Conic conic = critical_conic(lines, ground);
+  const test::Conic conic = test::critical_conic(lines, ground);
   const double t0 = 0.4, t1 = 0.6;
   const std::vector<ConicArc> arcs = fit_arcs(swath, t0, t1, ground, flat);
   ASSERT_FALSE(arcs.empty());

@@ -51,6 +51,11 @@ std::vector<Vec3> corners(const WeldedVertices& vertices, const std::vector<int>
   return result;
 }
 
+LocalScale scale_of_face(const Scene& scene, int face, const WeldedVertices& vertices) {
+  const int point = vertices.of_vertex[at(scene.faces[at(face)].vertices.front())];
+  return {vertices.magnitude[at(point)], scale_of(face_corners(scene, face)).size};
+}
+
 double perimeter(const std::vector<Vec3>& polygon) {
   double sum = 0;
   for (std::size_t k = 0; k < polygon.size(); ++k)
@@ -126,7 +131,8 @@ std::vector<FacePiece> triangles_of(const Scene& scene, const FacePiece& piece,
   for (std::size_t t = 0; t < result.winding.size(); ++t) {
     if (result.winding[t].empty()) continue;
     const auto& [a, b, c] = result.hull.triangles[t];
-    FacePiece triangle{piece.face, {ids[at(a)], ids[at(b)], ids[at(c)]}};
+    FacePiece triangle{piece.face, {ids[at(a)], ids[at(b)], ids[at(c)]}, piece.scale};
+    triangle.scale.size = scale_of(corners(vertices, triangle.loop)).size;
     if (width_of(corners(vertices, triangle.loop)) > tolerance.length)
       triangles.push_back(std::move(triangle));
   }
@@ -145,10 +151,11 @@ std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
                                    std::vector<Repair>& repairs) {
   std::vector<FacePiece> faces;
   for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f) {
-    const LocalTolerance tolerance = tolerance_of(scale_of(face_corners(scene, f)));
+    const LocalScale scale = scale_of_face(scene, f, vertices);
+    const LocalTolerance tolerance = tolerance_of(scale);
     std::vector<int> loop = clean_loop(scene.faces[at(f)], vertices, tolerance.length);
     if (has_area(scene, f, corners(vertices, loop), tolerance))
-      faces.push_back({f, std::move(loop)});
+      faces.push_back({f, std::move(loop), scale});
     else
       repairs.push_back({Repair::Kind::degenerate_dropped, {f}, tolerance.length});
   }
@@ -156,7 +163,7 @@ std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
   std::vector<FacePiece> pieces;
   for (FacePiece& face : faces) {
     const std::vector<Vec3> polygon = corners(vertices, face.loop);
-    const LocalTolerance tolerance = tolerance_of(scale_of(polygon));
+    const LocalTolerance tolerance = tolerance_of(face.scale);
     const PlaneFrame frame = fit_plane(polygon);
     double deviation = 0;
     for (const Vec3& p : polygon) deviation = std::max(deviation, std::abs(frame.height(p)));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/sound_scene.h"
+#include "meshing/core/tolerance.h"
 #include "meshing/repair/weld.h"
 
 #include <vector>
@@ -11,6 +12,7 @@ namespace halfshade {
 struct FacePiece {
   int face = 0;
   std::vector<int> loop;  ///< points, counter-clockwise seen from the front
+  LocalScale scale;       ///< its magnitude is that of all it hangs together with
 };
 
 /// The faces as planar polygons of welded points, by face: without repeated corners, spikes, faces

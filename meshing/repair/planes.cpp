@@ -1,6 +1,5 @@
 #include "meshing/repair/planes.h"
 
-#include "meshing/core/tolerance.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -22,11 +21,12 @@ struct Polygon {
   Bounds box;
 };
 
-Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop) {
+Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop,
+                   const LocalScale& scale) {
   Polygon polygon;
+  polygon.scale = scale;
   for (const int p : loop) polygon.corners.push_back(points[at(p)]);
   polygon.frame = fit_plane(polygon.corners);
-  polygon.scale = scale_of(polygon.corners);
   for (const Vec3& p : polygon.corners) polygon.box.include(p);
   // Of the polygon's own; a neighbour that is larger comes to it.
   polygon.box = polygon.box.grown(tolerance_of(polygon.scale).planarity);
@@ -135,14 +135,14 @@ PlaneFrame plane_of(const std::vector<Polygon>& polygons, const std::vector<std:
 
 }  // namespace
 
-PlaneClasses classify_planes(std::span<const Vec3> points,
-                             std::span<const std::vector<int>> loops) {
+PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
+                             std::span<const LocalScale> scales) {
   PlaneClasses result;
   result.of_polygon.assign(loops.size(), -1);
   std::vector<Polygon> polygons;
   std::vector<double> area;
-  for (const std::vector<int>& loop : loops) {
-    polygons.push_back(polygon_of(points, loop));
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    polygons.push_back(polygon_of(points, loops[i], scales[i]));
     area.push_back(area_vector(polygons.back().corners).norm());
   }
   // The largest polygon defines its plane best.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/plane_frame.h"
+#include "meshing/core/tolerance.h"
 
 #include <span>
 #include <vector>
@@ -18,6 +19,8 @@ struct PlaneClasses {
 /// rounding of a file can have moved their corners (see tolerance_of); if they look opposite ways,
 /// only if arithmetic cannot tell their planes apart, for light passes through the narrowest gap.
 /// Deterministic; each polygon is compared with those near it only.
-PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops);
+/// `scales` has one entry a loop.
+PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
+                             std::span<const LocalScale> scales);
 
 }  // namespace halfshade

@@ -33,7 +33,7 @@ CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece,
   result.back = back;
   result.emits = (scene.materials[at(face.material)].exitance > 0).any();
   result.area = area_vector(polygon).norm();
-  result.scale = scale_of(polygon);
+  result.scale = piece.scale;
   result.loop = piece.loop;
   if (back) std::reverse(result.loop.begin(), result.loop.end());
   return result;
@@ -86,8 +86,12 @@ void report_lost(const PlaneSides& sides, const std::vector<SurfaceDraft>& draft
 std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
                                       std::vector<Vec3>& points, std::vector<Repair>& repairs) {
   std::vector<std::vector<int>> loops;
-  for (const FacePiece& piece : pieces) loops.push_back(piece.loop);
-  const PlaneClasses classes = classify_planes(points, loops);
+  std::vector<LocalScale> scales;
+  for (const FacePiece& piece : pieces) {
+    loops.push_back(piece.loop);
+    scales.push_back(piece.scale);
+  }
+  const PlaneClasses classes = classify_planes(points, loops, scales);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
   for (std::size_t plane = 0; plane < sides.size(); ++plane)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -21,6 +22,28 @@ std::vector<LocalScale> vertex_scales(const Scene& scene) {
     }
   }
   return scales;
+}
+
+/// The largest coordinate of each connected part of the scene, for each of its points.
+std::vector<double> connected_magnitudes(const Scene& scene, const WeldedVertices& vertices) {
+  std::vector<int> parent(vertices.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int p) {
+    while (parent[at(p)] != p) p = parent[at(p)] = parent[at(parent[at(p)])];
+    return p;
+  };
+  for (const Face& face : scene.faces)
+    for (const int v : face.vertices)
+      parent[at(root(vertices.of_vertex[at(v)]))] =
+          root(vertices.of_vertex[at(face.vertices.front())]);
+  std::vector<double> magnitude(parent.size(), 0);
+  for (std::size_t p = 0; p < parent.size(); ++p) {
+    double& largest = magnitude[at(root(static_cast<int>(p)))];
+    largest = std::max(largest, vertices.points[p].cwiseAbs().maxCoeff());
+  }
+  for (std::size_t p = 0; p < parent.size(); ++p)
+    magnitude[p] = magnitude[at(root(static_cast<int>(p)))];
+  return magnitude;
 }
 
 }  // namespace
@@ -60,6 +83,7 @@ WeldedVertices weld(const Scene& scene) {
       result.of_vertex[at(v)] = result.of_vertex[at(first)];
     }
   }
+  result.magnitude = connected_magnitudes(scene, result);
   return result;
 }
 

@@ -10,6 +10,9 @@ namespace halfshade {
 struct WeldedVertices {
   std::vector<Vec3> points;
   std::vector<int> of_vertex;  ///< vertex → point; −1 for vertices no face uses
+  /// Point → the largest coordinate of all that faces connect it with: what hangs together was
+  /// rounded together, also near the origin.
+  std::vector<double> magnitude;
 };
 
 /// Welds vertices that are the same point as far as their coordinates and the smallest of the faces

@@ -47,7 +47,12 @@ struct Sheets {
     loops.push_back(up ? std::vector<int>{first, first + 1, first + 2}
                        : std::vector<int>{first, first + 2, first + 1});
   }
-  PlaneClasses classes() const { return classify_planes(points, loops); }
+  PlaneClasses classes() const {
+    std::vector<LocalScale> scales;
+    for (const std::vector<int>& loop : loops)
+      scales.push_back(scale_of(std::span(points).subspan(at(loop[0]), 3)));
+    return classify_planes(points, loops, scales);
+  }
 };
 
 TEST(ClassifyPlanes, ThatLookTheSameWayAreOneToWithinTheRoundingOfAFile) {

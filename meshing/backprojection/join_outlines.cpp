@@ -16,8 +16,14 @@ struct Corners {
   std::vector<int> edge;
 };
 
-void add_ring(const Surface& surface, const Ring& ring, const Tolerance& tolerance, int first_edge,
-              Corners& corners) {
+/// A sun among the surfaces must not join the corners of a table.
+LocalTolerance tolerance_about(const Surface& surface, const Tolerance& scene) {
+  const LocalTolerance own = tolerance_of({scene.scene_size, size_of(surface)});
+  return {std::min(scene.length, own.length), std::min(scene.planarity, own.planarity)};
+}
+
+void add_ring(const Surface& surface, const Ring& ring, const LocalTolerance& tolerance,
+              int first_edge, Corners& corners) {
   const std::size_t n = ring.size();
   for (std::size_t k = 0; k < n; ++k) {
     const double before = (ring[k] - ring[(k + n - 1) % n]).norm();
@@ -82,14 +88,17 @@ struct EdgeFiller {
 void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
   Corners corners;
   std::vector<int> sizes;
+  std::vector<double> reach;  // of each ring's edges
   for (const Surface& surface : scene.surfaces) {
     OpaqueTopology::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
-                                         static_cast<int>(surface.rings.size())};
+                                         static_cast<int>(surface.rings.size()),
+                                         tolerance_about(surface, scene.tolerance)};
     int first_edge = 0;
     for (const Ring& ring : surface.rings) {
-      add_ring(surface, ring, scene.tolerance, first_edge, corners);
+      add_ring(surface, ring, opaque.tolerance, first_edge, corners);
       first_edge += static_cast<int>(ring.size());
       sizes.push_back(static_cast<int>(ring.size()));
+      reach.push_back(opaque.tolerance.length);
     }
     out.surfaces.push_back(opaque);
   }
@@ -99,13 +108,14 @@ void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
   const FlatTree tree = make_flat_tree(boxes);
   EdgeFiller filler{out.vertices, tree, {}};
   std::size_t first = 0;
-  for (const int size : sizes) {
+  for (std::size_t r = 0; r < sizes.size(); ++r) {
+    const int size = sizes[r];
     OpaqueTopology::RingRange range{static_cast<int>(out.outline.size()), 0};
     for (std::size_t k = 0; k < at(size); ++k) {
       const int from = vertex[first + k], to = vertex[first + (k + 1) % at(size)];
       if (from == to) continue;
       out.outline.push_back({from, corners.edge[first + k]});
-      filler.add(from, to, corners.edge[first + k], scene.tolerance.length, out.outline);
+      filler.add(from, to, corners.edge[first + k], reach[r], out.outline);
     }
     range.count = static_cast<int>(out.outline.size()) - range.first;
     out.rings.push_back(range);

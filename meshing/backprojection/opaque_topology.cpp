@@ -29,7 +29,6 @@ void connect_triangles(OpaqueTopology& out) {
 
 OpaqueTopology make_opaque_topology(const SoundScene& scene) {
   OpaqueTopology topology;
-  topology.tolerance = scene.tolerance;
   join_outlines(scene, topology);
   cut_into_triangles(scene, topology);
   connect_triangles(topology);

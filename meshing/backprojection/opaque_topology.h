@@ -36,6 +36,7 @@ struct OpaqueTopology {
   struct OpaqueSurface {
     PlaneFrame frame;
     int first_ring = 0, ring_count = 0;  ///< range of rings
+    LocalTolerance tolerance;  ///< the scene's, but no noticeable part of the surface's own size
   };
   struct RingRange {
     int first = 0, count = 0;  ///< range of outline
@@ -49,7 +50,6 @@ struct OpaqueTopology {
   std::vector<RingRange> rings;
   std::vector<OutlineVertex> outline;
 
-  Tolerance tolerance;
   double magnitude = 0;  ///< the largest coordinate
 
   /// The outline as rings of vertices, T-junctions included.

@@ -127,11 +127,12 @@ int PointView::turn(int a, int b, int c) const {
 bool PointView::is_edge_on(int surface) {
   Kept& kept = edge_on_[at(surface)];
   if (!is_fresh(kept)) {
-    const PlaneFrame& frame = topology_.surfaces[at(surface)].frame;
+    const OpaqueTopology::OpaqueSurface& opaque = topology_.surfaces[at(surface)];
+    const PlaneFrame& frame = opaque.frame;
     const double height = std::abs(frame.height(point_));
     kept = {query_,
             height <= slack_ ||
-                (height <= topology_.tolerance.length &&
+                (height <= opaque.tolerance.length &&
                  std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
   }
   return kept.value != 0;
@@ -149,7 +150,7 @@ bool PointView::touches(int id) const {
           surface.frame.to_plane(topology_.vertices[at(ring[(k + 1) % ring.size()].vertex)]);
       const Vec2 p = surface.frame.to_plane(point_), along = b - a;
       const double t = std::clamp(along.dot(p - a) / along.squaredNorm(), 0., 1.);
-      if ((p - a - t * along).norm() <= topology_.tolerance.length) return true;
+      if ((p - a - t * along).norm() <= surface.tolerance.length) return true;
       if ((a.y() > p.y()) != (b.y() > p.y()) &&
           p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x()))
         inside = !inside;
@@ -164,10 +165,11 @@ int PointView::face_sign(int triangle) {
     const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
     std::array<int, 3> c{};
     bool blocks = false, flat = true;
+    const double length = topology_.surfaces[at(face.surface)].tolerance.length;
     for (std::size_t k = 0; k < 3; ++k) {
       c[k] = corner_of_vertex(face.corner[k]);
       blocks = blocks || corners[at(c[k])].side == PlaneSide::before;
-      flat = flat && std::abs(corners[at(c[k])].height) <= topology_.tolerance.length;
+      flat = flat && std::abs(corners[at(c[k])].height) <= length;
     }
     kept = {query_, blocks && !flat && !is_edge_on(face.surface) ? turn(c[0], c[1], c[2]) : 0};
   }

@@ -1,6 +1,5 @@
 #include "solver/pipeline/sources.h"
 
-#include "meshing/backprojection/edge_sum.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 
@@ -11,11 +10,8 @@ namespace {
 
 /// About how many elements tell which surfaces reflect most.
 constexpr int coarse_elements = 1000;
-/// Beyond this share of all area that emits, and of what surfaces see that does, direct light is no
-/// sharper than reflected.
+/// Beyond this share of all area that emits, direct light is no sharper than reflected.
 constexpr double most = 0.5;
-/// So many surfaces at most tell what surfaces see.
-constexpr std::size_t viewers = 64;
 /// Shares of power this much above the tolerance, relatively, are still within it.
 constexpr double rounding = 1e-9;
 
@@ -36,38 +32,6 @@ CoarseSolution solve_coarsely(const PreparedScene& prepared, const Progress& pro
                                options, progress, stages)
                        .solution;
   return solution;
-}
-
-bool emits(const SoundScene& scene, const Surface& surface) {
-  return (scene.materials[at(surface.material)].exitance > 0).any();
-}
-
-/// The share of its horizon that emitters fill, seen from the middle of a surface and with nothing
-/// in between.
-double share_of_emitters(const SoundScene& scene, const Surface& viewer) {
-  Vec2 middle = Vec2::Zero();
-  for (const Vec2& p : viewer.rings[0]) middle += p;
-  const Vec3 point = viewer.frame.to_space(middle / static_cast<double>(viewer.rings[0].size()));
-  double share = 0;
-  for (const Surface& surface : scene.surfaces) {
-    if (!emits(scene, surface)) continue;
-    std::vector<std::vector<Vec3>> rings;
-    for (const Ring& ring : surface.rings) {
-      rings.emplace_back();
-      for (const Vec2& p : ring) rings.back().push_back(surface.frame.to_space(p));
-    }
-    share += unobstructed_factor(point, viewer.frame.normal, rings);
-  }
-  return share;
-}
-
-/// Its mean over the surfaces, each counting alike: a sun is large, and fills little.
-double mean_share_of_emitters(const SoundScene& scene) {
-  const std::size_t step = (scene.surfaces.size() + viewers - 1) / viewers;
-  double sum = 0, count = 0;
-  for (std::size_t s = 0; s < scene.surfaces.size(); s += step, ++count)
-    sum += share_of_emitters(scene, scene.surfaces[s]);
-  return sum / count;
 }
 
 }  // namespace
@@ -124,10 +88,11 @@ std::vector<LightSource> strong_enough(std::vector<LightSource> sources, const S
 std::string most_surfaces_emit(const SoundScene& scene) {
   double all = 0, emitting = 0;
   for (const Surface& surface : scene.surfaces) {
+    const Material& material = scene.materials[at(surface.material)];
     all += area(surface);
-    if (emits(scene, surface)) emitting += area(surface);
+    if ((material.exitance > 0).any()) emitting += area(surface);
   }
-  return emitting > most * all && mean_share_of_emitters(scene) > most
+  return emitting > most * all
              ? "most surfaces emit, so that direct light is no sharper than reflected"
              : "";
 }

@@ -23,8 +23,7 @@ std::vector<LightSource> all_sources(const PreparedScene& prepared, int secondar
 std::vector<LightSource> strong_enough(std::vector<LightSource> sources, const SoundScene& scene,
                                        double tolerance);
 
-/// Why direct light, and the curves where it breaks, deserve no effort; empty if they do: in
-/// furnaces, where emitters are most of the area and of what surfaces see.
+/// Why direct light, and the curves where it breaks, deserve no effort; empty if they do.
 std::string most_surfaces_emit(const SoundScene& scene);
 
 }  // namespace halfshade

@@ -32,7 +32,7 @@ void ShadowArrangement::collect_silhouettes() {
         const Bounds& box = trees.closed_edges.nodes[at(index)].box;
         if (pyramid.is_outside(box)) return true;
         // Faces beyond the emitter's plane or in it do not count, so their edges may matter.
-        return look_one_way(trees.cones[at(index)], pyramid.eye, pyramid.slack) &&
+        return look_one_way(trees.cones[at(index)], pyramid.eye, pyramid.margin(box)) &&
                pyramid.is_before_plane(box);
       },
       consider);

@@ -100,6 +100,7 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   pyramid.normal = frame.normal;
   pyramid.plane_point = frame.origin;
   pyramid.slack = rounding::pyramid_margin * view.blur();
+  pyramid.spread = pyramid.slack / view.magnitude();
   pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
   for (const OutlineEdge& edge : edges) {
     pyramid.low = pyramid.low.cwiseMin(view.corners[at(edge.from)].image);

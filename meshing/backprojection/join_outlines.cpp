@@ -16,12 +16,6 @@ struct Corners {
   std::vector<int> edge;
 };
 
-/// A sun among the surfaces must not join the corners of a table.
-LocalTolerance tolerance_about(const Surface& surface, const Tolerance& scene) {
-  const LocalTolerance own = tolerance_of({scene.scene_size, size_of(surface)});
-  return {std::min(scene.length, own.length), std::min(scene.planarity, own.planarity)};
-}
-
 void add_ring(const Surface& surface, const Ring& ring, const LocalTolerance& tolerance,
               int first_edge, Corners& corners) {
   const std::size_t n = ring.size();
@@ -92,11 +86,14 @@ void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
   for (const Surface& surface : scene.surfaces) {
     OpaqueTopology::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
                                          static_cast<int>(surface.rings.size()),
-                                         tolerance_about(surface, scene.tolerance)};
+                                         tolerance_of(surface)};
     int first_edge = 0;
     for (const Ring& ring : surface.rings) {
       add_ring(surface, ring, opaque.tolerance, first_edge, corners);
       first_edge += static_cast<int>(ring.size());
+      for (const Vec2& p : ring)
+        opaque.magnitude =
+            std::max(opaque.magnitude, surface.frame.to_space(p).lpNorm<Eigen::Infinity>());
       sizes.push_back(static_cast<int>(ring.size()));
       reach.push_back(opaque.tolerance.length);
     }

@@ -1,6 +1,7 @@
 #include "meshing/backprojection/opaque_topology.h"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace halfshade {
@@ -20,7 +21,10 @@ void connect_triangles(OpaqueTopology& out) {
   });
   for (const Use& use : uses) {
     if (out.edges.empty() || out.edges.back().from != use.from || out.edges.back().to != use.to)
-      out.edges.push_back({use.from, use.to, static_cast<int>(out.incidences.size()), 0});
+      out.edges.push_back({use.from, use.to, static_cast<int>(out.incidences.size()), 0, HUGE_VAL});
+    const double length =
+        out.surfaces[at(out.triangles[at(use.triangle)].surface)].tolerance.length;
+    out.edges.back().joined = std::min(out.edges.back().joined, length);
     ++out.edges.back().count;
     out.incidences.push_back({use.triangle, use.direction});
     out.triangles[at(use.triangle)].edge[at(use.side)] = static_cast<int>(out.edges.size()) - 1;

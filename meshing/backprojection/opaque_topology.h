@@ -21,6 +21,7 @@ struct OpaqueTopology {
   struct Edge {
     int from, to;              ///< into vertices; from < to
     int first = 0, count = 0;  ///< range of incidences
+    double joined = 0;         ///< what is closer to it than this is meant to lie on it
   };
   struct Incidence {
     int triangle;
@@ -36,7 +37,8 @@ struct OpaqueTopology {
   struct OpaqueSurface {
     PlaneFrame frame;
     int first_ring = 0, ring_count = 0;  ///< range of rings
-    LocalTolerance tolerance;  ///< the scene's, but no noticeable part of the surface's own size
+    LocalTolerance tolerance;
+    double magnitude = 0;  ///< its largest coordinate
   };
   struct RingRange {
     int first = 0, count = 0;  ///< range of outline

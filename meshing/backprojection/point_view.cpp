@@ -27,12 +27,18 @@ double reach(const Bounds& box, const Vec3& normal) {
 
 }  // namespace
 
+/// A box that reaches far away is rounded more coarsely than what is near the pyramid.
+double SightPyramid::margin(const Bounds& box) const {
+  return slack + spread * (box.high - box.low).maxCoeff();
+}
+
 bool SightPyramid::is_outside(const Bounds& box) const {
   const Vec3 centre = 0.5 * (box.low + box.high);
-  if (normal.dot(centre - plane_point) + reach(box, normal) < -slack) return true;
+  const double allowed = margin(box);
+  if (normal.dot(centre - plane_point) + reach(box, normal) < -allowed) return true;
   const Vec3 offset = centre - eye;
   for (const Vec3& side : sides)
-    if (side.dot(offset) - reach(box, side) > slack) return true;
+    if (side.dot(offset) - reach(box, side) > allowed) return true;
   return false;
 }
 
@@ -43,12 +49,12 @@ bool SightPyramid::is_outside(const Vec3& from, const Vec3& to) const {
 }
 
 bool SightPyramid::is_before_plane(const Bounds& box) const {
-  return normal.dot(0.5 * (box.low + box.high) - plane_point) - reach(box, normal) > slack;
+  return normal.dot(0.5 * (box.low + box.high) - plane_point) - reach(box, normal) > margin(box);
 }
 
 bool SightPyramid::crosses_plane(const Bounds& box) const {
   return std::abs(normal.dot(0.5 * (box.low + box.high) - plane_point)) <=
-         reach(box, normal) + slack;
+         reach(box, normal) + margin(box);
 }
 
 PointView::PointView(const OpaqueScene& scene)
@@ -72,7 +78,9 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   normal_ = normal;
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  slack_ = rounding::slack * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
+  magnitude_ =
+      std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
+  slack_ = rounding::slack * magnitude_;
 }
 
 std::int64_t PointView::first_free_rank() const {
@@ -82,12 +90,14 @@ std::int64_t PointView::first_free_rank() const {
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   Corner corner;
   corner.true_position = corner.position = position;
-  if (jitter_ > 0) corner.position += scatter(rank, jitter_);
+  const double size = std::max(magnitude_, position.lpNorm<Eigen::Infinity>());
+  if (jitter_ > 0) corner.position += scatter(rank, jitter_ * size);
   corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);
-  if (corner.height <= slack_)
-    corner.side = corner.height < -slack_ ? PlaneSide::beyond : PlaneSide::on;
+  const double slack = rounding::slack * size;
+  if (corner.height <= slack)
+    corner.side = corner.height < -slack ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
   corner.is_ahead = depth > rounding::nearest_image * distance_;
   if (corner.is_ahead)
@@ -130,8 +140,10 @@ bool PointView::is_edge_on(int surface) {
     const OpaqueTopology::OpaqueSurface& opaque = topology_.surfaces[at(surface)];
     const PlaneFrame& frame = opaque.frame;
     const double height = std::abs(frame.height(point_));
+    const double slack =
+        rounding::slack * std::max(opaque.magnitude, point_.lpNorm<Eigen::Infinity>());
     kept = {query_,
-            height <= slack_ ||
+            height <= slack ||
                 (height <= opaque.tolerance.length &&
                  std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
   }
@@ -221,7 +233,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
   const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
-  const Vec3 margin = Vec3::Constant(blur() * last);
+  const double margin = blur() * last, spread = rounding::slack + 2 * jitter_;
   const Vec3 inverse = target.direction.unaryExpr([](double d) {
     return 1 / (std::abs(d) > rounding::least_slope ? d : rounding::least_slope);
   });
@@ -230,8 +242,10 @@ int PointView::layers_over(const DirectionBeside& direction) {
   while (depth > 0) {
     const int index = stack[--depth];
     const FlatTree::Node& node = tree.nodes[at(index)];
-    const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
-    const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
+    const Vec3 wider =
+        Vec3::Constant(margin + spread * (node.box.high - node.box.low).maxCoeff());
+    const Vec3 low = (node.box.low - wider - point_).cwiseProduct(inverse);
+    const Vec3 high = (node.box.high + wider - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
     const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding::slack));
     if (enter > leave) continue;

@@ -34,7 +34,8 @@ struct DirectionBeside {
 struct SightPyramid {
   std::vector<Vec3> sides;  ///< unit length, outwards; planes through the point
   Vec3 eye = Vec3::Zero(), normal = Vec3::Zero(), plane_point = Vec3::Zero();
-  double slack = 0;  ///< rounding of a distance
+  double slack = 0;   ///< rounding of a distance near the pyramid
+  double spread = 0;  ///< rounding as a share of how far a box reaches
   Vec2 low, high;    ///< of the outline's image
 
   /// Neither can be wrong about something that is inside.
@@ -43,6 +44,8 @@ struct SightPyramid {
   /// The box lies wholly between the point's side and the emitter's plane, clear of the latter.
   bool is_before_plane(const Bounds& box) const;
   bool crosses_plane(const Bounds& box) const;
+  /// Rounding where a box is tested.
+  double margin(const Bounds& box) const;
 };
 
 /// Everything about a scene that depends on the point and the emitter, found when asked for and
@@ -51,8 +54,8 @@ class PointView {
  public:
   explicit PointView(const OpaqueScene& scene);
 
-  /// With a positive `jitter` (a length), every corner decides as if it lay up to that far from
-  /// its true position, in a direction that depends on its rank.
+  /// With a positive `jitter`, every corner decides as if it lay up to that share of the largest
+  /// coordinate concerned from its true position, in a direction that depends on its rank.
   void start(const Vec3& point, const Vec3& normal, int emitter, double jitter = 0);
 
   const OpaqueTopology& topology() const { return topology_; }
@@ -60,10 +63,12 @@ class PointView {
   const FlatTree& face_tree() const { return face_tree_; }
   const PlaneFrame& emitter() const { return *emitter_; }
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
-  double slack() const { return slack_; }        ///< rounding of a distance
-  double jitter() const { return jitter_; }
+  /// The largest coordinate of the point and the emitter, between which all that counts lies.
+  double magnitude() const { return magnitude_; }
+  double slack() const { return slack_; }  ///< rounding of a distance between them
+  double jitter() const { return jitter_ * magnitude_; }  ///< a length
   /// How far anything may be from where it should be.
-  double blur() const { return slack_ + 2 * jitter_; }
+  double blur() const { return slack_ + 2 * jitter(); }
   const Vec3& point() const { return point_; }
 
   std::vector<Corner> corners;
@@ -107,7 +112,7 @@ class PointView {
   std::uint32_t query_ = 0;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;
-  double distance_ = 0, slack_ = 0, jitter_ = 0;
+  double distance_ = 0, magnitude_ = 0, slack_ = 0, jitter_ = 0;
 };
 
 }  // namespace halfshade

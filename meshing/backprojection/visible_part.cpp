@@ -81,10 +81,9 @@ void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
   Impl& m = *impl_;
   check(m.view.topology(), point, normal, surface);
   clear(part);
-  const double size = std::max(m.view.topology().magnitude, point.lpNorm<Eigen::Infinity>());
   double jitter = 0;
   for (int attempt = 0; attempt < rounding::most_attempts; ++attempt) {
-    if (!m.try_with(jitter * size, point, normal, surface)) return;
+    if (!m.try_with(jitter, point, normal, surface)) return;
     if (m.arrangement.is_consistent && m.chains.closed) break;
     jitter = std::max(rounding::jitter_growth * jitter, rounding::least_jitter);
   }

@@ -4,6 +4,12 @@
 
 namespace halfshade {
 
+LocalTolerance tolerance_of(const Surface& surface) { return tolerance_of(surface.scale); }
+
+LocalTolerance tolerance_of(const Surface& a, const Surface& b) {
+  return tolerance_of(joint_scale(a.scale, b.scale));
+}
+
 double area(const Surface& surface) {
   double twice = 0;
   for (const Ring& ring : surface.rings)

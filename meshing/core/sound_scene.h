@@ -20,6 +20,7 @@ struct Surface {
   std::vector<Ring> rings;  ///< the outer boundary (counter-clockwise), then the holes (clockwise)
   std::vector<Segment2> contacts;  ///< inner D0 lines: where edges of other surfaces lie in the
                                    ///< polygon or others cut through it
+  LocalScale scale;                ///< of all that hangs together with it, and its own size
   int material = 0;
   int group = 0;
   int plane = 0;           ///< surfaces in one plane, facing either way, share this id
@@ -52,6 +53,10 @@ struct SoundScene {
   Tolerance tolerance;
   std::vector<Repair> repairs;
 };
+
+/// Lengths below which parts of a surface, or of two of them, count as one.
+LocalTolerance tolerance_of(const Surface& surface);
+LocalTolerance tolerance_of(const Surface& a, const Surface& b);
 
 /// Area of a surface in squared scene units.
 double area(const Surface& surface);

@@ -40,9 +40,10 @@ std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterSce
   for (const auto& edge : opaque.edges) {
     const Vec3 &from = opaque.vertices[at(edge.from)], &to = opaque.vertices[at(edge.to)];
     const double a = emitter_scene.frame.height(from), b = emitter_scene.frame.height(to);
-    if (std::max(a, b) <= emitter_scene.slack || std::min(a, b) >= -emitter_scene.slack) {
-      if (std::abs(a) <= emitter_scene.slack) points.push_back(from);
-      if (std::abs(b) <= emitter_scene.slack) points.push_back(to);
+    const double slack = std::max(emitter_scene.slack, slack_of({from, to}));
+    if (std::max(a, b) <= slack || std::min(a, b) >= -slack) {
+      if (std::abs(a) <= slack) points.push_back(from);
+      if (std::abs(b) <= slack) points.push_back(to);
     } else {
       points.push_back(from + a / (a - b) * (to - from));
     }
@@ -97,13 +98,13 @@ std::vector<double> cut_range(const std::array<double, 2>& range, std::span<cons
 }
 
 /// Appends a piece of the line in which a receiver meets the emitter's plane, or makes the last
-/// curve longer if that is such a piece and ends within `slack` (a length) of this one.
+/// curve longer if that is such a piece and ends within a side step of this one.
 void append_plane_curve(const EmitterScene& emitter_scene, int receiver, const Vec2& from,
-                        const Vec2& to, double slack, std::vector<DiscontinuityCurve>& curves) {
+                        const Vec2& to, double step, std::vector<DiscontinuityCurve>& curves) {
   const CurveSource source = {
       CurveKind::face, {Feature{Feature::Kind::face, emitter_scene.emitter}}, 1};
   if (!curves.empty() && curves.back().receiver == receiver && curves.back().sources[0] == source &&
-      (curves.back().arc.to - from).norm() <= slack) {
+      (curves.back().arc.to - from).norm() <= step) {
     curves.back().arc = straight_arc(curves.back().arc.from, to);
     return;
   }
@@ -112,6 +113,7 @@ void append_plane_curve(const EmitterScene& emitter_scene, int receiver, const V
   curve.emitter = emitter_scene.emitter;
   curve.kind = CurveKind::face;
   curve.order = 1;
+  curve.step = step;
   curve.arc = straight_arc(from, to);
   curve.sight_plane = emitter_scene.frame.normal;
   curve.sources = {source};
@@ -133,7 +135,7 @@ void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
   // Into the half-space in front of the emitter.
   const Vec3 left = target.frame.normal.cross(line->direction);
   const double ahead = emitter_scene.frame.normal.dot(left) > 0 ? 1 : -1;
-  const double step = side_step(scene, opaque);
+  const double step = side_step(target);
   const auto place = [&](double t) -> Vec2 { return line->start + t * line->along; };
   VisiblePartFinder finder(opaque);
   VisiblePart part;
@@ -154,7 +156,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
                     const EmitterScene& emitter_scene, int receiver,
                     std::vector<DiscontinuityCurve>& curves) {
   const Surface& target = scene.surfaces[at(receiver)];
-  const double step = side_step(scene, opaque);
+  const double step = side_step(target);
   VisiblePartFinder finder(opaque);
   VisiblePart part;
   for (const Segment2& contact : target.contacts) {
@@ -175,6 +177,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
     curve.emitter = emitter_scene.emitter;
     curve.kind = CurveKind::contact;
     curve.order = 0;
+    curve.step = step;
     curve.arc = straight_arc(contact[0], contact[1]);
     curve.sources = {{CurveKind::contact, {}, 0}};
     curves.push_back(std::move(curve));

@@ -10,11 +10,24 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace halfshade {
 namespace {
 
 using Curves = std::vector<DiscontinuityCurve>;
+
+void append(Curves&& more, Curves& curves) {
+  curves.insert(curves.end(), std::make_move_iterator(more.begin()),
+                std::make_move_iterator(more.end()));
+}
+
+void sort_by_receiver(Curves& curves) {
+  std::stable_sort(curves.begin(), curves.end(),
+                   [](const DiscontinuityCurve& a, const DiscontinuityCurve& b) {
+                     return a.receiver < b.receiver;
+                   });
+}
 
 /// One worker a thread, made when it is first needed. Results do not depend on which thread has
 /// done what, for workers keep nothing between jobs but buffers and counts.
@@ -64,7 +77,7 @@ class Search {
     }
     for (const DiscontinuityCurve& curve : curves_)
       ++report_.found[static_cast<std::size_t>(curve.kind)];
-    report_.merged += merge_coincident(curves_, scene_.tolerance.length);
+    merge();
     predict_jumps();
     return std::move(curves_);
   }
@@ -81,9 +94,7 @@ class Search {
           generate(static_cast<int>(i), [&](const Swath& swath) { tracer.trace(swath, found[i]); });
         },
         progress_, name);
-    for (Curves& curves : found)
-      curves_.insert(curves_.end(), std::make_move_iterator(curves.begin()),
-                     std::make_move_iterator(curves.end()));
+    for (Curves& curves : found) append(std::move(curves), curves_);
   }
 
   void find_triples() {
@@ -103,6 +114,24 @@ class Search {
         for (const int c : common) triple_swath(emitter_scene_, a, b, c, sink);
       }
     });
+  }
+
+  /// Receiver by receiver, each with its own idea of what is the same.
+  void merge() {
+    sort_by_receiver(curves_);
+    Curves merged;
+    for (auto begin = curves_.begin(); begin != curves_.end();) {
+      const int receiver = begin->receiver;
+      const auto end = std::find_if(begin, curves_.end(), [&](const DiscontinuityCurve& curve) {
+        return curve.receiver != receiver;
+      });
+      Curves own(std::make_move_iterator(begin), std::make_move_iterator(end));
+      report_.merged +=
+          merge_coincident(own, tolerance_of(scene_.surfaces[at(receiver)]).length);
+      append(std::move(own), merged);
+      begin = end;
+    }
+    curves_ = std::move(merged);
   }
 
   void predict_jumps() {
@@ -137,14 +166,9 @@ Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene&
   Discontinuities result;
   result.sources.assign(sources.begin(), sources.end());
   for (const LightSource& source : sources) {
-    Curves curves = Search(scene, opaque, source, options, progress, result.report).run();
-    result.curves.insert(result.curves.end(), std::make_move_iterator(curves.begin()),
-                         std::make_move_iterator(curves.end()));
+    append(Search(scene, opaque, source, options, progress, result.report).run(), result.curves);
   }
-  std::stable_sort(result.curves.begin(), result.curves.end(),
-                   [](const DiscontinuityCurve& a, const DiscontinuityCurve& b) {
-                     return a.receiver < b.receiver;
-                   });
+  sort_by_receiver(result.curves);
   result.report.interrupted = progress.stopped();
   return result;
 }

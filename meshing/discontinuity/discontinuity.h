@@ -29,6 +29,7 @@ struct DiscontinuityCurve {
   /// Jump of the k-th derivative along the unit normal, from the right of the arc to its left, at
   /// s = 1/6, 1/2 and 5/6; W/m² per length^k, of the emitter's strongest channel.
   std::array<double, 3> jump{};
+  double step = 0;  ///< how far to its sides it was found that what is seen differs, scene units
   std::vector<EdgeTriple> triples;   ///< what the second derivative's jump is the sum of
   std::vector<CurveSource> sources;  ///< everything that makes a curve here, sorted
 };

@@ -3,30 +3,31 @@
 #include "meshing/discontinuity/rounding.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
 
-bool has_shorter_edges(const EmitterScene& emitter_scene, double length) {
-  const auto is_short = [&](const Span3& span) { return span.direction().norm() < length; };
-  return std::any_of(emitter_scene.edges.begin(), emitter_scene.edges.end(),
-                     [&](const SilhouetteEdge& edge) { return is_short(edge.whole); }) ||
-         std::any_of(emitter_scene.outline.begin(), emitter_scene.outline.end(),
-                     [&](const OutlinePiece& piece) { return is_short(piece.span); });
+double shortest_edge(const EmitterScene& emitter_scene) {
+  double least = HUGE_VAL;
+  for (const SilhouetteEdge& edge : emitter_scene.edges)
+    least = std::min(least, edge.whole.direction().norm());
+  for (const OutlinePiece& piece : emitter_scene.outline)
+    least = std::min(least, piece.span.direction().norm());
+  return least;
 }
 
 }  // namespace
 
-EventDecider::EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
-                           const EmitterScene& emitter_scene)
+EventDecider::EventDecider(const OpaqueScene& opaque, const EmitterScene& emitter_scene)
     : emitter_(emitter_scene.emitter),
-      step_(side_step(scene, opaque)),
-      has_fine_detail_(has_shorter_edges(emitter_scene, fine_detail * scene.tolerance.scene_size)),
+      shortest_edge_(shortest_edge(emitter_scene)),
       finder_(opaque) {}
 
-EventEvidence EventDecider::decide(const ReceivingPoint& at, std::span<const EdgeId> group) {
-  EventEvidence evidence = compare(at, wide_step * step_, group);
-  if (!evidence.differs && has_fine_detail_) evidence = compare(at, step_, group);
+EventEvidence EventDecider::decide(const ReceivingPoint& at, double step,
+                                   std::span<const EdgeId> group) {
+  EventEvidence evidence = compare(at, wide_step * step, group);
+  if (!evidence.differs && shortest_edge_ < fine_detail * step) evidence = compare(at, step, group);
   std::sort(evidence.triples.begin(), evidence.triples.end());
   return evidence;
 }

@@ -13,21 +13,19 @@ namespace halfshade {
 /// it. Keeps its buffers between calls; one a thread.
 class EventDecider {
  public:
-  /// All must outlive the decider.
-  EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
-               const EmitterScene& emitter_scene);
+  /// Both must outlive the decider.
+  EventDecider(const OpaqueScene& opaque, const EmitterScene& emitter_scene);
 
-  /// How the places where edges of `group` (sorted) follow each other differ between the sides of a
+  /// `step`: see side_step. How the places where edges of `group` (sorted) follow each other differ between the sides of a
   /// curve that would be normal to `at.across`, which is its left; triples sorted. Costs two or
   /// four visible parts.
-  EventEvidence decide(const ReceivingPoint& at, std::span<const EdgeId> group);
+  EventEvidence decide(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
 
  private:
   EventEvidence compare(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
 
   int emitter_;
-  double step_;  ///< see side_step
-  bool has_fine_detail_ = false;
+  double shortest_edge_;
   VisiblePartFinder finder_;
   VisiblePart left_, right_;
 };

@@ -48,6 +48,7 @@ DiscontinuityCurve stack(std::span<const DiscontinuityCurve> curves,
   result.sources.clear();
   for (const StackedCurve& member : members) {
     const DiscontinuityCurve& curve = curve_of(member);
+    result.step = std::min(result.step, curve.step);
     if (rank(curve) < rank(result)) {
       result.order = curve.order;
       result.kind = curve.kind;

@@ -3,7 +3,9 @@
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/discontinuity/event_jump.h"
 #include "meshing/discontinuity/rounding.h"
+#include "meshing/events/rounding.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -22,7 +24,6 @@ JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
     : scene_(scene),
       opaque_(opaque),
       emitter_scene_(emitter_scene),
-      step_(side_step(scene, opaque)),
       finder_(opaque) {}
 
 void JumpPredictor::predict(DiscontinuityCurve& curve) {
@@ -48,11 +49,11 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
     return curve.order == 0 ? value_jump(point, step * left, plane.normal)
                             : slope_jump(curve, point, step * left, plane.normal);
   };
-  const double near = at_step(step_);
+  const double near = at_step(curve.step);
   if (near == 0) return 0;
   // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
   // the whole jump is due to the step.
-  const double limit = 2 * near - at_step(2 * step_);
+  const double limit = 2 * near - at_step(2 * curve.step);
   return std::abs(limit) > share_in_limit * std::abs(near) ? limit : 0;
 }
 
@@ -63,7 +64,7 @@ double JumpPredictor::value_jump(const Vec3& point, const Vec3& step, const Vec3
 
 double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& point,
                                  const Vec3& step, const Vec3& normal) const {
-  if (std::abs(emitter_scene_.frame.height(point)) <= step_)  // the emitter is seen edge-on
+  if (std::abs(emitter_scene_.frame.height(point)) <= curve.step)  // the emitter is seen edge-on
     return (enclosed_factor(point + step, normal, left_.pieces) +
             enclosed_factor(point - step, normal, right_.pieces)) /
            step.norm();
@@ -85,8 +86,11 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
                                         EdgeId edge) const {
-  const Line3 line = line_of(emitter_scene_, opaque_.topology(), edge);
-  const double slack = in_plane * emitter_scene_.joined;
+  const OpaqueTopology& opaque = opaque_.topology();
+  const Line3 line = line_of(emitter_scene_, opaque, edge);
+  const double joined =
+      edge.kind == EdgeId::Kind::edge ? opaque.edges[at(edge.id)].joined : emitter_scene_.joined;
+  const double slack = in_plane * std::max(joined, slack_at(line.point));
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }

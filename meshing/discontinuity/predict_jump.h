@@ -30,7 +30,6 @@ class JumpPredictor {
   const SoundScene& scene_;
   const OpaqueScene& opaque_;
   const EmitterScene& emitter_scene_;
-  double step_;  ///< see side_step
   VisiblePartFinder finder_;
   VisiblePart left_, right_;
 };

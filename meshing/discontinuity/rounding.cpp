@@ -1,17 +1,35 @@
 #include "meshing/discontinuity/rounding.h"
 
-#include "meshing/backprojection/opaque_scene.h"
-#include "meshing/backprojection/opaque_topology.h"
+#include "meshing/events/emitter_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace halfshade {
+namespace {
 
-double side_step(const SoundScene& scene, const OpaqueScene& opaque) {
-  return std::max(
-      relative_step * scene.tolerance.scene_size,
-      roundings_per_step * std::numeric_limits<double>::epsilon() * opaque.topology().magnitude);
+double roundings(double magnitude) {
+  return roundings_per_step * std::numeric_limits<double>::epsilon() * magnitude;
+}
+
+}  // namespace
+
+double side_step(const Surface& receiver, const EmitterScene& emitter_scene, const SightLine& line,
+                 const Vec3& point) {
+  const double before = (line.start - line.last).norm(), after = (line.last - point).norm();
+  const double emitter_size = emitter_scene.bounds.diagonal().norm();
+  const double reach = std::max({size_of(receiver), emitter_size, before + after});
+  const double penumbra = before > 0 ? emitter_size * after / before : HUGE_VAL;
+  // The line turns about its last feature by what rounds its start.
+  const double turned = before > after ? line.start.norm() * after / before : line.start.norm();
+  const double magnitude = std::max({point.norm(), line.last.norm(), turned});
+  return std::max(roundings(magnitude),
+                  std::min(relative_step * reach, step_in_penumbra * penumbra));
+}
+
+double side_step(const Surface& receiver) {
+  return std::max(roundings(receiver.scale.magnitude), relative_step * receiver.scale.magnitude);
 }
 
 }  // namespace halfshade

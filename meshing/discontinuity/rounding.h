@@ -7,15 +7,22 @@
 
 namespace halfshade {
 
-class OpaqueScene;
+struct EmitterScene;
+struct SightLine;
 
-/// Side steps, relative to the scene's size and to a rounding of the largest coordinate.
+/// Side steps, relative to how far light goes, to the width of a penumbra, and to a rounding of the
+/// largest coordinate.
 inline constexpr double relative_step = 1e-9;
+inline constexpr double step_in_penumbra = 1e-8;
 inline constexpr double roundings_per_step = 1e4;
 
 /// How far to the sides of a curve it is tested what is seen there: far above rounding, far below
-/// the size of anything. A length.
-double side_step(const SoundScene& scene, const OpaqueScene& opaque);
+/// the size of anything that light draws there. A length. Where a line of sight ends in a point of
+/// a receiver:
+double side_step(const Surface& receiver, const EmitterScene& emitter_scene, const SightLine& line,
+                 const Vec3& point);
+/// and on a line where a receiver touches something.
+double side_step(const Surface& receiver);
 
 // In side steps:
 
@@ -29,8 +36,8 @@ inline constexpr double straight_enough = 0.1;
 
 // Relative to the scene, or to what they are a part of:
 
-/// Edges shorter than this share of the scene's size call for the narrow step.
-inline constexpr double fine_detail = 1e-4;
+/// Edges shorter than so many side steps call for the narrow step.
+inline constexpr double fine_detail = 1e5;
 /// A line passes a triangle clearly if it stays this share of the triangle away from its border.
 inline constexpr double clearly_inside = 1e-7;
 /// Normals of planes that are farther apart than this (as a difference of unit vectors) belong to

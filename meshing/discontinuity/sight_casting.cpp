@@ -10,11 +10,16 @@
 namespace halfshade {
 namespace {
 
-/// Whether a ray misses a box that is enlarged by `slack`.
+// Boxes are grown by so many times what rounding needs.
+constexpr double box_growth = 1e3;
+
+/// Whether a line misses a box that is a little enlarged.
 class RayBoxTest {
  public:
-  RayBoxTest(const SightLine& line, double slack)
-      : origin_(line.start), inverse_(line.direction.cwiseInverse()), slack_(slack) {}
+  explicit RayBoxTest(const SightLine& line)
+      : origin_(line.start),
+        inverse_(line.direction.cwiseInverse()),
+        slack_(box_growth * std::max(slack_at(line.start), slack_at(line.last))) {}
 
   bool misses(const Bounds& box) const {
     double near = -slack_, far = HUGE_VAL;
@@ -54,14 +59,15 @@ const std::vector<int>& SightCaster::cast(const SightLine& line) {
 
 void SightCaster::find_crossings(const SightLine& line) {
   crossings_.clear();
-  const RayBoxTest ray(line, scene_.tolerance.length);
+  const RayBoxTest ray(line);
   walk_tree(
       faces_, [&](int node) { return ray.misses(faces_.nodes[at(node)].box); },
       [&](int t) {
+        // Seen from the last feature, near which it is decided what blocks and what receives.
         const auto& corner = opaque_.triangles[at(t)].corner;
-        const Vec3 a = opaque_.vertices[at(corner[0])] - line.start;
-        const Vec3 b = opaque_.vertices[at(corner[1])] - line.start;
-        const Vec3 c = opaque_.vertices[at(corner[2])] - line.start;
+        const Vec3 a = opaque_.vertices[at(corner[0])] - line.last;
+        const Vec3 b = opaque_.vertices[at(corner[1])] - line.last;
+        const Vec3 c = opaque_.vertices[at(corner[2])] - line.last;
         const Vec3 normal = (b - a).cross(c - a);
         const double across = normal.dot(line.direction), size = normal.norm();
         if (!(std::abs(across) > grazing_sine * size)) return;
@@ -69,7 +75,10 @@ void SightCaster::find_crossings(const SightLine& line) {
         const double v = c.cross(a).dot(line.direction) / across;
         const double least = std::min({u, v, 1 - u - v});
         if (least < -clearly_inside) return;
-        crossings_.push_back({normal.dot(a) / across, t, least > clearly_inside});
+        const int surface = opaque_.triangles[at(t)].surface;
+        const double slack =
+            std::max(slack_at(line.last), opaque_.surfaces[at(surface)].tolerance.length);
+        crossings_.push_back({normal.dot(a) / across, slack, t, least > clearly_inside});
       });
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
@@ -78,13 +87,13 @@ void SightCaster::find_crossings(const SightLine& line) {
 
 void SightCaster::collect_receivers(const SightLine& line) {
   reached_.clear();
-  const double slack = scene_.tolerance.length;
-  const double last = line.direction.dot(line.last - line.start);
+  const double start = line.direction.dot(line.start - line.last);
+  const double start_slack = slack_at(line.start);
   for (const Crossing& crossing : crossings_) {
-    if (crossing.distance < slack) continue;
-    const bool is_before = crossing.distance < last - slack;
+    if (crossing.distance < start + std::max(start_slack, crossing.slack)) continue;
+    const bool is_before = crossing.distance < -crossing.slack;
     if (is_before && crossing.is_clear) return;
-    if (crossing.distance <= last + slack) continue;
+    if (crossing.distance <= crossing.slack) continue;
     add_receiver(opaque_.triangles[at(crossing.triangle)].surface, line.direction);
     if (crossing.is_clear) return;
   }

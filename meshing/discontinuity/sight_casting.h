@@ -23,7 +23,8 @@ class SightCaster {
 
  private:
   struct Crossing {
-    double distance;  ///< along the line, from its start
+    double distance;  ///< along the line, from its last feature
+    double slack;     ///< how far off it may be
     int triangle;
     bool is_clear;  ///< well inside the triangle and not along it
   };

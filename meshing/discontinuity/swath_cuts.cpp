@@ -1,5 +1,7 @@
 #include "meshing/discontinuity/swath_cuts.h"
 
+#include "meshing/events/rounding.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,12 +11,23 @@ namespace {
 // How many parts of a swath are bounded, and searched for edges, each on its own.
 constexpr int parts_per_swath = 4;
 
+// Boxes are grown by so many times what rounding needs: as far as edges may be off and still meant.
+constexpr double box_growth = 1e3;
+
+double box_slack(const Swath& swath) {
+  double slack = 0;
+  if (swath.is_planar)
+    slack = std::max(slack_at(swath.apex), slack_of(swath.base));
+  else
+    for (const Span3& edge : swath.edges) slack = std::max(slack, slack_of(edge));
+  return box_growth * slack;
+}
+
 }  // namespace
 
 SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
                      const EmitterScene& emitter_scene)
-    : scene_(scene),
-      opaque_(opaque.topology()),
+    : opaque_(opaque.topology()),
       silhouette_trees_(opaque.silhouette_trees()),
       emitter_scene_(emitter_scene) {
   for (const auto& edge : opaque_.edges) {
@@ -27,7 +40,7 @@ SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
   for (const Surface& surface : scene.surfaces)
     for (const auto& [from, to] : surface.contacts) {
       const Span3 contact = {surface.frame.to_space(from), surface.frame.to_space(to)};
-      contacts_.push_back(contact);
+      contacts_.push_back({contact, tolerance_of(surface).length});
       boxes.push_back({contact.from.cwiseMin(contact.to), contact.from.cwiseMax(contact.to)});
     }
   contact_tree_ = make_flat_tree(boxes);
@@ -37,7 +50,7 @@ std::vector<double> SwathCuts::limits(const Swath& swath) const {
   std::vector<double> limits = {0, 1};
   if (!swath.is_planar) own_limits(swath, limits);
   for (const OutlinePiece& piece : emitter_scene_.outline)
-    critical_parameters(swath, piece.span, scene_.tolerance.length, limits);
+    critical_parameters(swath, piece.span, emitter_scene_.joined, limits);
   add_grazing(swath, limits);
   std::sort(limits.begin(), limits.end());
   return limits;
@@ -65,8 +78,8 @@ void SwathCuts::between(const Swath& swath, double t0, double t1, std::vector<do
 }
 
 void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
-  const double slack = scene_.tolerance.length;
   const SwathBounds bounds = bounds_of(swath, t0, t1);
+  const double slack = box_slack(swath);
   const auto is_missed = [&](const Bounds& box) {
     return emitter_scene_.frame.normal.dot(0.5 * (box.low + box.high) -
                                            emitter_scene_.frame.origin) <
@@ -74,9 +87,10 @@ void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<do
            !bounds.meets(box.low, box.high, slack);
   };
   std::vector<double> found;
-  const auto consider = [&](const Span3& span) {
-    if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to), slack))
-      critical_parameters(swath, span, slack, found);
+  const auto consider = [&](const Span3& span, double joined) {
+    if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to),
+                     std::max(slack, joined)))
+      critical_parameters(swath, span, joined, found);
   };
   const auto walk = [&](const FlatTree& tree, const auto& visit) {
     walk_tree(
@@ -85,12 +99,12 @@ void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<do
   const auto consider_edge = [&](int e) {
     if (is_inner_[at(e)]) return;
     const auto& edge = opaque_.edges[at(e)];
-    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]});
+    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]}, edge.joined);
   };
   walk(silhouette_trees_.closed_edges, consider_edge);
   walk(silhouette_trees_.open_edges, consider_edge);
   // Where surfaces cut each other there is no edge, but what blocks the line changes, too.
-  walk(contact_tree_, [&](int c) { consider(contacts_[at(c)]); });
+  walk(contact_tree_, [&](int c) { consider(contacts_[at(c)].span, contacts_[at(c)].joined); });
   for (const double t : found)
     if (t >= t0 && t <= t1) cuts.push_back(t);
 }

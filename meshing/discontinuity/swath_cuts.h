@@ -27,12 +27,15 @@ class SwathCuts {
   void add_grazing(const Swath& swath, std::vector<double>& parameters) const;
   void add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
 
-  const SoundScene& scene_;
   const OpaqueTopology& opaque_;
   const SilhouetteTrees& silhouette_trees_;
   const EmitterScene& emitter_scene_;
   std::vector<bool> is_inner_;   ///< edges between two triangles of one surface
-  std::vector<Span3> contacts_;  ///< of all surfaces
+  struct Contact {
+    Span3 span;
+    double joined;  ///< what is closer to it than this is meant to lie on it
+  };
+  std::vector<Contact> contacts_;  ///< of all surfaces
   FlatTree contact_tree_;        ///< over them
 };
 

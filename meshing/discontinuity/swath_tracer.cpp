@@ -10,11 +10,10 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
                          const EmitterScene& emitter_scene, const TraceLimits& limits)
     : scene_(scene),
       emitter_scene_(emitter_scene),
-      step_(side_step(scene, opaque)),
       cuts_(scene, opaque, emitter_scene),
       caster_(scene, opaque),
       culling_(scene, opaque, emitter_scene, limits),
-      decider_(scene, opaque, emitter_scene) {}
+      decider_(opaque, emitter_scene) {}
 
 void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
   ++counts_.swaths;
@@ -46,31 +45,34 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
   const auto middle = trace_at(swath, target.frame, 0.5 * (t0 + t1));
   const auto from = trace_at(swath, target.frame, t0), to = trace_at(swath, target.frame, t1);
   if (!middle || !from || !to || !(middle->tangent.norm() > 0)) return;
-  const double least = least_steps * step_;
+  const double step = side_step(target, emitter_scene_, line, middle->point);
+  const double least = least_steps * step;
   if ((middle->point - from->point).norm() < least || (middle->point - to->point).norm() < least)
     return;
   const Span3 span = {from->point, to->point};
   known_.use(swath.source);
-  if (known_.cover(receiver, span, scene_.tolerance.length)) return;
+  if (known_.cover(receiver, span, tolerance_of(target).length)) return;
   const Vec2 p = target.frame.to_plane(middle->point);
   if (distance_to_rings(target.rings, p) <= least || !is_inside(target.rings, p)) return;
   const Vec3 left = target.frame.normal.cross(middle->tangent).normalized();
   const ReceivingPoint place = {middle->point, target.frame.normal, left};
   if (!culling_.may_matter(swath, line, receiver, place)) return;
-  EventEvidence evidence = decider_.decide(place, swath.group);
+  EventEvidence evidence = decider_.decide(place, step, swath.group);
   if (!evidence.differs) return;
   if (swath.source.kind == CurveKind::face) known_.add(receiver, span);
-  add_piece(receiver, t0, t1, std::move(evidence.triples));
+  add_piece({receiver, t0, t1, step, std::move(evidence.triples)});
 }
 
 /// Continues the piece that ends at t0 if there is one of the same kind.
-void SwathTracer::add_piece(int receiver, double t0, double t1, std::vector<EdgeTriple> triples) {
-  for (auto last = pieces_.rbegin(); last != pieces_.rend() && last->t1 >= t0; ++last)
-    if (last->t1 == t0 && last->receiver == receiver && last->triples == triples) {
-      last->t1 = t1;
+void SwathTracer::add_piece(Piece piece) {
+  for (auto last = pieces_.rbegin(); last != pieces_.rend() && last->t1 >= piece.t0; ++last)
+    if (last->t1 == piece.t0 && last->receiver == piece.receiver &&
+        last->triples == piece.triples) {
+      last->t1 = piece.t1;
+      last->step = std::min(last->step, piece.step);
       return;
     }
-  pieces_.push_back({receiver, t0, t1, std::move(triples)});
+  pieces_.push_back(std::move(piece));
 }
 
 void SwathTracer::append_curves(const Swath& swath, const Piece& piece,
@@ -81,10 +83,11 @@ void SwathTracer::append_curves(const Swath& swath, const Piece& piece,
   curve.emitter = emitter_scene_.emitter;
   curve.kind = swath.source.kind;
   curve.order = swath.may_be_first_order ? 1 : 2;
+  curve.step = piece.step;
   curve.triples = piece.triples;
   curve.sources = {swath.source};
   if (swath.is_planar) curve.sight_plane = plane_normal(swath);
-  for (const ConicArc& arc : fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * step_)) {
+  for (const ConicArc& arc : fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * piece.step)) {
     curve.arc = arc;
     curves.push_back(curve);
   }

@@ -41,18 +41,18 @@ class SwathTracer {
   struct Piece {
     int receiver;
     double t0, t1;
+    double step;  ///< see side_step
     std::vector<EdgeTriple> triples;
   };
 
   void trace_piece(const Swath& swath, double t0, double t1);
   void try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0, double t1);
-  void add_piece(int receiver, double t0, double t1, std::vector<EdgeTriple> triples);
+  void add_piece(Piece piece);
   void append_curves(const Swath& swath, const Piece& piece,
                      std::vector<DiscontinuityCurve>& curves) const;
 
   const SoundScene& scene_;
   const EmitterScene& emitter_scene_;
-  double step_;  ///< see side_step
   SwathCuts cuts_;
   SightCaster caster_;
   EventCulling culling_;

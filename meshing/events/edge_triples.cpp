@@ -14,6 +14,8 @@ namespace {
 
 // How often spans are halved until one of them is nearer to the emitter than the other.
 constexpr int most_halvings = 6;
+// An edge is far from others where its coordinates are this many times as large.
+constexpr double far_away = 1e3;
 
 /// False only if the convex hull of four points misses that of the emitter.
 bool hull_meets(const EmitterScene& emitter_scene, const std::array<Vec2, 4>& points) {
@@ -43,14 +45,17 @@ bool hull_meets(const EmitterScene& emitter_scene, const std::array<Vec2, 4>& po
   return true;
 }
 
+/// Along the emitter's normal, from a place nearby: what is far from the emitter must not be
+/// told apart by its height above it, which is rounded more coarsely.
 struct Heights {
   double from, to;
   double low() const { return std::min(from, to); }
   double high() const { return std::max(from, to); }
 };
 
-Heights heights(const EmitterScene& emitter_scene, const Span3& span) {
-  return {emitter_scene.frame.height(span.from), emitter_scene.frame.height(span.to)};
+Heights heights(const EmitterScene& emitter_scene, const Span3& span, const Vec3& base) {
+  const Vec3& up = emitter_scene.frame.normal;
+  return {up.dot(span.from - base), up.dot(span.to - base)};
 }
 
 /// Lines through spans of nearly the same height are too flat to reach the emitter.
@@ -68,24 +73,28 @@ bool is_too_flat(const EmitterScene& emitter_scene, const Span3& a, const Height
   for (const Vec2& corner : emitter_scene.hull)
     for (const Vec3& p : {a.from, a.to, b.from, b.to})
       farthest = std::max(farthest, (emitter_scene.frame.to_plane(p) - corner).norm());
-  const double nearest = std::min(ha.low(), hb.low());
+  double nearest = HUGE_VAL;
+  for (const Vec3& p : {a.from, a.to, b.from, b.to})
+    nearest = std::min(nearest, emitter_scene.frame.height(p));
   return gaps.norm() * nearest > farthest * steepest;
 }
 
 bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b, int halvings) {
-  const Heights ha = heights(emitter_scene, a), hb = heights(emitter_scene, b);
+  const Heights ha = heights(emitter_scene, a, a.from), hb = heights(emitter_scene, b, a.from);
+  const double slack = std::max(slack_of(a), slack_of(b));
   const auto images = [&](const Span3& near, const Span3& far) {
     std::array<Vec2, 4> points;
     std::size_t count = 0;
     for (const Vec3& p : {near.from, near.to})
       for (const Vec3& q : {far.from, far.to}) {
-        const double h = emitter_scene.frame.height(p), g = emitter_scene.frame.height(q);
-        points[count++] = emitter_scene.frame.to_plane(q + g / (g - h) * (p - q));
+        const double drop = emitter_scene.frame.normal.dot(q - p);
+        const double height = emitter_scene.frame.height(q);
+        points[count++] = emitter_scene.frame.to_plane(q + height / drop * (p - q));
       }
     return points;
   };
-  if (ha.high() < hb.low() - emitter_scene.slack) return hull_meets(emitter_scene, images(a, b));
-  if (hb.high() < ha.low() - emitter_scene.slack) return hull_meets(emitter_scene, images(b, a));
+  if (ha.high() < hb.low() - slack) return hull_meets(emitter_scene, images(a, b));
+  if (hb.high() < ha.low() - slack) return hull_meets(emitter_scene, images(b, a));
   if (is_too_flat(emitter_scene, a, ha, b, hb)) return false;
   if (halvings == 0) return true;
   const auto halves = [](const Span3& s) {
@@ -102,8 +111,16 @@ bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b,
          lines_up(emitter_scene, a, parts[1], halvings - 1);
 }
 
-bool are_collinear(const Span3& a, const Span3& b, double slack) {
-  return distance_to_line(b.from, a) <= slack && distance_to_line(b.to, a) <= slack;
+/// An edge, and what is closer to it than `joined` is meant to be on it.
+struct EventEdge {
+  Span3 span;
+  double joined;
+};
+
+bool are_collinear(const EventEdge& a, const EventEdge& b) {
+  const double joined = std::max(a.joined, b.joined);
+  return distance_to_line(b.span.from, a.span) <= joined &&
+         distance_to_line(b.span.to, a.span) <= joined;
 }
 
 /// The plane of two coplanar spans that are not collinear, as point and unit normal.
@@ -118,59 +135,66 @@ Vec3 common_normal(const Span3& a, const Span3& b) {
 
 /// Whether the ends of both spans lie in one plane. Edges that were parallel before a file rounded
 /// them must count, for the families of lines they make are as thin as that rounding.
-bool are_coplanar(const Span3& a, const Span3& b, double slack) {
-  if (are_collinear(a, b, slack)) return true;
-  const Vec3 normal = common_normal(a, b);
-  const auto off = [&](const Vec3& p) { return std::abs(normal.dot(p - a.from)); };
-  return std::max({off(a.to), off(b.from), off(b.to)}) <= slack;
+bool are_coplanar(const EventEdge& a, const EventEdge& b) {
+  if (b.joined < a.joined) return are_coplanar(b, a);
+  if (are_collinear(a, b)) return true;
+  const Vec3 normal = common_normal(a.span, b.span);
+  // From the edge that is told more finely: it may be a small one near by, the other far away.
+  const auto off = [&](const Vec3& p) { return std::abs(normal.dot(p - a.span.from)); };
+  return off(a.span.to) <= a.joined && std::max(off(b.span.from), off(b.span.to)) <= b.joined;
 }
 
 /// Lines in the plane of two spans through the point where a third crosses it.
-void coplanar_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& base,
-                    const Span3& other, const Span3& third, const SwathSink& sink) {
-  if (are_collinear(base, other, emitter_scene.joined)) return;
+void coplanar_swath(Swath swath, const EventEdge& first, const EventEdge& second,
+                    const Span3& third, const SwathSink& sink) {
+  if (are_collinear(first, second)) return;
+  const Span3 &base = first.span, &other = second.span;
   const Vec3 normal = common_normal(base, other);
-  const double a = normal.dot(third.from - base.from), b = normal.dot(third.to - base.from);
-  const bool crosses =
-      (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > emitter_scene.slack;
+  const Vec3& in_plane =
+      (third.from - base.from).squaredNorm() < (third.from - other.from).squaredNorm() ? base.from
+                                                                                       : other.from;
+  const double a = normal.dot(third.from - in_plane), b = normal.dot(third.to - in_plane);
+  const bool crosses = (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > slack_of(third);
   if (!crosses) return;
   swath.is_planar = true;
   swath.may_be_first_order = true;
   swath.source.kind = CurveKind::face;
   swath.apex = third.at(a / (a - b));
   swath.base = base;
-  if (distance_to_line(swath.apex, base) > emitter_scene.slack) sink(swath);
+  if (distance_to_line(swath.apex, base) > std::max(slack_of(third), slack_of(base))) sink(swath);
 }
 
 /// Lines through the point where two spans cross, if they do so other than at their ends, and a
 /// third span.
-void crossing_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& a, const Span3& b,
-                    const Span3& third, const SwathSink& sink) {
+void crossing_swath(Swath swath, const Span3& a, const Span3& b, const Span3& third,
+                    const SwathSink& sink) {
   const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
   if (!(normal.norm() > parallel_sine * u.norm() * v.norm())) return;
   const double s = (b.from - a.from).cross(v).dot(normal) / normal.squaredNorm();
   const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
   if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;
   swath.apex = a.at(s);
-  if (is_end(swath.apex, a, emitter_scene.slack) && is_end(swath.apex, b, emitter_scene.slack))
-    return;  // events with a vertex
-  if (distance_to_line(swath.apex, third) <= emitter_scene.slack) return;
+  const double slack = slack_at(swath.apex);
+  if (is_end(swath.apex, a, slack) && is_end(swath.apex, b, slack)) return;  // events with a vertex
+  if (distance_to_line(swath.apex, third) <= std::max(slack, slack_of(third))) return;
   swath.is_planar = true;
   swath.base = third;
   sink(swath);
 }
 
 /// Sends the swath through three spans, in whatever shape it has.
-void send(const EmitterScene& emitter_scene, Swath& swath, const std::array<Span3, 3>& spans,
-          const SwathSink& sink) {
+void send(Swath& swath, const std::array<EventEdge, 3>& edges, const SwathSink& sink) {
   bool splits = false;
   for (const auto& [i, j, k] : {std::array{0, 1, 2}, std::array{1, 2, 0}, std::array{2, 0, 1}})
-    if (are_coplanar(spans[at(i)], spans[at(j)], emitter_scene.joined)) {
+    if (const Span3& third = edges[at(k)].span; are_coplanar(edges[at(i)], edges[at(j)])) {
       splits = true;
-      coplanar_swath(emitter_scene, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
-      crossing_swath(emitter_scene, swath, spans[at(i)], spans[at(j)], spans[at(k)], sink);
+      coplanar_swath(swath, edges[at(i)], edges[at(j)], third, sink);
+      crossing_swath(swath, edges[at(i)].span, edges[at(j)].span, third, sink);
     }
   if (splits) return;
+  std::array<Span3, 3> spans = {edges[0].span, edges[1].span, edges[2].span};
+  // Points of the family are counted from the first edge: not one that is far from the others.
+  if (slack_of(spans[0]) > far_away * slack_of(spans[1])) std::swap(spans[0], spans[1]);
   set_edges(swath, spans);
   sink(swath);
 }
@@ -202,7 +226,10 @@ void pair_swaths(const EmitterScene& emitter_scene, int a, int b, const SwathSin
     std::sort(swath.group.begin(), swath.group.end());
     swath.silhouettes = {a, b, -1};
     swath.ends_on_outline = true;
-    send(emitter_scene, swath, {piece.span, first.front, second.front}, sink);
+    send(swath,
+         {EventEdge{piece.span, emitter_scene.joined}, EventEdge{first.front, first.joined},
+          EventEdge{second.front, second.joined}},
+         sink);
   }
 }
 
@@ -210,17 +237,18 @@ void triple_swath(const EmitterScene& emitter_scene, int a, int b, int c, const 
   Swath swath;
   swath.source.kind = CurveKind::eee;
   swath.source.feature_count = 3;
-  std::array<Span3, 3> spans;
+  std::array<EventEdge, 3> edges;
   std::size_t k = 0;
   for (const int e : {a, b, c}) {
-    const EdgeId id = EdgeId::edge(emitter_scene.edges[at(e)].id);
+    const SilhouetteEdge& edge = emitter_scene.edges[at(e)];
+    const EdgeId id = EdgeId::edge(edge.id);
     swath.source.features[k] = feature_of(id);
     swath.group.push_back(id);
-    spans[k++] = emitter_scene.edges[at(e)].front;
+    edges[k++] = {edge.front, edge.joined};
   }
   std::sort(swath.group.begin(), swath.group.end());
   swath.silhouettes = {a, b, c};
-  send(emitter_scene, swath, spans, sink);
+  send(swath, edges, sink);
 }
 
 }  // namespace halfshade

@@ -19,10 +19,9 @@ namespace halfshade {
 EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
   const OpaqueTopology& topology = opaque.topology();
-  slack =
-      std::max(joined_share * scene.tolerance.length,
-               position_roundings * std::numeric_limits<double>::epsilon() * topology.magnitude);
-  joined = std::max(slack, scene.tolerance.length);
+  const OpaqueTopology::OpaqueSurface& own = topology.surfaces[at(surface)];
+  slack = position_roundings * std::numeric_limits<double>::epsilon() * own.magnitude;
+  joined = std::max(slack, own.tolerance.length);
   rings = scene.surfaces[at(surface)].rings;
   for (const std::size_t k : convex_hull(rings[0])) hull.push_back(rings[0][k]);
   for (const Vec2& p : hull) bounds.extend(p);

@@ -19,6 +19,7 @@ struct SilhouetteEdge {
   int id = 0;                          ///< of the opaque scene
   Span3 whole;                         ///< all of it
   Span3 front;                         ///< the part in front of the emitter's plane
+  double joined = 0;                   ///< things closer to it than this are meant to be
   int first_face = 0, face_count = 0;  ///< range of EmitterScene::faces
 };
 
@@ -53,8 +54,8 @@ struct EmitterScene {
 
   int emitter;  ///< a surface
   PlaneFrame frame;
-  double slack;   ///< a length: positions closer than this are the same
-  double joined;  ///< a length: things closer than this are meant to be
+  double slack;   ///< a length: positions on the emitter closer than this are the same
+  double joined;  ///< a length: things closer to the emitter than this are meant to be
   std::vector<std::vector<Vec2>> rings;
   std::vector<Vec2> hull;  ///< of the outer ring, counter-clockwise
   Eigen::AlignedBox2d bounds;

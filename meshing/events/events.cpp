@@ -1,6 +1,7 @@
 #include "meshing/events/events.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/events/rounding.h"
 
 #include <algorithm>
 #include <array>
@@ -24,13 +25,13 @@ std::vector<EdgeId> ids_at(const EmitterScene& emitter_scene, const SilhouetteVe
 
 /// How many of the silhouette edges at a vertex lie in the plane of a planar swath.
 int count_in_plane(const EmitterScene& emitter_scene, const Swath& swath,
-                   const SilhouetteVertex& vertex, double slack) {
+                   const SilhouetteVertex& vertex) {
   const Vec3 normal = plane_normal(swath);
   int count = 0;
   for (const int e : vertex.edges) {
-    const Span3& span = emitter_scene.edges[at(e)].whole;
-    if (std::abs(normal.dot(span.from - swath.apex)) <= slack &&
-        std::abs(normal.dot(span.to - swath.apex)) <= slack)
+    const SilhouetteEdge& edge = emitter_scene.edges[at(e)];
+    if (std::abs(normal.dot(edge.whole.from - swath.apex)) <= edge.joined &&
+        std::abs(normal.dot(edge.whole.to - swath.apex)) <= edge.joined)
       ++count;
   }
   return count;
@@ -53,8 +54,8 @@ bool outline_in_plane(const EmitterScene& emitter_scene, const Swath& swath,
 std::array<Vec2, 2> image_of(const EmitterScene& emitter_scene, const Vec3& vertex, double height,
                              const Span3& span) {
   const auto project = [&](const Vec3& p) {
-    const double h = emitter_scene.frame.height(p);
-    return emitter_scene.frame.to_plane(vertex + height / (height - h) * (p - vertex));
+    const double drop = emitter_scene.frame.normal.dot(vertex - p);
+    return emitter_scene.frame.to_plane(vertex + height / drop * (p - vertex));
   };
   return {project(span.from), project(span.to)};
 }
@@ -81,20 +82,21 @@ bool meets_hull(const EmitterScene& emitter_scene, const std::array<Vec2, 2>& se
 
 void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& sink) {
   const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
-  const double h0 = emitter_scene.frame.height(e.front.from),
-               h1 = emitter_scene.frame.height(e.front.to);
+  const Vec3& up = emitter_scene.frame.normal;
   for (std::size_t w = 0; w < emitter_scene.vertices.size(); ++w) {
     const SilhouetteVertex& vertex = emitter_scene.vertices[w];
-    if (is_end(vertex.position, e.whole, emitter_scene.slack) ||
-        distance_to_line(vertex.position, e.whole) <= emitter_scene.slack)
+    const double slack = std::max(slack_at(vertex.position), slack_of(e.whole));
+    if (is_end(vertex.position, e.whole, slack) ||
+        distance_to_line(vertex.position, e.whole) <= slack)
       continue;
     // The parts of the edge nearer to the emitter than the vertex, and farther from it.
     for (const double side : {-1., 1.}) {
-      const double a = side * (h0 - vertex.height), b = side * (h1 - vertex.height);
-      if (a <= emitter_scene.slack && b <= emitter_scene.slack) continue;
+      const double a = side * up.dot(e.front.from - vertex.position);
+      const double b = side * up.dot(e.front.to - vertex.position);
+      if (a <= slack && b <= slack) continue;
       Span3 part = e.front;
-      if (a < emitter_scene.slack) part.from = e.front.at((emitter_scene.slack - a) / (b - a));
-      if (b < emitter_scene.slack) part.to = e.front.at((a - emitter_scene.slack) / (a - b));
+      if (a < slack) part.from = e.front.at((slack - a) / (b - a));
+      if (b < slack) part.to = e.front.at((a - slack) / (a - b));
       if (!meets_hull(emitter_scene, image_of(emitter_scene, vertex.position, vertex.height, part)))
         continue;
       Swath swath;
@@ -109,7 +111,7 @@ void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const Swath
       swath.silhouettes[0] = edge;
       swath.corner = static_cast<int>(w);
       swath.may_be_first_order =
-          count_in_plane(emitter_scene, swath, vertex, emitter_scene.joined) > 0;
+          count_in_plane(emitter_scene, swath, vertex) > 0;
       sink(swath);
     }
   }
@@ -120,7 +122,9 @@ void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const Swath
 void edge_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& sink) {
   const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
   for (const OutlinePoint& corner : emitter_scene.corners) {
-    if (distance_to_line(corner.position, e.whole) <= emitter_scene.slack) continue;
+    if (distance_to_line(corner.position, e.whole) <=
+        std::max(emitter_scene.slack, slack_of(e.whole)))
+      continue;
     Swath swath;
     swath.source = {CurveKind::ev, {corner.feature, {Feature::Kind::edge, e.id}}, 2};
     swath.apex = corner.position;
@@ -148,7 +152,7 @@ void vertex_swaths(const EmitterScene& emitter_scene, int vertex, const SwathSin
     normalize(swath.group);
     swath.corner = vertex;
     swath.ends_on_outline = true;
-    swath.may_be_first_order = count_in_plane(emitter_scene, swath, w, emitter_scene.joined) > 0;
+    swath.may_be_first_order = count_in_plane(emitter_scene, swath, w) > 0;
     sink(swath);
   }
 }
@@ -178,9 +182,10 @@ FaceEdges edges_of_face(const EmitterScene& emitter_scene, const OpaqueTopology&
     const auto& edge = opaque.edges[at(count_once[i])];
     Span3 span = {opaque.vertices[at(edge.from)], opaque.vertices[at(edge.to)]};
     const double a = emitter_scene.frame.height(span.from), b = emitter_scene.frame.height(span.to);
-    if (a <= emitter_scene.slack && b <= emitter_scene.slack) continue;
+    const double slack = std::max(emitter_scene.slack, slack_of(span));
+    if (a <= slack && b <= slack) continue;
     for (const auto& [h, p] : {std::pair{a, span.from}, std::pair{b, span.to}})
-      if (h > emitter_scene.slack) face.ends.push_back(p);
+      if (h > slack) face.ends.push_back(p);
     const Span3 whole = span;
     if (a < 0) span.from = whole.at(a / (a - b));
     if (b < 0) span.to = whole.at(a / (a - b));
@@ -210,7 +215,7 @@ void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
   swath.group = face.ids;
   swath.may_be_first_order = true;
   const auto send = [&](const Vec3& apex, const Span3& base) {
-    if (distance_to_line(apex, base) <= emitter_scene.slack) return;
+    if (distance_to_line(apex, base) <= std::max(slack_at(apex), slack_of(base))) return;
     swath.apex = apex;
     swath.base = base;
     sink(swath);
@@ -224,8 +229,8 @@ void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
     for (const Vec3& entry : entries) send(entry, span);
     for (const SilhouetteEdge& edge : emitter_scene.edges) {
       const double a = plane.height(edge.front.from), b = plane.height(edge.front.to);
-      const bool crosses = (a > emitter_scene.slack && b < -emitter_scene.slack) ||
-                           (a < -emitter_scene.slack && b > emitter_scene.slack);
+      const double slack = slack_of(edge.front);
+      const bool crosses = (a > slack && b < -slack) || (a < -slack && b > slack);
       if (crosses) send(edge.front.at(a / (a - b)), span);
     }
   }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include "meshing/geometry/line.h"
+
+#include <algorithm>
 #include <limits>
 
 // What counts as rounding where events are enumerated.
@@ -15,11 +18,14 @@ inline constexpr double parallel_sine = 1e-12;
 /// a smaller one have no line in common that is worth following. Far above what the repair leaves.
 inline constexpr double grazing_sine = 1e-9;
 
-/// What the repair has joined agrees to this share of the tolerance by which it joins.
-inline constexpr double joined_share = 1e-3;
-
 /// Positions agree to this many roundings of the largest coordinate.
-inline constexpr double position_roundings = 1e3;
+inline constexpr double position_roundings = 1e4;
+
+/// Positions near p closer than this are the same: a length.
+inline double slack_at(const Vec3& p) {
+  return position_roundings * std::numeric_limits<double>::epsilon() * p.lpNorm<Eigen::Infinity>();
+}
+inline double slack_of(const Span3& span) { return std::max(slack_at(span.from), slack_at(span.to)); }
 
 /// Share of an edge by which a line may miss its ends and still meet it.
 inline constexpr double edge_margin = 1e-10;

@@ -1,5 +1,7 @@
 #include "meshing/events/silhouette_edges.h"
 
+#include "meshing/events/rounding.h"
+
 #include <algorithm>
 #include <map>
 
@@ -19,9 +21,10 @@ class SilhouetteSearch {
     silhouette.id = id;
     silhouette.whole = {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]};
     silhouette.front = silhouette.whole;
+    silhouette.joined = std::max(edge.joined, slack_of(silhouette.whole));
     const double a = heights_.height(edge.from), b = heights_.height(edge.to);
-    if (a < -out_.slack) silhouette.front.from = silhouette.whole.at(a / (a - b));
-    if (b < -out_.slack) silhouette.front.to = silhouette.whole.at(a / (a - b));
+    if (heights_.is_behind(edge.from)) silhouette.front.from = silhouette.whole.at(a / (a - b));
+    if (heights_.is_behind(edge.to)) silhouette.front.to = silhouette.whole.at(a / (a - b));
     const std::size_t faces = out_.faces.size();
     add_faces(edge, silhouette);
     if (silhouette.face_count == 0 || !is_capable(silhouette)) {
@@ -65,13 +68,14 @@ class SilhouetteSearch {
   /// Whether the edge is a silhouette seen from some point of the emitter.
   bool is_capable(const SilhouetteEdge& edge) const {
     int weight = 0;
+    const double slack = std::max(out_.slack, slack_of(edge.whole));
     for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f) {
       const SilhouetteEdge::Face& face = out_.faces[at(f)];
       bool above = false, below = false;
       for (const Vec2& p : out_.hull) {
         const double side = face.normal.dot(edge.whole.from - out_.frame.to_space(p));
-        above = above || side > -out_.slack;
-        below = below || side < out_.slack;
+        above = above || side > -slack;
+        below = below || side < slack;
       }
       if (above && below) return true;
       weight += above ? face.direction : -face.direction;

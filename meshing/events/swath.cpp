@@ -99,7 +99,11 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
     return;
   }
   const Vec3 normal = plane_normal(swath);
-  const double from = normal.dot(edge.from - swath.apex), to = normal.dot(edge.to - swath.apex);
+  // From what is near the edge: the other may be so far away that its rounding shows.
+  const bool apex_is_near =
+      (swath.apex - edge.from).squaredNorm() <= (swath.base.from - edge.from).squaredNorm();
+  const Vec3& in_plane = apex_is_near ? swath.apex : swath.base.from;
+  const double from = normal.dot(edge.from - in_plane), to = normal.dot(edge.to - in_plane);
   if (std::abs(from) <= slack) add_direction(swath, normal, edge.from, slack, parameters);
   if (std::abs(to) <= slack) add_direction(swath, normal, edge.to, slack, parameters);
   if ((from > slack && to < -slack) || (from < -slack && to > slack))
@@ -176,6 +180,11 @@ std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, doubl
     d = swath.base.at(t) - x;
     x_dot = Vec3::Zero();
     d_dot = swath.base.direction();
+    // What is nearer to the plane is rounded less.
+    if (std::abs(plane.height(x + d)) < std::abs(plane.height(x))) {
+      x += d;
+      x_dot = d_dot;
+    }
   } else {
     const LineFamily& f = swath.family;
     x = swath.edges[0].at(t);

@@ -33,11 +33,14 @@ void check(const SoundScene& scene, const Discontinuities& found,
   }
 }
 
-CurveMeshOptions curve_mesh_options(double size, double scene_size,
+CurveMeshOptions curve_mesh_options(const Surface& surface,
                                     const DiscontinuityMeshOptions& options) {
+  const double size = size_of(surface);
   CurveMeshOptions result;
   result.quality = {options.max_length, options.min_angle, options.max_triangles};
-  result.snap = std::min(margins::snap_of_scene * scene_size, margins::snap_of_surface * size);
+  result.snap = std::max(tolerance_of(surface).length,
+                         std::min(margins::snap_of_magnitude * surface.scale.magnitude,
+                                  margins::snap_of_surface * size));
   result.shortest = margins::shortest_with_curves * size;
   if (options.max_length > 0)
     result.shortest = std::min(result.shortest, margins::shortest_of_longest * options.max_length);
@@ -65,8 +68,7 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
   CurvePolylines curves = curve_polylines(scene, found, options);
   SurfaceMeshInput input{std::move(curves.of_surface), {}};
   for (const Surface& surface : scene.surfaces)
-    input.options.push_back(
-        curve_mesh_options(size_of(surface), scene.tolerance.scene_size, options));
+    input.options.push_back(curve_mesh_options(surface, options));
   SharedEdges shared(scene);
   share_ends(shared, input);
   const SurfaceMeshes made = mesh_surfaces(input, shared, options.max_triangles, progress);
@@ -84,7 +86,7 @@ DiscontinuityMesh mesh_discontinuities(const SoundScene& scene, const Discontinu
   }
   std::vector<int> order;
   for (const DiscontinuityCurve& curve : found.curves) order.push_back(curve.order);
-  return {PatchMesh(scene, made.meshes, order), report};
+  return {PatchMesh(scene, shared, made.meshes, order), report};
 }
 
 }  // namespace halfshade

@@ -10,9 +10,9 @@ inline constexpr double default_deviation = 1e-4;
 inline constexpr double least_deviation = 1e-5;
 // Part of an element beyond which a polyline would no longer look like its curve.
 inline constexpr double largest_deviation = 0.1;
-// Snap distance as a part of the scene's size: far above the rounding of curves, far below what
-// anyone can see; and of a surface's, so that those that are tiny keep their shape.
-inline constexpr double snap_of_scene = 1e-7;
+// Snap distance as a part of the largest coordinate: far above the rounding of curves, far below
+// what anyone can see; and of the surface's size, so that those that are tiny keep their shape.
+inline constexpr double snap_of_magnitude = 1e-7;
 inline constexpr double snap_of_surface = 1e-4;
 
 // The shortest edge that refinement makes. Parts of the surface's size: with curves, which come

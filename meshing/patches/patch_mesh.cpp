@@ -28,14 +28,14 @@ PatchMesh::PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
       Impl{surface_labels(scene), build_element_mesh(scene, shared, made.meshes, {})});
 }
 
-PatchMesh::PatchMesh(const SoundScene& scene, std::span<const CurveMesh> meshes,
-                     std::span<const int> curve_order) {
+PatchMesh::PatchMesh(const SoundScene& scene, const SharedEdges& shared,
+                     std::span<const CurveMesh> meshes, std::span<const int> curve_order) {
   if (meshes.size() != scene.surfaces.size())
     throw Error(
         ErrorCode::contract, "PatchMesh",
         fmt::format("{} meshes are given for {} surfaces", meshes.size(), scene.surfaces.size()));
-  impl_ = std::make_unique<Impl>(Impl{
-      surface_labels(scene), build_element_mesh(scene, SharedEdges(scene), meshes, curve_order)});
+  impl_ = std::make_unique<Impl>(
+      Impl{surface_labels(scene), build_element_mesh(scene, shared, meshes, curve_order)});
 }
 
 PatchMesh::~PatchMesh() = default;

@@ -11,6 +11,8 @@
 
 namespace halfshade {
 
+class SharedEdges;
+
 /// Every element that ever was, as a forest: leaves are the present elements.
 struct PatchHierarchy {
   std::vector<int> parent;   ///< node → node; −1 at roots
@@ -30,9 +32,9 @@ class PatchMesh {
   PatchMesh(const SoundScene& scene, const PlanarMeshOptions& options,
             const Progress& progress = {});
 
-  /// Takes the mesh of each surface as it is, one an entry. `curve_order[id]` is the order of the
-  /// discontinuity curve with that id.
-  PatchMesh(const SoundScene& scene, std::span<const CurveMesh> meshes,
+  /// Takes the mesh of each surface as it is, one an entry; `shared` is of the same scene.
+  /// `curve_order[id]` is the order of the discontinuity curve with that id.
+  PatchMesh(const SoundScene& scene, const SharedEdges& shared, std::span<const CurveMesh> meshes,
             std::span<const int> curve_order);
   ~PatchMesh();
   PatchMesh(PatchMesh&&) noexcept;

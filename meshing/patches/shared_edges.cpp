@@ -53,14 +53,15 @@ SharedEdges::SharedEdges(const SoundScene& scene)
       points.push_back(lines_.borders[at(w)].begin);
       points.push_back(lines_.borders[at(w)].end);
     }
-    thin(points, scene.tolerance.length);
+    thin(points, line.length);
   }
 }
 
 int SharedEdges::border_of(int surface, const Segment2& edge) const {
   const Vec2 middle = 0.5 * (edge[0] + edge[1]);
-  const Bounds around = flat_bounds(middle, middle).grown(scene_.tolerance.planarity);
-  std::pair<double, int> best{scene_.tolerance.planarity, -1};
+  const double planarity = tolerance_of(scene_.surfaces[at(surface)]).planarity;
+  const Bounds around = flat_bounds(middle, middle).grown(planarity);
+  std::pair<double, int> best{planarity, -1};
   visit_overlaps(trees_[at(surface)], around, [&](int i) {
     const int w = lines_.first_border[at(surface)] + i;
     const Segment2& border = lines_.borders[at(w)].ends;
@@ -101,8 +102,9 @@ void SharedEdges::add(std::span<const End> ends) {
 std::vector<double> SharedEdges::inside(int line, double begin, double end) const {
   if (line < 0) return {};
   const std::vector<double>& points = agreed_[at(line)];
-  const double low = std::min(begin, end) + scene_.tolerance.length;
-  const double high = std::max(begin, end) - scene_.tolerance.length;
+  const double length = lines_.lines[at(line)].length;
+  const double low = std::min(begin, end) + length;
+  const double high = std::max(begin, end) - length;
   std::vector<double> result;
   for (auto t = std::upper_bound(points.begin(), points.end(), low); t != points.end() && *t < high;
        ++t)
@@ -140,7 +142,7 @@ Outline SharedEdges::outline(int surface) const {
 // Decides what the line is to have between its points, and marks surfaces that differ.
 void SharedEdges::agree(std::size_t line, std::vector<Vertex> vertices,
                         std::vector<bool>& differs) {
-  const double tolerance = scene_.tolerance.length;
+  const double tolerance = lines_.lines[line].length;
   std::sort(vertices.begin(), vertices.end());
   vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   const std::vector<double> before = agreed_[line];
@@ -182,7 +184,7 @@ std::vector<int> SharedEdges::compare(std::span<const CurveMesh> meshes) {
         const double t = along(lines_.lines[at(line)], scene_.surfaces[r].frame, p);
         const auto next = std::upper_bound(points.begin(), points.end(), t);
         if (next == points.begin() || next == points.end() ||
-            gap(points, t) <= scene_.tolerance.length)
+            gap(points, t) <= lines_.lines[at(line)].length)
           continue;
         vertices[at(line)].push_back({static_cast<std::size_t>(next - points.begin()), w, t});
       }

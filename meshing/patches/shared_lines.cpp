@@ -19,8 +19,8 @@ struct Stretch {
   double length() const { return (to - from).norm(); }
 };
 
-Stretch stretch(const Surface& surface, const Segment2& ends, double shortest,
-                const Tolerance& tolerance) {
+Stretch stretch(const Surface& surface, const Segment2& ends, double shortest) {
+  const LocalTolerance tolerance = tolerance_of(surface);
   return {surface.frame.to_space(ends[0]), surface.frame.to_space(ends[1]),
           std::max(tolerance.length,
                    std::min(2 * tolerance.planarity, margins::largest_gap * shortest))};
@@ -32,7 +32,7 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
     out.first_border.push_back(static_cast<int>(out.borders.size()));
     const auto add = [&](const Segment2& ends, double shortest) {
       out.borders.push_back({static_cast<int>(r), ends});
-      stretches.push_back(stretch(surface, ends, shortest, scene.tolerance));
+      stretches.push_back(stretch(surface, ends, shortest));
     };
     for (const Ring& ring : surface.rings) {
       const std::size_t n = ring.size();
@@ -48,9 +48,10 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
 // Whether the planes of two surfaces, each off its corners by at most `planarity`, explain that an
 // edge of both lies here in one and, moved by `offset` across it, in the other. Parallel ones do
 // not: surfaces that lie in one plane to within the tolerance have the same plane.
-bool planes_explain(const Vec3& offset, const Vec3& normal_a, const Vec3& normal_b,
-                    const Tolerance& tolerance) {
+bool planes_explain(const Vec3& offset, const Surface& first, const Surface& second) {
+  const LocalTolerance tolerance = tolerance_of(first, second);
   if (offset.norm() <= tolerance.length) return true;
+  const Vec3 &normal_a = first.frame.normal, &normal_b = second.frame.normal;
   // The offset as a sum of parts along the normals.
   const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
   const double squared_sine = normal_a.cross(normal_b).squaredNorm();
@@ -93,8 +94,8 @@ class BorderJoiner {
   }
 
  private:
-  const Vec3& normal(int border) const {
-    return scene_.surfaces[at(lines_.borders[at(border)].surface)].frame.normal;
+  const Surface& surface(int border) const {
+    return scene_.surfaces[at(lines_.borders[at(border)].surface)];
   }
 
   std::vector<Overlap> find_overlaps() const {
@@ -127,13 +128,13 @@ class BorderJoiner {
     const auto [t0, t1] = range_along(first, second);
     const double begin = std::max(std::min(t0, t1), 0.0);
     const double end = std::min(std::max(t0, t1), a.length());
-    if (!(end - begin > scene_.tolerance.length)) return HUGE_VAL;
+    if (!(end - begin > tolerance_of(surface(first), surface(second)).length)) return HUGE_VAL;
     double gap = 0;
     for (const double t : {begin, end}) {
       const Vec3 offset = b.from + (t - t0) / (t1 - t0) * (b.to - b.from) -
                           (a.from + t / a.length() * (a.to - a.from));
       if (offset.norm() > std::min(a.reach, b.reach) ||
-          !planes_explain(offset, normal(first), normal(second), scene_.tolerance))
+          !planes_explain(offset, surface(first), surface(second)))
         return HUGE_VAL;
       gap = std::max(gap, offset.norm());
     }
@@ -152,7 +153,7 @@ class BorderJoiner {
         const auto [t0, t1] = range_along(w, *other);
         if (std::min(std::max(t0, t1), stretches_[at(w)].length()) -
                 std::max(std::min(t0, t1), 0.0) >
-            scene_.tolerance.length)
+            tolerance_of(surface(w)).length)
           return true;
       }
     }
@@ -179,14 +180,19 @@ SharedLines find_shared_lines(const SoundScene& scene) {
         stretches[at(*std::max_element(borders.begin(), borders.end(), [&](int a, int b) {
           return stretches[at(a)].length() < stretches[at(b)].length();
         }))];
-    SharedLine line{longest.from, (longest.to - longest.from) / longest.length(), {}};
+    SharedLine line;
+    line.origin = longest.from;
+    line.direction = (longest.to - longest.from) / longest.length();
+    LocalScale scale = scene.surfaces[at(result.borders[at(borders[0])].surface)].scale;
     for (const int w : borders) {
       BorderLine& border = result.borders[at(w)];
       const PlaneFrame& frame = scene.surfaces[at(border.surface)].frame;
+      scale = joint_scale(scale, scene.surfaces[at(border.surface)].scale);
       border.line = static_cast<int>(result.lines.size());
       border.begin = along(line, frame, border.ends[0]);
       border.end = along(line, frame, border.ends[1]);
     }
+    line.length = tolerance_of(scale).length;
     line.borders = std::move(borders);
     result.lines.push_back(std::move(line));
   }

@@ -18,6 +18,7 @@ struct BorderLine {
 struct SharedLine {
   Vec3 origin = Vec3::Zero(), direction = Vec3::UnitX();  ///< of unit length
   std::vector<int> borders;                               ///< sorted
+  double length = 0;  ///< points closer than this along it are the same; as its surfaces have it
 };
 
 struct SharedLines {
@@ -27,7 +28,7 @@ struct SharedLines {
 };
 
 /// Finds where borders of different surfaces lie on each other. Two do where they run along each
-/// other for more than the tolerance's length and no farther apart than by what their surfaces'
+/// other for more than their tolerance's length and no farther apart than by what their surfaces'
 /// planes may be off their corners. Those that do so directly or through others are of one line,
 /// but where that would bring together borders of one surface, those that lie closer go first.
 SharedLines find_shared_lines(const SoundScene& scene);

@@ -28,12 +28,13 @@ class SharedPointFinder {
 
   SharedPoints run() {
     std::vector<std::vector<Site>> sites;
-    for (const auto& edges : edges_) join(sites.emplace_back(sites_of(edges)));
+    for (std::size_t l = 0; l < edges_.size(); ++l)
+      join(sites.emplace_back(sites_of(edges_[l])), lines_.lines[l].length);
     SharedPoints result;
     number(result);
     for (std::size_t r = 0; r < meshes_.size(); ++r) detach_turned(r, result);
     result.gaps.resize(meshes_.size());
-    for (std::size_t l = 0; l < edges_.size(); ++l) find_gaps(edges_[l], sites[l], result);
+    for (std::size_t l = 0; l < edges_.size(); ++l) find_gaps(l, sites[l], result);
     for (auto& gaps : result.gaps)
       std::sort(gaps.begin(), gaps.end(),
                 [](const auto& a, const auto& b) { return a.edge < b.edge; });
@@ -92,10 +93,17 @@ class SharedPointFinder {
     return scene_.surfaces[at(surface)].frame.to_space(meshes_[at(surface)].mesh.points[at(point)]);
   }
 
+  // Two planes are off a common corner by this much at most, and its rounding.
+  double farthest(int p, int q) const {
+    return 4 * tolerance_of(scene_.surfaces[at(points_[at(p)].surface)],
+                            scene_.surfaces[at(points_[at(q)].surface)])
+                   .planarity;
+  }
+
   // Not if both have a point of the same surface.
   void join(int p, int q) {
     const int a = std::min(root(p), root(q)), b = std::max(root(p), root(q));
-    if (a == b || (position(p) - position(q)).norm() > farthest_) return;
+    if (a == b || (position(p) - position(q)).norm() > farthest(p, q)) return;
     std::vector<int> both;
     std::merge(owners_[at(a)].begin(), owners_[at(a)].end(), owners_[at(b)].begin(),
                owners_[at(b)].end(), std::back_inserter(both));
@@ -104,10 +112,10 @@ class SharedPointFinder {
     above_[at(b)] = a;
   }
 
-  void join(const std::vector<Site>& sites) {
+  void join(const std::vector<Site>& sites, double length) {
     std::size_t first = 0;
     for (std::size_t i = 1; i < sites.size(); ++i) {
-      if (sites[i].t - sites[first].t > scene_.tolerance.length) first = i;
+      if (sites[i].t - sites[first].t > length) first = i;
       join(sites[first].point, sites[i].point);
     }
   }
@@ -161,15 +169,15 @@ class SharedPointFinder {
     return shared;
   }
 
-  void find_gaps(const std::vector<Edge>& edges, const std::vector<Site>& sites,
-                 SharedPoints& result) const {
+  void find_gaps(std::size_t line, const std::vector<Site>& sites, SharedPoints& result) const {
+    const double length = lines_.lines[line].length;
     const std::vector<std::pair<double, int>> shared = shared_at(sites);
-    for (const Edge& edge : edges) {
+    for (const Edge& edge : edges_[line]) {
       const auto [low, high] = std::minmax(edge.t[0], edge.t[1]);
       SharedPoints::Gap gap{edge.points, {}};
       auto p = std::upper_bound(shared.begin(), shared.end(),
-                                std::pair(low + scene_.tolerance.length, INT32_MAX));
-      for (; p != shared.end() && p->first < high - scene_.tolerance.length; ++p) {
+                                std::pair(low + length, INT32_MAX));
+      for (; p != shared.end() && p->first < high - length; ++p) {
         const std::vector<int>& owners = surfaces_at_[at(p->second)];
         if (!std::binary_search(owners.begin(), owners.end(), edge.surface))
           gap.points.push_back(p->second);
@@ -189,8 +197,6 @@ class SharedPointFinder {
   std::vector<std::vector<int>> owners_;       // of roots: the surfaces that have a point there
   std::vector<int> shared_;                    // [point] its shared point
   std::vector<std::vector<int>> surfaces_at_;  // [shared point]
-  // Two planes are off a common corner by this much at most, and its rounding.
-  const double farthest_ = 4 * std::max(scene_.tolerance.planarity, scene_.tolerance.length);
 };
 
 }  // namespace

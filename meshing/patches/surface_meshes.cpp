@@ -46,7 +46,7 @@ SurfaceMeshInput without_curves(const SoundScene& scene, const PlanarMeshOptions
     CurveMeshOptions& own = input.options.emplace_back();
     own.quality = options;
     ++own.quality.max_triangles;  // so that what ends early there is too large
-    own.snap = scene.tolerance.length;
+    own.snap = tolerance_of(surface).length;
     own.shortest = margins::shortest_without_curves * size_of(surface);
     if (options.max_length > 0)
       own.shortest = std::min(own.shortest, margins::shortest_of_longest * options.max_length);

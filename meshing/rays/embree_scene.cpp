@@ -50,7 +50,6 @@ void throw_on_error(RTCDevice device) {
 struct Query {
   RTCIntersectContext context;
   const TriangleSoup* soup;
-  double in_plane, on_border;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
   Vec3 origin, direction;             // nearest hit
   bool front_only = false;
@@ -61,18 +60,17 @@ bool is_between(const Query& query, const Segment& segment, std::size_t id) {
   const int plane = query.soup->plane[id];
   if (plane >= 0 && (plane == segment.from_plane || plane == segment.to_plane)) return false;
   const SoupTriangle triangle(*query.soup, id);
+  if (triangle.side(segment.from) * triangle.side(segment.to) >= 0) return false;
   const double from = triangle.height(segment.from), to = triangle.height(segment.to);
-  if (!(std::min(from, to) < -query.in_plane && std::max(from, to) > query.in_plane)) return false;
-  const Vec3 crossing = segment.from + from / (from - to) * (segment.to - segment.from);
-  return triangle.contains(crossing, query.on_border);
+  return triangle.contains(segment.from + from / (from - to) * (segment.to - segment.from));
 }
 
 bool is_ahead(const Query& query, std::size_t id) {
   const SoupTriangle triangle(*query.soup, id);
   const double height = triangle.height(query.origin), rise = triangle.normal.dot(query.direction);
   if (query.front_only && rise >= 0) return false;
-  if (!(height > query.in_plane ? rise < 0 : height < -query.in_plane && rise > 0)) return false;
-  return triangle.contains(query.origin - height / rise * query.direction, query.on_border);
+  if (!(triangle.side(query.origin) * rise < 0)) return false;
+  return triangle.contains(query.origin - height / rise * query.direction);
 }
 
 void filter_occlusion(const RTCFilterFunctionNArguments* args) {
@@ -107,13 +105,11 @@ RTCRay to_embree(const Ray& ray) {
   return out;
 }
 
-Query query_of(const TriangleSoup& soup, const RaySpace& space, bool coherent) {
+Query query_of(const TriangleSoup& soup, bool coherent) {
   Query query{};
   rtcInitIntersectContext(&query.context);
   if (coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   query.soup = &soup;
-  query.in_plane = space.in_plane;
-  query.on_border = space.on_border;
   return query;
 }
 
@@ -161,7 +157,7 @@ EmbreeScene::~EmbreeScene() = default;
 bool EmbreeScene::blocked(const Segment& segment) const {
   const std::optional<Ray> ray = space_.ray(segment.from, segment.to);
   if (!ray) return false;
-  Query query = query_of(soup_, space_, false);
+  Query query = query_of(soup_, false);
   query.segments = &segment;
   RTCRay embree_ray = to_embree(*ray);
   rtcOccluded1(handles_->scene.get(), &query.context, &embree_ray);
@@ -190,7 +186,7 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
     rays.mask[i] = ~0u;
     rays.id[i] = static_cast<unsigned>(i);
   }
-  Query query = query_of(soup_, space_, bundle);
+  Query query = query_of(soup_, bundle);
   query.segments = segments.data();
   rtcOccluded16(valid, handles_->scene.get(), &query.context, &rays);
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -200,7 +196,7 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
 int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const {
   const std::optional<Ray> ray = space_.ray_ahead(origin, direction);
   if (!ray) return -1;
-  Query query = query_of(soup_, space_, false);
+  Query query = query_of(soup_, false);
   query.origin = origin;
   query.direction = direction;
   query.front_only = sides == Sides::front_only;

@@ -18,16 +18,7 @@ namespace {
 constexpr double relative_enlargement = 0x1p-18;
 constexpr double lengthening = 0x1p-12;
 
-// Relative to the scene's size: a point this close to a triangle's plane lies in it, and a line
-// this close to its border meets it. Points that were computed to lie there do so within about
-// 1e-15.
-constexpr double in_plane_distance = 1e-10;
-constexpr double on_border_distance = 1e-12;
-constexpr double in_shaft_distance = 1e-12;
-// Of coordinates far from the origin.
-constexpr double roundings = 16;
-
-constexpr double largest_extent = 1e30;  // sixth powers of lengths occur
+constexpr double largest_extent = 1e50;  // sixth powers of lengths occur
 
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
@@ -79,16 +70,11 @@ RaySpace make_ray_space(const TriangleSoup& soup) {
   for (const auto& corners : soup.triangles)
     for (const int v : corners) box.include(soup.points[at(v)]);
   const double half = (box.high / 2 - box.low / 2).maxCoeff();
-  const double reach = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
   if (!(half < largest_extent) || (half > 0 && half < 1 / largest_extent))
     throw Error(ErrorCode::contract, "VisibilityIndex",
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
   space.centre = box.low / 2 + box.high / 2;
   if (half > 0) space.scale = std::exp2(-std::ilogb(half) - 1);
-  const double rounding = roundings * std::numeric_limits<double>::epsilon() * reach;
-  space.in_plane = in_plane_distance * half + rounding;
-  space.on_border = on_border_distance * half + rounding;
-  space.in_shaft = in_shaft_distance * half + rounding;
   space.enlargement = relative_enlargement / space.scale;
   return space;
 }

@@ -19,9 +19,6 @@ struct Ray {
 struct RaySpace {
   Vec3 centre = Vec3::Zero();
   double scale = 1;        ///< a power of two; (p − centre)·scale lies in [−1, 1]
-  double in_plane = 0;     ///< a point this close to a triangle's plane lies in it; scene units
-  double on_border = 0;    ///< a line this close to a triangle's border meets it; scene units
-  double in_shaft = 0;     ///< what reaches into a shaft by less only touches it; scene units
   double enlargement = 0;  ///< of triangles, in scene units
 
   /// A segment, a little lengthened and without what lies far from all triangles. Nothing if it has

@@ -3,17 +3,34 @@
 #include "meshing/geometry/shaft.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace halfshade {
+namespace {
 
-ShaftIndex::ShaftIndex(const TriangleSoup& soup, const Vec3& centre, double tolerance)
-    : centre_(centre), tolerance_(tolerance) {
+// What reaches into a shaft by less only touches it: relative to the shaft's size, and roundings of
+// coordinates far from the origin.
+constexpr double touching = 1e-12;
+constexpr double roundings = 16;
+
+double tolerance_for(std::span<const Vec3> a, std::span<const Vec3> b) {
+  Bounds box;
+  for (const auto& polygon : {a, b})
+    for (const Vec3& p : polygon) box.include(p);
+  const double reach = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
+  return touching * (box.high - box.low).maxCoeff() +
+         roundings * std::numeric_limits<double>::epsilon() * reach;
+}
+
+}  // namespace
+
+ShaftIndex::ShaftIndex(const TriangleSoup& soup) {
   std::vector<std::array<Vec3, 3>> corners(soup.triangles.size());
   std::vector<Bounds> boxes(corners.size());
   for (std::size_t t = 0; t < corners.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      corners[t][k] = soup.points[at(soup.triangles[t][k])] - centre;
+      corners[t][k] = soup.points[at(soup.triangles[t][k])];
       boxes[t].include(corners[t][k]);
     }
   tree_ = make_flat_tree(boxes);
@@ -25,11 +42,7 @@ ShaftIndex::ShaftIndex(const TriangleSoup& soup, const Vec3& centre, double tole
 }
 
 std::vector<int> ShaftIndex::candidates(std::span<const Vec3> a, std::span<const Vec3> b) const {
-  std::vector<Vec3> local;
-  for (const auto& polygon : {a, b})
-    for (const Vec3& p : polygon) local.push_back(p - centre_);
-  const auto split = std::span<const Vec3>(local);
-  const Shaft shaft = make_shaft(split.first(a.size()), split.subspan(a.size()), tolerance_);
+  const Shaft shaft = make_shaft(a, b, tolerance_for(a, b));
   const auto skip = [&](int node, SideMask& mask) {
     const Bounds& box = tree_.nodes[at(node)].box;
     return is_outside(shaft, box.low, box.high, mask);

@@ -15,17 +15,13 @@ namespace halfshade {
 /// 57 µs against 52; large ones, 1,400 candidates: 401 µs against 334).
 class ShaftIndex {
  public:
-  /// Counts coordinates from `centre`. Triangles that reach into a shaft by less than `tolerance`
-  /// (scene units) only touch it.
-  ShaftIndex(const TriangleSoup& soup, const Vec3& centre, double tolerance);
+  explicit ShaftIndex(const TriangleSoup& soup);
 
   /// Owners of the triangles that may lie between two polygons, sorted: see
   /// VisibilityIndex::candidates().
   std::vector<int> candidates(std::span<const Vec3> a, std::span<const Vec3> b) const;
 
  private:
-  Vec3 centre_;
-  double tolerance_;
   FlatTree tree_;                               // items: places in triangles_
   std::vector<std::array<Vec3, 3>> triangles_;  // in the order of the leaves
   std::vector<int> owners_;

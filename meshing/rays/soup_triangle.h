@@ -5,13 +5,16 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <limits>
 
 namespace halfshade {
 
 /// A triangle of a soup with its plane.
 struct SoupTriangle {
   std::array<Vec3, 3> corner;
-  Vec3 normal;  // unit length; zero for a triangle without area
+  Vec3 normal;       // unit length; zero for a triangle without area
+  double size;       // its longest extent along an axis
+  double magnitude;  // the largest coordinate
 
   SoupTriangle(const TriangleSoup& soup, std::size_t triangle) {
     for (std::size_t k = 0; k < 3; ++k)
@@ -19,6 +22,10 @@ struct SoupTriangle {
     normal = edge(0).cross(edge(1));
     const double twice_area = normal.norm();
     if (twice_area > 0) normal /= twice_area;
+    const Vec3 low = corner[0].cwiseMin(corner[1]).cwiseMin(corner[2]);
+    const Vec3 high = corner[0].cwiseMax(corner[1]).cwiseMax(corner[2]);
+    size = (high - low).maxCoeff();
+    magnitude = std::max(-low.minCoeff(), high.maxCoeff());
   }
   Vec3 edge(std::size_t k) const { return corner[(k + 1) % 3] - corner[k]; }
   double height(const Vec3& p) const { return normal.dot(p - corner[0]); }
@@ -26,8 +33,20 @@ struct SoupTriangle {
   double area(std::size_t k, const Vec3& p) const {
     return normal.dot(edge(k).cross(p - corner[k]));
   }
-  /// Whether a point of the plane lies in the triangle or within `tolerance` of an edge's line.
-  bool contains(const Vec3& p, double tolerance) const {
+  /// How far off the plane, or outside the border, rounding may put a point: a share of the
+  /// triangle's size, and roundings of coordinates far from the origin.
+  double margin(const Vec3& p, double share) const {
+    constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
+    return share * size + roundings * std::max(magnitude, p.lpNorm<Eigen::Infinity>());
+  }
+  /// +1 or −1 for points clearly on one side of the plane, else 0.
+  int side(const Vec3& p) const {
+    const double h = height(p), in_plane = margin(p, 1e-10);
+    return h > in_plane ? 1 : h < -in_plane ? -1 : 0;
+  }
+  /// Whether a point of the plane lies in the triangle or as good as on an edge's line.
+  bool contains(const Vec3& p) const {
+    const double tolerance = margin(p, 1e-12);
     for (std::size_t k = 0; k < 3; ++k)
       if (const double a = area(k, p);
           a < 0 && a * a > tolerance * tolerance * edge(k).squaredNorm())

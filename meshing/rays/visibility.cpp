@@ -106,8 +106,7 @@ std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,
   if (a.empty() || b.empty())
     throw Error(ErrorCode::contract, "VisibilityIndex::candidates", "a polygon has no vertices");
   if (!impl.scene) return {};
-  std::call_once(impl.planted,
-                 [&] { impl.shafts.emplace(impl.soup, impl.space.centre, impl.space.in_shaft); });
+  std::call_once(impl.planted, [&] { impl.shafts.emplace(impl.soup); });
   return impl.shafts->candidates(a, b);
 }
 

@@ -58,7 +58,7 @@ class VisibilityIndex {
 
   /// Owners of all triangles that can lie between a point of polygon `a` and a point of polygon
   /// `b`: those that reach into the interior of their convex hull (shaft; Haines and Wallace 1991).
-  /// Sorted. Conservative except that triangles reaching in by less than 1e-12 of the scene's size
+  /// Sorted. Conservative except that triangles reaching in by less than 1e-12 of the hull's size
   /// may be missing: triangles that only touch the shaft, as coplanar ones do, are left out. A
   /// polygon may also be a single point. Double precision; cost grows with the logarithm of the
   /// scene.

@@ -119,6 +119,7 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
 Surface finish(SurfaceDraft&& draft, const std::vector<Vec3>& points) {
   Surface surface;
   surface.frame = draft.frame;
+  surface.scale = draft.scale;
   surface.material = draft.material;
   surface.group = draft.group;
   surface.plane = draft.plane;

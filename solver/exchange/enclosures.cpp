@@ -26,7 +26,7 @@ bool meets_a_front(const SoundScene& scene, const VisibilityIndex& visibility, c
     return true;
   // Where a ray meets the edge between a front and a back, either may be found first.
   const auto front = visibility.first_hit(origin, direction, Sides::front_only);
-  return front && front->distance <= hit->distance + scene.tolerance.planarity;
+  return front && front->distance <= hit->distance + tolerance_of(surface).planarity;
 }
 
 /// True if every ray from the element meets the front of a surface.
@@ -34,8 +34,9 @@ bool sees_only_fronts(const SoundScene& scene, const ElementTable& elements,
                       const VisibilityIndex& visibility, int element) {
   const auto e = static_cast<std::size_t>(element);
   const auto t = elements.triangle(element);
+  const Surface& surface = scene.surfaces[at(elements.surface[e])];
   const PlaneFrame frame =
-      make_frame((t[0] + t[1] + t[2]) / 3 + scene.tolerance.planarity * elements.normal[e],
+      make_frame((t[0] + t[1] + t[2]) / 3 + tolerance_of(surface).planarity * elements.normal[e],
                  elements.normal[e]);
   for (int k = 0; k < rays_per_element; ++k) {
     // Cosine-distributed directions on a spiral (Vogel 1979): equal shares of the projected

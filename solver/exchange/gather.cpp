@@ -9,9 +9,6 @@
 namespace halfshade {
 namespace {
 
-/// Relative to the scene's size: elements whose plane is this close to the point do not light it.
-constexpr double in_plane = 1e-9;
-
 /// One point's view of all elements; keeps its buffers.
 class Gatherer {
  public:
@@ -39,7 +36,7 @@ class Gatherer {
     const ElementTable& elements = solved_.elements;
     const auto corners = elements.triangle(e);
     const double height = elements.normal[row].dot(point.position - corners[0]);
-    if (height < in_plane * solved_.scene.tolerance.scene_size) return;
+    if (height < tolerance_of(solved_.scene.surfaces[at(elements.surface[row])]).length) return;
     const double factor = point_to_polygon(point.position, point.normal, corners);
     if (!(factor > 0)) return;
     const int plane = solved_.scene.surfaces[static_cast<std::size_t>(elements.surface[row])].plane;

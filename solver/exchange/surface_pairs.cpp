@@ -32,9 +32,9 @@ SurfacePairs::SurfacePairs(const SoundScene& scene, const VisibilityIndex& visib
     outlines.push_back(outline(scene.surfaces[r]));
     for (const Vec3& p : outlines[r]) boxes[r].extend(p);
   }
-  const double margin = scene.tolerance.length;
   const auto classify = [&](std::size_t r) {
     for (std::size_t s = r + 1; s < count_; ++s) {
+      const double margin = tolerance_of(scene.surfaces[r], scene.surfaces[s]).length;
       if (!reaches_in_front(outlines[s], scene.surfaces[r].frame, margin) ||
           !reaches_in_front(outlines[r], scene.surfaces[s].frame, margin))
         continue;

@@ -49,7 +49,7 @@ bool is_convex(const SoundScene& scene) {
   const auto is_behind = [&](const Surface& viewer, const Surface& other) {
     const Ring& ring = other.rings.front();
     return std::any_of(ring.begin(), ring.end(), [&](const Vec2& p) {
-      return viewer.frame.height(other.frame.to_space(p)) < -scene.tolerance.length;
+      return viewer.frame.height(other.frame.to_space(p)) < -tolerance_of(viewer, other).length;
     });
   };
   for (const Surface& viewer : scene.surfaces)

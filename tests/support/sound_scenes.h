@@ -21,6 +21,7 @@ inline void add_surface(SoundScene& scene, const std::vector<std::vector<Vec3>>&
     Ring& flat = surface.rings.emplace_back();
     for (const Vec3& p : ring) flat.push_back(surface.frame.to_plane(p));
   }
+  surface.scale = scale_of(rings.front());
   surface.material = material;
   surface.faces = {static_cast<int>(scene.surfaces.size())};
   surface.face_rings = {surface.rings.front()};

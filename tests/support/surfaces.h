@@ -26,6 +26,7 @@ inline int add_surface(SoundScene& scene, const std::vector<Polygon>& rings, dou
     for (const Vec3& p : polygon) surface.rings.back().push_back(surface.frame.to_plane(p));
   }
   surface.face_rings.push_back(surface.rings.front());
+  surface.scale = scale_of(rings.front());
   const int id = static_cast<int>(scene.surfaces.size());
   surface.material = id;
   surface.plane = id;

@@ -31,8 +31,8 @@ struct Table : LitScene {
   }
 
   bool differs(double x, const std::vector<EdgeId>& ids) const {
-    EventDecider decider(scene, opaque, emitter_scene);
-    return decider.decide({{x, 0.1, 0}, Vec3::UnitZ(), Vec3::UnitX()}, ids).differs;
+    EventDecider decider(opaque, emitter_scene);
+    return decider.decide({{x, 0.1, 0}, Vec3::UnitZ(), Vec3::UnitX()}, 1e-9, ids).differs;
   }
 };
 

@@ -280,18 +280,31 @@ TEST(SwathTracer, GivesTheSameCurvesAgain) {
   }
 }
 
-TEST(SideStep, GrowsWithTheSceneAndItsDistanceFromTheOrigin) {
-  const auto step = [](const SceneMaker& maker) {
-    const SoundScene scene = maker.sound();
-    return side_step(scene, OpaqueScene(scene));
-  };
-  const double here = step(s1_maker());
-  const double size = s1_maker().sound().tolerance.scene_size;
-  EXPECT_GT(here, 0);
-  EXPECT_LT(here, 1e-6 * size);
-  const double away = step(s1_maker().move({1e6, 0, 0}));
+/// On the floor of s1, along a line from the light's corner past one of the table's.
+double step_on_floor(const SceneMaker& maker, const Vec3& at = Vec3::Zero()) {
+  const test::LitScene lit(maker);
+  const Vec3 start = at + Vec3(-0.5, -0.5, 2), last = at + Vec3(0.375, 0.375, 1);
+  return side_step(lit.scene.surfaces.back(), lit.emitter_scene,
+                   {start, last, (last - start).normalized()}, last + (last - start));
+}
+
+TEST(SideStep, IsFarAboveRoundingAndFarBelowWhatLightDraws) {
+  const double here = step_on_floor(s1_maker());
+  EXPECT_GT(here, 1e3 * 0x1p-52 * 2) << "well above the rounding of coordinates";
+  EXPECT_LT(here, 1e-7 * std::sqrt(2.)) << "far below the width of the penumbra";
+  const Vec3 far(1e6, 0, 0);
+  const double away = step_on_floor(s1_maker().move(far), far);
   EXPECT_GT(away, 1e3 * 0x1p-52 * 1e6) << "well above the rounding of coordinates there";
   EXPECT_GE(away, here);
+}
+
+TEST(SideStep, DoesNotGrowWithWhatIsElsewhere) {
+  SceneMaker maker;
+  maker.polygon({{1e9, 0, 0}, {1e9, 1e6, 0}, {1e9, 0, 1e6}});
+  const Scene s1 = s1_maker().scene;
+  for (int f = 0; f < static_cast<int>(s1.faces.size()); ++f)
+    maker.polygon(face_corners(s1, f), s1.faces[at(f)].material);
+  EXPECT_EQ(step_on_floor(s1_maker()), step_on_floor(maker));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "meshing/core/light_source.h"
 #include "meshing/patches/quality.h"
+#include "meshing/patches/shared_edges.h"
 #include "meshing/repair/repair.h"
 #include "tests/support/cornell.h"
 #include "tests/support/degenerate_scenes.h"
@@ -224,16 +225,16 @@ TEST(PatchMeshOfCurveMeshes, RefusesMeshesAndCurvesThatDoNotFit) {
   std::vector<CurveMesh> meshes;
   for (const Surface& surface : scene.surfaces)
     meshes.push_back(mesh_with_curves(surface.rings, surface.contacts, {}, {}));
-  EXPECT_EQ(PatchMesh(scene, meshes, {}).element_count() > 0, true);
+  EXPECT_EQ(PatchMesh(scene, SharedEdges(scene), meshes, {}).element_count() > 0, true);
   const std::vector<CurvePolyline> lines = {{{{-0.2, -0.1}, {0.3, 0.2}}, 5}};
   meshes[1] = mesh_with_curves(scene.surfaces[1].rings, {}, lines, {});
   test::expect_error(
       [&] {
-        PatchMesh(scene, meshes, std::vector<int>{1, 2});
+        PatchMesh(scene, SharedEdges(scene), meshes, std::vector<int>{1, 2});
       },
       ErrorCode::contract, {"curve 5"});
   meshes.pop_back();
-  test::expect_error([&] { PatchMesh(scene, meshes, {}); }, ErrorCode::contract,
+  test::expect_error([&] { PatchMesh(scene, SharedEdges(scene), meshes, {}); }, ErrorCode::contract,
                      {"2 meshes", "3 surfaces"});
 }
 
@@ -246,7 +247,7 @@ TEST(PatchMeshOfCurveMeshes, MissingVerticesAreFilledIn) {
       options.quality.max_length = 0.17 + 0.13 * static_cast<double>(meshes.size() % 5);
       meshes.push_back(mesh_with_curves(surface.rings, surface.contacts, {}, options));
     }
-    PatchMesh mesh(scene, meshes, {});
+    PatchMesh mesh(scene, SharedEdges(scene), meshes, {});
     expect_sound(mesh.elements(), scene);
     EXPECT_GT(expect_alike_across_surfaces(mesh.elements(), scene), 0);
     const PatchHierarchy forest = mesh.hierarchy();

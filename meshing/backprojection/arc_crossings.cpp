@@ -78,7 +78,9 @@ void ShadowArrangement::locate_crossing(Crossing& crossing) const {
   }
   if (is_clear) return;
   // Nearly one line: the middle of the common part will do where rounding hides the crossing.
-  const double noise = rounding::same_line * view_->slack() * normal[1].norm();
+  const Vec3& farther = start[0].squaredNorm() > start[1].squaredNorm() ? start[0] : start[1];
+  const double noise =
+      rounding::same_line * view_->slack_at(view_->point() + farther) * normal[1].norm();
   double t = 0;
   if (std::abs(first[0]) <= noise && std::abs(first[0] - drop[0]) <= noise) {
     const double from = along_segment(start[0], along[0], normal[0], start[1]);

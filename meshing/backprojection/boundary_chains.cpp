@@ -9,8 +9,9 @@
 namespace halfshade {
 namespace {
 
-double rounding_width(const PointView& view) {
-  return rounding::thinnest_part * view.slack() + rounding::jitters_of_a_part * view.jitter();
+double rounding_width(const PointView& view, const Vec3& position) {
+  return rounding::thinnest_part * view.slack_at(position) +
+         rounding::jitters_of_a_part * view.jitter_at(position);
 }
 
 /// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
@@ -18,8 +19,8 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   const Vec3 from = view.corners[at(edge.from)].true_position - view.point();
   const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
   const Vec3 normal = from.cross(to).normalized();
-  const double width = rounding::widest_overlap * rounding_width(view);
   const auto lies_on = [&](const Vec3& end) {
+    const double width = rounding::widest_overlap * rounding_width(view, end);
     const Vec3 p = end - view.point();
     // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
     // by so much.
@@ -51,7 +52,7 @@ void add(Extent& extent, const PointView& view, const Vec3& from, const Vec3& to
   const double sine = normal.norm(), angle = std::atan2(sine, a.dot(b));
   if (sine > 0) extent.flux += 0.5 * angle / sine * normal;
   extent.rounding +=
-      angle * rounding_width(view) / std::sqrt(std::min(a.squaredNorm(), b.squaredNorm()));
+      angle * std::max(rounding_width(view, from) / a.norm(), rounding_width(view, to) / b.norm());
 }
 
 }  // namespace
@@ -87,15 +88,16 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
     for (std::size_t j = 0; j < all.size(); ++j) {
       if (is_taken_[j] != 0) continue;
       const Vec3 start = all[j].from - view.point();
-      const double gap =
-          (start.normalized() - end.normalized()).norm() * std::min(start.norm(), end.norm());
+      const double gap = (start.normalized() - end.normalized()).norm() *
+                         std::min(start.norm() / view.slack_at(all[j].from),
+                                  end.norm() / view.slack_at(all[i].to));
       if (gap < best) {
         best = gap;
         next_[i] = static_cast<int>(j);
       }
     }
     is_taken_[at(next_[i])] = 1;
-    closed = closed && best <= rounding::widest_gap * view.slack();
+    closed = closed && best <= rounding::widest_gap;
   }
 }
 

@@ -78,9 +78,17 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   normal_ = normal;
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  magnitude_ =
-      std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
+  magnitude_ = std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
   slack_ = rounding::slack * magnitude_;
+}
+
+double PointView::slack_at(const Vec3& position) const {
+  return rounding::slack *
+         std::max(position.lpNorm<Eigen::Infinity>(), point_.lpNorm<Eigen::Infinity>());
+}
+
+double PointView::jitter_at(const Vec3& position) const {
+  return jitter_ / rounding::slack * slack_at(position);
 }
 
 std::int64_t PointView::first_free_rank() const {
@@ -90,12 +98,11 @@ std::int64_t PointView::first_free_rank() const {
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   Corner corner;
   corner.true_position = corner.position = position;
-  const double size = std::max(magnitude_, position.lpNorm<Eigen::Infinity>());
-  if (jitter_ > 0) corner.position += scatter(rank, jitter_ * size);
+  if (jitter_ > 0) corner.position += scatter(rank, jitter_at(position));
   corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);
-  const double slack = rounding::slack * size;
+  const double slack = std::max(slack_, slack_at(position));
   if (corner.height <= slack)
     corner.side = corner.height < -slack ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
@@ -242,8 +249,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
   while (depth > 0) {
     const int index = stack[--depth];
     const FlatTree::Node& node = tree.nodes[at(index)];
-    const Vec3 wider =
-        Vec3::Constant(margin + spread * (node.box.high - node.box.low).maxCoeff());
+    const Vec3 wider = Vec3::Constant(margin + spread * (node.box.high - node.box.low).maxCoeff());
     const Vec3 low = (node.box.low - wider - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + wider - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);

@@ -36,7 +36,7 @@ struct SightPyramid {
   Vec3 eye = Vec3::Zero(), normal = Vec3::Zero(), plane_point = Vec3::Zero();
   double slack = 0;   ///< rounding of a distance near the pyramid
   double spread = 0;  ///< rounding as a share of how far a box reaches
-  Vec2 low, high;    ///< of the outline's image
+  Vec2 low, high;     ///< of the outline's image
 
   /// Neither can be wrong about something that is inside.
   bool is_outside(const Bounds& box) const;
@@ -65,8 +65,11 @@ class PointView {
   double distance() const { return distance_; }  ///< of the point from the emitter's plane
   /// The largest coordinate of the point and the emitter, between which all that counts lies.
   double magnitude() const { return magnitude_; }
-  double slack() const { return slack_; }  ///< rounding of a distance between them
+  double slack() const { return slack_; }                 ///< rounding of a distance between them
   double jitter() const { return jitter_ * magnitude_; }  ///< a length
+  /// The same two where something else is seen, which may be much nearer.
+  double slack_at(const Vec3& position) const;
+  double jitter_at(const Vec3& position) const;
   /// How far anything may be from where it should be.
   double blur() const { return slack_ + 2 * jitter(); }
   const Vec3& point() const { return point_; }

@@ -126,8 +126,7 @@ class Search {
         return curve.receiver != receiver;
       });
       Curves own(std::make_move_iterator(begin), std::make_move_iterator(end));
-      report_.merged +=
-          merge_coincident(own, tolerance_of(scene_.surfaces[at(receiver)]).length);
+      report_.merged += merge_coincident(own, tolerance_of(scene_.surfaces[at(receiver)]).length);
       append(std::move(own), merged);
       begin = end;
     }

@@ -16,9 +16,9 @@ class EventDecider {
   /// Both must outlive the decider.
   EventDecider(const OpaqueScene& opaque, const EmitterScene& emitter_scene);
 
-  /// `step`: see side_step. How the places where edges of `group` (sorted) follow each other differ between the sides of a
-  /// curve that would be normal to `at.across`, which is its left; triples sorted. Costs two or
-  /// four visible parts.
+  /// `step`: see side_step. How the places where edges of `group` (sorted) follow each other differ
+  /// between the sides of a curve that would be normal to `at.across`, which is its left; triples
+  /// sorted. Costs two or four visible parts.
   EventEvidence decide(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
 
  private:

@@ -21,10 +21,7 @@ constexpr double share_in_limit = 0.5;
 
 JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
                              const EmitterScene& emitter_scene)
-    : scene_(scene),
-      opaque_(opaque),
-      emitter_scene_(emitter_scene),
-      finder_(opaque) {}
+    : scene_(scene), opaque_(opaque), emitter_scene_(emitter_scene), finder_(opaque) {}
 
 void JumpPredictor::predict(DiscontinuityCurve& curve) {
   for (; curve.order < 3; ++curve.order) {

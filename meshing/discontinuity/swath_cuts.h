@@ -30,13 +30,13 @@ class SwathCuts {
   const OpaqueTopology& opaque_;
   const SilhouetteTrees& silhouette_trees_;
   const EmitterScene& emitter_scene_;
-  std::vector<bool> is_inner_;   ///< edges between two triangles of one surface
+  std::vector<bool> is_inner_;  ///< edges between two triangles of one surface
   struct Contact {
     Span3 span;
     double joined;  ///< what is closer to it than this is meant to lie on it
   };
   std::vector<Contact> contacts_;  ///< of all surfaces
-  FlatTree contact_tree_;        ///< over them
+  FlatTree contact_tree_;          ///< over them
 };
 
 }  // namespace halfshade

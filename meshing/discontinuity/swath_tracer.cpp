@@ -87,7 +87,8 @@ void SwathTracer::append_curves(const Swath& swath, const Piece& piece,
   curve.triples = piece.triples;
   curve.sources = {swath.source};
   if (swath.is_planar) curve.sight_plane = plane_normal(swath);
-  for (const ConicArc& arc : fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * piece.step)) {
+  for (const ConicArc& arc :
+       fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * piece.step)) {
     curve.arc = arc;
     curves.push_back(curve);
   }

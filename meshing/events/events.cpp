@@ -110,8 +110,7 @@ void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const Swath
       normalize(swath.group);
       swath.silhouettes[0] = edge;
       swath.corner = static_cast<int>(w);
-      swath.may_be_first_order =
-          count_in_plane(emitter_scene, swath, vertex) > 0;
+      swath.may_be_first_order = count_in_plane(emitter_scene, swath, vertex) > 0;
       sink(swath);
     }
   }

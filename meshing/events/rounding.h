@@ -25,7 +25,9 @@ inline constexpr double position_roundings = 1e4;
 inline double slack_at(const Vec3& p) {
   return position_roundings * std::numeric_limits<double>::epsilon() * p.lpNorm<Eigen::Infinity>();
 }
-inline double slack_of(const Span3& span) { return std::max(slack_at(span.from), slack_at(span.to)); }
+inline double slack_of(const Span3& span) {
+  return std::max(slack_at(span.from), slack_at(span.to));
+}
 
 /// Share of an edge by which a line may miss its ends and still meet it.
 inline constexpr double edge_margin = 1e-10;

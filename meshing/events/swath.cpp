@@ -63,9 +63,9 @@ void add_direction(const Swath& swath, const Vec3& normal, const Vec3& y, double
                    std::vector<double>& parameters) {
   const Vec3 to = y - swath.apex;
   if (to.squaredNorm() <= slack * slack) return;
-  const double d0 = normal.dot((swath.base.from - swath.apex).cross(to));
-  const double d1 = normal.dot((swath.base.to - swath.apex).cross(to));
-  const double t = d0 / (d0 - d1);
+  // With the base as seen from y, for the apex may be far from both.
+  const double t =
+      normal.dot((swath.base.from - y).cross(to)) / normal.dot(to.cross(swath.base.direction()));
   if (t > 0 && t < 1) parameters.push_back(t);
 }
 
@@ -176,15 +176,13 @@ std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, doubl
   // The line runs through x with direction d; dots are derivatives by t.
   Vec3 x, d, x_dot, d_dot;
   if (swath.is_planar) {
-    x = swath.apex;
-    d = swath.base.at(t) - x;
-    x_dot = Vec3::Zero();
+    const Vec3 on_base = swath.base.at(t);
+    d = on_base - swath.apex;
     d_dot = swath.base.direction();
     // What is nearer to the plane is rounded less.
-    if (std::abs(plane.height(x + d)) < std::abs(plane.height(x))) {
-      x += d;
-      x_dot = d_dot;
-    }
+    const bool base_is_near = std::abs(plane.height(on_base)) < std::abs(plane.height(swath.apex));
+    x = base_is_near ? on_base : swath.apex;
+    x_dot = base_is_near ? d_dot : Vec3::Zero();
   } else {
     const LineFamily& f = swath.family;
     x = swath.edges[0].at(t);

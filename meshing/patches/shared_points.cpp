@@ -175,8 +175,7 @@ class SharedPointFinder {
     for (const Edge& edge : edges_[line]) {
       const auto [low, high] = std::minmax(edge.t[0], edge.t[1]);
       SharedPoints::Gap gap{edge.points, {}};
-      auto p = std::upper_bound(shared.begin(), shared.end(),
-                                std::pair(low + length, INT32_MAX));
+      auto p = std::upper_bound(shared.begin(), shared.end(), std::pair(low + length, INT32_MAX));
       for (; p != shared.end() && p->first < high - length; ++p) {
         const std::vector<int>& owners = surfaces_at_[at(p->second)];
         if (!std::binary_search(owners.begin(), owners.end(), edge.surface))

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/boundary_chains.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace halfshade {
 namespace {
 
 double rounding_width(const PointView& view) {
-  return rounding::thinnest_part * view.slack() + rounding::jitters_of_a_part * view.jitter();
+  return margins::thinnest_part * view.slack() + margins::jitters_of_a_part * view.jitter();
 }
 
 /// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
@@ -18,7 +18,7 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   const Vec3 from = view.corners[at(edge.from)].true_position - view.point();
   const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
   const Vec3 normal = from.cross(to).normalized();
-  const double width = rounding::widest_overlap * rounding_width(view);
+  const double width = margins::widest_overlap * rounding_width(view);
   const auto lies_on = [&](const Vec3& end) {
     const Vec3 p = end - view.point();
     // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
@@ -95,7 +95,7 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
       }
     }
     is_taken_[at(next_[i])] = 1;
-    closed = closed && best <= rounding::widest_gap * view.slack();
+    closed = closed && best <= margins::widest_gap * view.slack();
   }
 }
 

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/point_view.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -72,7 +72,7 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   normal_ = normal;
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
-  slack_ = rounding::slack * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
+  slack_ = margins::slack * std::max(topology_.magnitude, point.lpNorm<Eigen::Infinity>());
 }
 
 std::int64_t PointView::first_free_rank() const {
@@ -89,7 +89,7 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   if (corner.height <= slack_)
     corner.side = corner.height < -slack_ ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
-  corner.is_ahead = depth > rounding::nearest_image * distance_;
+  corner.is_ahead = depth > margins::nearest_image * distance_;
   if (corner.is_ahead)
     corner.image = distance_ / depth *
                    Vec2(emitter_->e1.dot(corner.direction), emitter_->e2.dot(corner.direction));
@@ -133,7 +133,7 @@ bool PointView::is_edge_on(int surface) {
     kept = {query_,
             height <= slack_ ||
                 (height <= opaque.tolerance.length &&
-                 std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
+                 std::abs(frame.normal.dot(normal_)) > margins::same_normal && touches(surface))};
   }
   return kept.value != 0;
 }
@@ -222,9 +222,8 @@ int PointView::layers_over(const DirectionBeside& direction) {
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
   const Vec3 margin = Vec3::Constant(blur() * last);
-  const Vec3 inverse = target.direction.unaryExpr([](double d) {
-    return 1 / (std::abs(d) > rounding::least_slope ? d : rounding::least_slope);
-  });
+  const Vec3 inverse = target.direction.unaryExpr(
+      [](double d) { return 1 / (std::abs(d) > margins::least_slope ? d : margins::least_slope); });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -233,7 +232,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
     const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
-    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding::slack));
+    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + margins::slack));
     if (enter > leave) continue;
     if (node.right >= 0) {
       stack[depth++] = node.right;

@@ -1,6 +1,6 @@
 #include "meshing/discontinuity/event_decision.h"
 
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 
 #include <algorithm>
 
@@ -21,11 +21,12 @@ EventDecider::EventDecider(const SoundScene& scene, const OpaqueScene& opaque,
                            const EmitterScene& emitter_scene)
     : emitter_(emitter_scene.emitter),
       step_(side_step(scene, opaque)),
-      has_fine_detail_(has_shorter_edges(emitter_scene, fine_detail * scene.tolerance.scene_size)),
+      has_fine_detail_(
+          has_shorter_edges(emitter_scene, margins::fine_detail * scene.tolerance.scene_size)),
       finder_(opaque) {}
 
 EventEvidence EventDecider::decide(const ReceivingPoint& at, std::span<const EdgeId> group) {
-  EventEvidence evidence = compare(at, wide_step * step_, group);
+  EventEvidence evidence = compare(at, margins::wide_step * step_, group);
   if (!evidence.differs && has_fine_detail_) evidence = compare(at, step_, group);
   std::sort(evidence.triples.begin(), evidence.triples.end());
   return evidence;

@@ -2,7 +2,7 @@
 
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 
 #include <cmath>
 
@@ -80,13 +80,13 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
   };
   add(left_, 1);
   add(right_, -1);
-  return std::abs(jump) > least_share * whole ? jump : 0;
+  return std::abs(jump) > margins::least_share * whole ? jump : 0;
 }
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
                                         EdgeId edge) const {
   const Line3 line = line_of(emitter_scene_, opaque_.topology(), edge);
-  const double slack = in_plane * emitter_scene_.joined;
+  const double slack = margins::in_plane * emitter_scene_.joined;
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }

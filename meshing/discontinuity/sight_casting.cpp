@@ -1,7 +1,7 @@
 #include "meshing/discontinuity/sight_casting.h"
 
-#include "meshing/discontinuity/rounding.h"
-#include "meshing/events/rounding.h"
+#include "meshing/discontinuity/margins.h"
+#include "meshing/events/margins.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -64,12 +64,12 @@ void SightCaster::find_crossings(const SightLine& line) {
         const Vec3 c = opaque_.vertices[at(corner[2])] - line.start;
         const Vec3 normal = (b - a).cross(c - a);
         const double across = normal.dot(line.direction), size = normal.norm();
-        if (!(std::abs(across) > grazing_sine * size)) return;
+        if (!(std::abs(across) > margins::grazing_sine * size)) return;
         const double u = b.cross(c).dot(line.direction) / across;
         const double v = c.cross(a).dot(line.direction) / across;
         const double least = std::min({u, v, 1 - u - v});
-        if (least < -clearly_inside) return;
-        crossings_.push_back({normal.dot(a) / across, t, least > clearly_inside});
+        if (least < -margins::clearly_inside) return;
+        crossings_.push_back({normal.dot(a) / across, t, least > margins::clearly_inside});
       });
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;

@@ -1,5 +1,5 @@
 #include "meshing/events/events.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -147,7 +147,7 @@ void coplanar_swath(const EmitterScene& emitter_scene, Swath swath, const Span3&
 void crossing_swath(const EmitterScene& emitter_scene, Swath swath, const Span3& a, const Span3& b,
                     const Span3& third, const SwathSink& sink) {
   const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
-  if (!(normal.norm() > parallel_sine * u.norm() * v.norm())) return;
+  if (!(normal.norm() > margins::parallel_sine * u.norm() * v.norm())) return;
   const double s = (b.from - a.from).cross(v).dot(normal) / normal.squaredNorm();
   const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
   if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;

@@ -2,20 +2,13 @@
 
 #include "meshing/core/sound_scene.h"
 
-// What counts as rounding, or as too little to matter, where curves are traced and joined. Sines
-// below which things are parallel are those of the events.
-
-namespace halfshade {
-
-class OpaqueScene;
+/// What counts as rounding, or as too little to matter, where curves are traced and joined. Sines
+/// below which things are parallel are those of the events.
+namespace halfshade::margins {
 
 /// Side steps, relative to the scene's size and to a rounding of the largest coordinate.
 inline constexpr double relative_step = 1e-9;
 inline constexpr double roundings_per_step = 1e4;
-
-/// How far to the sides of a curve it is tested what is seen there: far above rounding, far below
-/// the size of anything. A length.
-double side_step(const SoundScene& scene, const OpaqueScene& opaque);
 
 // In side steps:
 
@@ -50,5 +43,15 @@ inline constexpr double joined_ends = 3;
 inline constexpr double least_jump = 1e-9;
 /// A jump of the slope that is this small a share of what makes it is rounding.
 inline constexpr double least_share = 1e-6;
+
+}  // namespace halfshade::margins
+
+namespace halfshade {
+
+class OpaqueScene;
+
+/// How far to the sides of a curve it is tested what is seen there: far above rounding, far below
+/// the size of anything. A length.
+double side_step(const SoundScene& scene, const OpaqueScene& opaque);
 
 }  // namespace halfshade

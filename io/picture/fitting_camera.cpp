@@ -17,7 +17,7 @@ constexpr double clearly_more = 1.01;
 /// The camera stands this much higher, and to the side, than straight in front.
 constexpr double rise = 0.4, aside = 0.25;
 /// Free space round the scene in the picture.
-constexpr double margin = 1.05;
+constexpr double room_around = 1.05;
 
 struct Box {
   Vec3 low, high;
@@ -92,7 +92,7 @@ Camera fitting_camera(const ShadedMesh& mesh) {
   const Vec3 towards = choose_side(mesh, camera.up, length);
   const Vec3 right = camera.up.cross(towards).normalized();
   const Vec3 top = towards.cross(right);
-  const double slope = std::tan(camera.vertical_fov / 2 * std::numbers::pi / 180) / margin;
+  const double slope = std::tan(camera.vertical_fov / 2 * std::numbers::pi / 180) / room_around;
   const Vec3 centre = (box.low + box.high) / 2;
   double distance = 0;
   for (int i = 0; i < 8; ++i) {

@@ -97,8 +97,7 @@ class Painter {
     parallel_for(
         count,
         [&](std::size_t i) {
-          const auto column = static_cast<double>(i % static_cast<std::size_t>(columns));
-          const auto row = static_cast<double>(i / static_cast<std::size_t>(columns));
+          const int k = static_cast<int>(i), column = k % columns, row = k / columns;
           const Vec3 ray = view_.ray((column + 0.5) * options_.width / columns,
                                      (row + 0.5) * options_.height / rows);
           if (const auto hit = cast(ray)) {

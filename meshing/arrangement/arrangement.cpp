@@ -14,7 +14,7 @@ namespace halfshade {
 namespace {
 
 // Every round splits links into strictly shorter ones; real input settles in two or three.
-constexpr int most_rounds = 40;
+constexpr int most_snap_rounds = 40;
 
 using Inserts = std::map<Link, std::vector<int>>;
 
@@ -44,7 +44,7 @@ class Arranger {
   }
 
   Arrangement run() {
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_snap_rounds; ++round) {
       collect_links();
       Inserts inserts = points_on_links();
       if (inserts.empty()) inserts = crossings();

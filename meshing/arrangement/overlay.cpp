@@ -183,7 +183,7 @@ class RegionTracer {
 
 double twice_area(std::span<const Vec2> points, std::span<const int> loop) {
   double sum = 0;
-  const Vec2 origin = points[at(loop[0])];
+  const Vec2& origin = points[at(loop[0])];
   for (std::size_t k = 1; k + 1 < loop.size(); ++k) {
     const Vec2 a = points[at(loop[k])] - origin, b = points[at(loop[k + 1])] - origin;
     sum += cross_2d(a, b);

@@ -1,4 +1,4 @@
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 
 #include <algorithm>
@@ -74,13 +74,13 @@ void ShadowArrangement::locate_crossing(Crossing& crossing) const {
     drop[k] = -normal[1 - k].dot(along[k]);
     crossing.along[k] = std::clamp(first[k] / drop[k], 0., 1.);
     is_clear = is_clear &&
-               std::abs(drop[k]) > rounding::near_parallel * normal[1 - k].norm() * along[k].norm();
+               std::abs(drop[k]) > margins::near_parallel * normal[1 - k].norm() * along[k].norm();
   }
   if (is_clear) return;
   // Nearly one line: the middle of the common part will do where rounding hides the crossing.
   const Vec3& farther = start[0].squaredNorm() > start[1].squaredNorm() ? start[0] : start[1];
   const double noise =
-      rounding::same_line * view_->slack_at(view_->point() + farther) * normal[1].norm();
+      margins::same_line * view_->slack_at(view_->point() + farther) * normal[1].norm();
   double t = 0;
   if (std::abs(first[0]) <= noise && std::abs(first[0] - drop[0]) <= noise) {
     const double from = along_segment(start[0], along[0], normal[0], start[1]);
@@ -120,7 +120,7 @@ void ShadowArrangement::sort_crossings() {
               [&](int a, int b) { return along(a) != along(b) ? along(a) < along(b) : a < b; });
     // Insertion, because the order of near ties need not be transitive.
     for (auto next = begin; next != end; ++next)
-      for (auto c = next; c != begin && along(*c) - along(c[-1]) < rounding::near_tie; --c) {
+      for (auto c = next; c != begin && along(*c) - along(c[-1]) < margins::near_tie; --c) {
         if (!is_before(arc, *c, c[-1])) break;
         std::swap(*c, c[-1]);
       }

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/boundary_chains.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -10,8 +10,8 @@ namespace halfshade {
 namespace {
 
 double rounding_width(const PointView& view, const Vec3& position) {
-  return rounding::thinnest_part * view.slack_at(position) +
-         rounding::jitters_of_a_part * view.jitter_at(position);
+  return margins::thinnest_part * view.slack_at(position) +
+         margins::jitters_of_a_part * view.jitter_at(position);
 }
 
 /// Whether both ends of a piece lie on an edge of the outline, as far as rounding can tell.
@@ -20,7 +20,7 @@ bool runs_along(const PointView& view, const ArrangedPiece& piece, const Outline
   const Vec3 to = view.corners[at(edge.to)].true_position - view.point();
   const Vec3 normal = from.cross(to).normalized();
   const auto lies_on = [&](const Vec3& end) {
-    const double width = rounding::widest_overlap * rounding_width(view, end);
+    const double width = margins::widest_overlap * rounding_width(view, end);
     const Vec3 p = end - view.point();
     // Seen from the point, the edge lies this far off where the end is, and its own ends are passed
     // by so much.
@@ -97,7 +97,7 @@ void BoundaryChains::join_leftovers(const ShadowArrangement& arrangement, const 
       }
     }
     is_taken_[at(next_[i])] = 1;
-    closed = closed && best <= rounding::widest_gap;
+    closed = closed && best <= margins::widest_gap;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 
 #include <algorithm>
@@ -129,8 +129,8 @@ void ShadowArrangement::add_arc(int from, int to, int weight, EdgeId edge) {
 bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
-  const double margin = rounding::box_margin * (pyramid.high - pyramid.low).maxCoeff() +
-                        rounding::blur_margin * view_->blur();
+  const double margin = margins::box_margin * (pyramid.high - pyramid.low).maxCoeff() +
+                        margins::blur_margin * view_->blur();
   if (a.is_ahead && b.is_ahead) {
     arc.low = a.image.cwiseMin(b.image).array() - margin;
     arc.high = a.image.cwiseMax(b.image).array() + margin;

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/edge_sum.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 double angle_excess(double sine, double cosine) {
   const double s = sine * sine;
   // Eight terms of the series of arcsin s / s.
-  if (cosine > 0 && s < rounding::small_sine_squared)
+  if (cosine > 0 && s < margins::small_sine_squared)
     return s *
            (1. / 6 +
             s * (3. / 40 +

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/emitter_outline.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr std::size_t max_sides = 8;
 /// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
 double EmitterOutline::height(const PointView& view, int corner) const {
   const double h = normal_.dot(view.corners[at(corner)].true_position - point_) -
-                   rounding::raised_horizon * view.slack();
+                   margins::raised_horizon * view.slack();
   return std::abs(h) <= view.slack() ? 0 : h;
 }
 
@@ -99,7 +99,7 @@ void EmitterOutline::make_pyramid(const PointView& view) {
   pyramid.eye = point_;
   pyramid.normal = frame.normal;
   pyramid.plane_point = frame.origin;
-  pyramid.slack = rounding::pyramid_margin * view.blur();
+  pyramid.slack = margins::pyramid_margin * view.blur();
   pyramid.spread = pyramid.slack / view.magnitude();
   pyramid.low = pyramid.high = view.corners[at(edges[0].from)].image;
   for (const OutlineEdge& edge : edges) {

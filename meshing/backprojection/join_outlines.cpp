@@ -1,5 +1,5 @@
+#include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/opaque_topology.h"
-#include "meshing/backprojection/rounding.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void add_ring(const Surface& surface, const Ring& ring, const LocalTolerance& to
     corners.position.push_back(surface.frame.to_space(ring[k]));
     corners.reach.push_back(std::max(
         tolerance.length,
-        std::min(2 * tolerance.planarity, rounding::largest_joint_gap * std::min(before, after))));
+        std::min(2 * tolerance.planarity, margins::largest_joint_gap * std::min(before, after))));
     corners.edge.push_back(first_edge + static_cast<int>(k));
   }
 }

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/point_view.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -79,16 +79,16 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
   magnitude_ = std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
-  slack_ = rounding::slack * magnitude_;
+  slack_ = margins::slack * magnitude_;
 }
 
 double PointView::slack_at(const Vec3& position) const {
-  return rounding::slack *
+  return margins::slack *
          std::max(position.lpNorm<Eigen::Infinity>(), point_.lpNorm<Eigen::Infinity>());
 }
 
 double PointView::jitter_at(const Vec3& position) const {
-  return jitter_ / rounding::slack * slack_at(position);
+  return jitter_ / margins::slack * slack_at(position);
 }
 
 std::int64_t PointView::first_free_rank() const {
@@ -106,7 +106,7 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   if (corner.height <= slack)
     corner.side = corner.height < -slack ? PlaneSide::beyond : PlaneSide::on;
   const double depth = -emitter_->normal.dot(corner.direction);
-  corner.is_ahead = depth > rounding::nearest_image * distance_;
+  corner.is_ahead = depth > margins::nearest_image * distance_;
   if (corner.is_ahead)
     corner.image = distance_ / depth *
                    Vec2(emitter_->e1.dot(corner.direction), emitter_->e2.dot(corner.direction));
@@ -148,11 +148,11 @@ bool PointView::is_edge_on(int surface) {
     const PlaneFrame& frame = opaque.frame;
     const double height = std::abs(frame.height(point_));
     const double slack =
-        rounding::slack * std::max(opaque.magnitude, point_.lpNorm<Eigen::Infinity>());
+        margins::slack * std::max(opaque.magnitude, point_.lpNorm<Eigen::Infinity>());
     kept = {query_,
             height <= slack ||
                 (height <= opaque.tolerance.length &&
-                 std::abs(frame.normal.dot(normal_)) > rounding::same_normal && touches(surface))};
+                 std::abs(frame.normal.dot(normal_)) > margins::same_normal && touches(surface))};
   }
   return kept.value != 0;
 }
@@ -240,10 +240,9 @@ int PointView::layers_over(const DirectionBeside& direction) {
   const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray.
-  const double margin = blur() * last, spread = rounding::slack + 2 * jitter_;
-  const Vec3 inverse = target.direction.unaryExpr([](double d) {
-    return 1 / (std::abs(d) > rounding::least_slope ? d : rounding::least_slope);
-  });
+  const double margin = blur() * last, spread = margins::slack + 2 * jitter_;
+  const Vec3 inverse = target.direction.unaryExpr(
+      [](double d) { return 1 / (std::abs(d) > margins::least_slope ? d : margins::least_slope); });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
   stack[depth++] = 0;
   while (depth > 0) {
@@ -253,7 +252,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
     const Vec3 low = (node.box.low - wider - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + wider - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
-    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + rounding::slack));
+    const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + margins::slack));
     if (enter > leave) continue;
     if (node.right >= 0) {
       stack[depth++] = node.right;

@@ -1,6 +1,6 @@
 #include "meshing/backprojection/silhouette_trees.h"
 
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +53,7 @@ Vec3 normal_of(const OpaqueTopology& topology, const OpaqueTopology::Triangle& t
   const Vec3 v = topology.vertices[at(c)] - topology.vertices[at(a)];
   const Vec3 normal = u.cross(v);
   const double longest = std::max({u.squaredNorm(), v.squaredNorm(), (u - v).squaredNorm()});
-  if (!(normal.norm() > rounding::flattest_triangle * longest)) return Vec3::Zero();
+  if (!(normal.norm() > margins::flattest_triangle * longest)) return Vec3::Zero();
   return normal.normalized();
 }
 
@@ -78,7 +78,7 @@ NormalCone cone_of(const OpaqueTopology& topology, const FlatTree::Node& node,
     within = within && axis.dot(normal) > 0;
     sine = std::max(sine, axis.cross(normal).norm());
   });
-  if (!within || sine > rounding::widest_cone) return cone;
+  if (!within || sine > margins::widest_cone) return cone;
   cone.axis = axis;
   cone.sine = sine;
   cone.cosine = std::sqrt(1 - sine * sine);

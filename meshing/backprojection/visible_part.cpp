@@ -1,7 +1,7 @@
 #include "meshing/backprojection/visible_part.h"
 
 #include "meshing/backprojection/boundary_chains.h"
-#include "meshing/backprojection/rounding.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/shadow_arrangement.h"
 #include "meshing/core/error.h"
 
@@ -22,7 +22,7 @@ void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal
   if (surface < 0 || static_cast<std::size_t>(surface) >= topology.surfaces.size())
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("there is no surface {} among {}", surface, topology.surfaces.size()));
-  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < rounding::unit_length))
+  if (!point.allFinite() || !(std::abs(normal.squaredNorm() - 1) < margins::unit_length))
     throw Error(ErrorCode::contract, "VisiblePartFinder",
                 fmt::format("the point ({}, {}, {}) must be finite and its normal ({}, {}, {}) of "
                             "length 1",
@@ -82,10 +82,10 @@ void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
   check(m.view.topology(), point, normal, surface);
   clear(part);
   double jitter = 0;
-  for (int attempt = 0; attempt < rounding::most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < margins::most_attempts; ++attempt) {
     if (!m.try_with(jitter, point, normal, surface)) return;
     if (m.arrangement.is_consistent && m.chains.closed) break;
-    jitter = std::max(rounding::jitter_growth * jitter, rounding::least_jitter);
+    jitter = std::max(margins::jitter_growth * jitter, margins::least_jitter);
   }
   m.fill_unobstructed(part);
   if (m.arrangement.fully_lit || (!m.chains.pieces.empty() && m.chains.fill(m.outline, m.view))) {

@@ -2,8 +2,8 @@
 
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/planar.h"
-#include "meshing/discontinuity/rounding.h"
-#include "meshing/events/rounding.h"
+#include "meshing/discontinuity/margins.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +40,7 @@ std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterSce
   for (const auto& edge : opaque.edges) {
     const Vec3 &from = opaque.vertices[at(edge.from)], &to = opaque.vertices[at(edge.to)];
     const double a = emitter_scene.frame.height(from), b = emitter_scene.frame.height(to);
-    const double slack = std::max(emitter_scene.slack, slack_of({from, to}));
+    const double slack = std::max(emitter_scene.slack, margins::slack_of({from, to}));
     if (std::max(a, b) <= slack || std::min(a, b) >= -slack) {
       if (std::abs(a) <= slack) points.push_back(from);
       if (std::abs(b) <= slack) points.push_back(to);
@@ -59,7 +59,7 @@ struct CommonLine {
 
 std::optional<CommonLine> common_line(const PlaneFrame& receiver, const PlaneFrame& emitter) {
   const Vec3 direction = receiver.normal.cross(emitter.normal);
-  if (direction.norm() < grazing_sine) return std::nullopt;
+  if (direction.norm() < margins::grazing_sine) return std::nullopt;
   // A point of both planes: from the receiver's origin down its steepest line.
   const Vec3 steepest = direction.cross(receiver.normal);
   CommonLine line;
@@ -142,7 +142,7 @@ void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
   for (const auto& range : inside) {
     const std::vector<double> t = cut_range(range, cuts);
     for (std::size_t k = 1; k < t.size(); ++k) {
-      if (t[k] - t[k - 1] < least_steps * step) continue;
+      if (t[k] - t[k - 1] < margins::least_steps * step) continue;
       const Vec3 point =
           target.frame.to_space(place(0.5 * (t[k - 1] + t[k]))) + ahead * step * left;
       finder.find(point, target.frame.normal, emitter_scene.emitter, part);
@@ -169,7 +169,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
     bool jumps = false;
     for (int k = 0; k < contact_samples && !jumps; ++k) {
       const Vec2 p = contact[0] + (k + 0.5) / contact_samples * along;
-      jumps = std::abs(factor(p + step * left) - factor(p - step * left)) > least_jump;
+      jumps = std::abs(factor(p + step * left) - factor(p - step * left)) > margins::least_jump;
     }
     if (!jumps) continue;
     DiscontinuityCurve curve;

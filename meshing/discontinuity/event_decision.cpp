@@ -1,6 +1,6 @@
 #include "meshing/discontinuity/event_decision.h"
 
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,9 @@ EventDecider::EventDecider(const OpaqueScene& opaque, const EmitterScene& emitte
 
 EventEvidence EventDecider::decide(const ReceivingPoint& at, double step,
                                    std::span<const EdgeId> group) {
-  EventEvidence evidence = compare(at, wide_step * step, group);
-  if (!evidence.differs && shortest_edge_ < fine_detail * step) evidence = compare(at, step, group);
+  EventEvidence evidence = compare(at, margins::wide_step * step, group);
+  if (!evidence.differs && shortest_edge_ < margins::fine_detail * step)
+    evidence = compare(at, step, group);
   std::sort(evidence.triples.begin(), evidence.triples.end());
   return evidence;
 }

@@ -1,7 +1,7 @@
 #include "meshing/discontinuity/event_jump.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <cmath>
 #include <limits>
@@ -64,7 +64,7 @@ double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
     const double sine = cross_2d(seen[i].normal, seen[(i + 1) % 3].normal);
     det += sine * seen[(i + 2) % 3].rate;
     sines *= std::abs(sine);
-    coincide += std::abs(sine) < parallel_sine ? 1 : 0;
+    coincide += std::abs(sine) < margins::parallel_sine ? 1 : 0;
   }
   if (coincide >= 2) return 0;
   if (coincide == 1) return std::numeric_limits<double>::infinity();

@@ -1,5 +1,5 @@
 #include "meshing/core/planar.h"
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 #include "meshing/discontinuity/stacked_curves.h"
 #include "meshing/geometry/flat_tree.h"
 
@@ -104,7 +104,7 @@ class ArcCutter {
     const Vec2 start = point_at(arc(i), end);
     double until = end;  // the nearest place, beyond the tolerance, where one of them ends
     const auto consider = [&](const Vec2& p) {
-      if ((p - start).norm() <= joined_ends * tolerance_) return;
+      if ((p - start).norm() <= margins::joined_ends * tolerance_) return;
       const std::optional<double> s = parameter_of(i, p);
       if (s && (until == end || std::abs(*s - end) < std::abs(until - end))) until = *s;
     };
@@ -124,8 +124,8 @@ class ArcCutter {
     std::vector<double> kept = {0};
     for (const double s : cuts) {
       const Vec2 p = point_at(arc, s);
-      if ((p - point_at(arc, kept.back())).norm() > joined_ends * tolerance_ &&
-          (p - arc.to).norm() > joined_ends * tolerance_)
+      if ((p - point_at(arc, kept.back())).norm() > margins::joined_ends * tolerance_ &&
+          (p - arc.to).norm() > margins::joined_ends * tolerance_)
         kept.push_back(s);
     }
     kept.push_back(1);
@@ -238,7 +238,7 @@ std::size_t merge_conics(std::span<const DiscontinuityCurve> curves, std::span<c
       pieces.push_back({which[i], cuts[i][k], cuts[i][k + 1], piece, point_at(piece, 0.5), {}});
     }
   }
-  gather_equals(pieces, joined_ends * tolerance);
+  gather_equals(pieces, margins::joined_ends * tolerance);
   for (std::size_t begin = 0; begin < pieces.size();) {
     std::size_t end = begin;
     while (end < pieces.size() && pieces[end].curve == pieces[begin].curve) ++end;

@@ -1,6 +1,6 @@
 #include "meshing/discontinuity/merge_curves.h"
 
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 #include "meshing/discontinuity/stacked_curves.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace halfshade {
 namespace {
 
 bool is_same_plane(const Vec3& a, const Vec3& b) {
-  return (a - b).norm() <= same_plane || (a + b).norm() <= same_plane;
+  return (a - b).norm() <= margins::same_plane || (a + b).norm() <= margins::same_plane;
 }
 
 /// The sight plane that all curves of an order share, or zero.

@@ -2,8 +2,8 @@
 
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/discontinuity/event_jump.h"
-#include "meshing/discontinuity/rounding.h"
-#include "meshing/events/rounding.h"
+#include "meshing/discontinuity/margins.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +78,7 @@ double JumpPredictor::slope_jump(const DiscontinuityCurve& curve, const Vec3& po
   };
   add(left_, 1);
   add(right_, -1);
-  return std::abs(jump) > least_share * whole ? jump : 0;
+  return std::abs(jump) > margins::least_share * whole ? jump : 0;
 }
 
 bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point,
@@ -87,7 +87,7 @@ bool JumpPredictor::lies_in_sight_plane(const DiscontinuityCurve& curve, const V
   const Line3 line = line_of(emitter_scene_, opaque, edge);
   const double joined =
       edge.kind == EdgeId::Kind::edge ? opaque.edges[at(edge.id)].joined : emitter_scene_.joined;
-  const double slack = in_plane * std::max(joined, slack_at(line.point));
+  const double slack = margins::in_plane * std::max(joined, margins::slack_at(line.point));
   return std::abs(curve.sight_plane.dot(line.point - point)) <= slack &&
          std::abs(curve.sight_plane.dot(line.point + line.direction - point)) <= slack;
 }

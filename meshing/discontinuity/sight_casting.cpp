@@ -1,7 +1,7 @@
 #include "meshing/discontinuity/sight_casting.h"
 
-#include "meshing/discontinuity/rounding.h"
-#include "meshing/events/rounding.h"
+#include "meshing/discontinuity/margins.h"
+#include "meshing/events/margins.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -10,16 +10,14 @@
 namespace halfshade {
 namespace {
 
-// Boxes are grown by so many times what rounding needs.
-constexpr double box_growth = 1e3;
-
 /// Whether a line misses a box that is a little enlarged.
 class RayBoxTest {
  public:
   explicit RayBoxTest(const SightLine& line)
       : origin_(line.start),
         inverse_(line.direction.cwiseInverse()),
-        slack_(box_growth * std::max(slack_at(line.start), slack_at(line.last))) {}
+        slack_(margins::box_growth *
+               std::max(margins::slack_at(line.start), margins::slack_at(line.last))) {}
 
   bool misses(const Bounds& box) const {
     double near = -slack_, far = HUGE_VAL;
@@ -70,15 +68,15 @@ void SightCaster::find_crossings(const SightLine& line) {
         const Vec3 c = opaque_.vertices[at(corner[2])] - line.last;
         const Vec3 normal = (b - a).cross(c - a);
         const double across = normal.dot(line.direction), size = normal.norm();
-        if (!(std::abs(across) > grazing_sine * size)) return;
+        if (!(std::abs(across) > margins::grazing_sine * size)) return;
         const double u = b.cross(c).dot(line.direction) / across;
         const double v = c.cross(a).dot(line.direction) / across;
         const double least = std::min({u, v, 1 - u - v});
-        if (least < -clearly_inside) return;
+        if (least < -margins::clearly_inside) return;
         const int surface = opaque_.triangles[at(t)].surface;
         const double slack =
-            std::max(slack_at(line.last), opaque_.surfaces[at(surface)].tolerance.length);
-        crossings_.push_back({normal.dot(a) / across, slack, t, least > clearly_inside});
+            std::max(margins::slack_at(line.last), opaque_.surfaces[at(surface)].tolerance.length);
+        crossings_.push_back({normal.dot(a) / across, slack, t, least > margins::clearly_inside});
       });
   std::sort(crossings_.begin(), crossings_.end(), [](const Crossing& a, const Crossing& b) {
     return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle;
@@ -88,7 +86,7 @@ void SightCaster::find_crossings(const SightLine& line) {
 void SightCaster::collect_receivers(const SightLine& line) {
   reached_.clear();
   const double start = line.direction.dot(line.start - line.last);
-  const double start_slack = slack_at(line.start);
+  const double start_slack = margins::slack_at(line.start);
   for (const Crossing& crossing : crossings_) {
     if (crossing.distance < start + std::max(start_slack, crossing.slack)) continue;
     const bool is_before = crossing.distance < -crossing.slack;

@@ -1,6 +1,7 @@
 #include "meshing/discontinuity/swath_cuts.h"
 
-#include "meshing/events/rounding.h"
+#include "meshing/discontinuity/margins.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,16 +12,13 @@ namespace {
 // How many parts of a swath are bounded, and searched for edges, each on its own.
 constexpr int parts_per_swath = 4;
 
-// Boxes are grown by so many times what rounding needs: as far as edges may be off and still meant.
-constexpr double box_growth = 1e3;
-
 double box_slack(const Swath& swath) {
   double slack = 0;
   if (swath.is_planar)
-    slack = std::max(slack_at(swath.apex), slack_of(swath.base));
+    slack = std::max(margins::slack_at(swath.apex), margins::slack_of(swath.base));
   else
-    for (const Span3& edge : swath.edges) slack = std::max(slack, slack_of(edge));
-  return box_growth * slack;
+    for (const Span3& edge : swath.edges) slack = std::max(slack, margins::slack_of(edge));
+  return margins::box_growth * slack;
 }
 
 }  // namespace

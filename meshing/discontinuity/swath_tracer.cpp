@@ -2,7 +2,7 @@
 
 #include "meshing/core/planar.h"
 #include "meshing/discontinuity/curve_fitting.h"
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 
 namespace halfshade {
 
@@ -46,7 +46,7 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
   const auto from = trace_at(swath, target.frame, t0), to = trace_at(swath, target.frame, t1);
   if (!middle || !from || !to || !(middle->tangent.norm() > 0)) return;
   const double step = side_step(target, emitter_scene_, line, middle->point);
-  const double least = least_steps * step;
+  const double least = margins::least_steps * step;
   if ((middle->point - from->point).norm() < least || (middle->point - to->point).norm() < least)
     return;
   const Span3 span = {from->point, to->point};
@@ -88,7 +88,7 @@ void SwathTracer::append_curves(const Swath& swath, const Piece& piece,
   curve.sources = {swath.source};
   if (swath.is_planar) curve.sight_plane = plane_normal(swath);
   for (const ConicArc& arc :
-       fit_arcs(swath, piece.t0, piece.t1, plane, straight_enough * piece.step)) {
+       fit_arcs(swath, piece.t0, piece.t1, plane, margins::straight_enough * piece.step)) {
     curve.arc = arc;
     curves.push_back(curve);
   }

@@ -1,5 +1,5 @@
 #include "meshing/events/events.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -81,7 +81,7 @@ bool is_too_flat(const EmitterScene& emitter_scene, const Span3& a, const Height
 
 bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b, int halvings) {
   const Heights ha = heights(emitter_scene, a, a.from), hb = heights(emitter_scene, b, a.from);
-  const double slack = std::max(slack_of(a), slack_of(b));
+  const double slack = std::max(margins::slack_of(a), margins::slack_of(b));
   const auto images = [&](const Span3& near, const Span3& far) {
     std::array<Vec2, 4> points;
     std::size_t count = 0;
@@ -154,14 +154,17 @@ void coplanar_swath(Swath swath, const EventEdge& first, const EventEdge& second
       (third.from - base.from).squaredNorm() < (third.from - other.from).squaredNorm() ? base.from
                                                                                        : other.from;
   const double a = normal.dot(third.from - in_plane), b = normal.dot(third.to - in_plane);
-  const bool crosses = (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > slack_of(third);
+  const bool crosses =
+      (a > 0) != (b > 0) && std::max(std::abs(a), std::abs(b)) > margins::slack_of(third);
   if (!crosses) return;
   swath.is_planar = true;
   swath.may_be_first_order = true;
   swath.source.kind = CurveKind::face;
   swath.apex = third.at(a / (a - b));
   swath.base = base;
-  if (distance_to_line(swath.apex, base) > std::max(slack_of(third), slack_of(base))) sink(swath);
+  if (distance_to_line(swath.apex, base) >
+      std::max(margins::slack_of(third), margins::slack_of(base)))
+    sink(swath);
 }
 
 /// Lines through the point where two spans cross, if they do so other than at their ends, and a
@@ -169,14 +172,14 @@ void coplanar_swath(Swath swath, const EventEdge& first, const EventEdge& second
 void crossing_swath(Swath swath, const Span3& a, const Span3& b, const Span3& third,
                     const SwathSink& sink) {
   const Vec3 u = a.direction(), v = b.direction(), normal = u.cross(v);
-  if (!(normal.norm() > parallel_sine * u.norm() * v.norm())) return;
+  if (!(normal.norm() > margins::parallel_sine * u.norm() * v.norm())) return;
   const double s = (b.from - a.from).cross(v).dot(normal) / normal.squaredNorm();
   const double t = (b.from - a.from).cross(u).dot(normal) / normal.squaredNorm();
   if (!(s >= 0 && s <= 1 && t >= 0 && t <= 1)) return;
   swath.apex = a.at(s);
-  const double slack = slack_at(swath.apex);
+  const double slack = margins::slack_at(swath.apex);
   if (is_end(swath.apex, a, slack) && is_end(swath.apex, b, slack)) return;  // events with a vertex
-  if (distance_to_line(swath.apex, third) <= std::max(slack, slack_of(third))) return;
+  if (distance_to_line(swath.apex, third) <= std::max(slack, margins::slack_of(third))) return;
   swath.is_planar = true;
   swath.base = third;
   sink(swath);
@@ -194,7 +197,8 @@ void send(Swath& swath, const std::array<EventEdge, 3>& edges, const SwathSink& 
   if (splits) return;
   std::array<Span3, 3> spans = {edges[0].span, edges[1].span, edges[2].span};
   // Points of the family are counted from the first edge: not one that is far from the others.
-  if (slack_of(spans[0]) > far_away * slack_of(spans[1])) std::swap(spans[0], spans[1]);
+  if (margins::slack_of(spans[0]) > far_away * margins::slack_of(spans[1]))
+    std::swap(spans[0], spans[1]);
   set_edges(swath, spans);
   sink(swath);
 }

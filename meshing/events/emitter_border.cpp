@@ -1,7 +1,7 @@
 #include "meshing/events/emitter_border.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <map>
@@ -116,7 +116,7 @@ class BorderSearch {
   /// A box test: conservative.
   bool meets_emitter(const Span3& span) const {
     const Vec2 a = out_.frame.to_plane(span.from), b = out_.frame.to_plane(span.to);
-    const double slack = std::max(out_.slack, slack_of(span));
+    const double slack = std::max(out_.slack, margins::slack_of(span));
     return (a.cwiseMin(b).array() <= out_.bounds.max().array() + slack).all() &&
            (a.cwiseMax(b).array() >= out_.bounds.min().array() - slack).all();
   }

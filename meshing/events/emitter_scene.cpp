@@ -3,7 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 #include "meshing/events/emitter_border.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 #include "meshing/events/silhouette_edges.h"
 #include "meshing/geometry/convex_hull.h"
 
@@ -20,7 +20,7 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
   const OpaqueTopology& topology = opaque.topology();
   const OpaqueTopology::OpaqueSurface& own = topology.surfaces[at(surface)];
-  slack = position_roundings * std::numeric_limits<double>::epsilon() * own.magnitude;
+  slack = margins::position_roundings * std::numeric_limits<double>::epsilon() * own.magnitude;
   joined = std::max(slack, own.tolerance.length);
   rings = scene.surfaces[at(surface)].rings;
   for (const std::size_t k : convex_hull(rings[0])) hull.push_back(rings[0][k]);
@@ -75,7 +75,7 @@ bool EmitterScene::may_be_silhouette(const SilhouetteEdge& edge, const Vec3& dir
   int weight = 0;
   for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f) {
     const double side = faces[at(f)].normal.dot(direction);
-    if (std::abs(side) <= grazing_sine) return true;
+    if (std::abs(side) <= margins::grazing_sine) return true;
     weight += side > 0 ? faces[at(f)].direction : -faces[at(f)].direction;
   }
   return weight != 0;

@@ -1,7 +1,7 @@
 #include "meshing/events/events.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <array>
@@ -85,7 +85,7 @@ void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const Swath
   const Vec3& up = emitter_scene.frame.normal;
   for (std::size_t w = 0; w < emitter_scene.vertices.size(); ++w) {
     const SilhouetteVertex& vertex = emitter_scene.vertices[w];
-    const double slack = std::max(slack_at(vertex.position), slack_of(e.whole));
+    const double slack = std::max(margins::slack_at(vertex.position), margins::slack_of(e.whole));
     if (is_end(vertex.position, e.whole, slack) ||
         distance_to_line(vertex.position, e.whole) <= slack)
       continue;
@@ -122,7 +122,7 @@ void edge_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& s
   const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
   for (const OutlinePoint& corner : emitter_scene.corners) {
     if (distance_to_line(corner.position, e.whole) <=
-        std::max(emitter_scene.slack, slack_of(e.whole)))
+        std::max(emitter_scene.slack, margins::slack_of(e.whole)))
       continue;
     Swath swath;
     swath.source = {CurveKind::ev, {corner.feature, {Feature::Kind::edge, e.id}}, 2};
@@ -181,7 +181,7 @@ FaceEdges edges_of_face(const EmitterScene& emitter_scene, const OpaqueTopology&
     const auto& edge = opaque.edges[at(count_once[i])];
     Span3 span = {opaque.vertices[at(edge.from)], opaque.vertices[at(edge.to)]};
     const double a = emitter_scene.frame.height(span.from), b = emitter_scene.frame.height(span.to);
-    const double slack = std::max(emitter_scene.slack, slack_of(span));
+    const double slack = std::max(emitter_scene.slack, margins::slack_of(span));
     if (a <= slack && b <= slack) continue;
     for (const auto& [h, p] : {std::pair{a, span.from}, std::pair{b, span.to}})
       if (h > slack) face.ends.push_back(p);
@@ -214,7 +214,8 @@ void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
   swath.group = face.ids;
   swath.may_be_first_order = true;
   const auto send = [&](const Vec3& apex, const Span3& base) {
-    if (distance_to_line(apex, base) <= std::max(slack_at(apex), slack_of(base))) return;
+    if (distance_to_line(apex, base) <= std::max(margins::slack_at(apex), margins::slack_of(base)))
+      return;
     swath.apex = apex;
     swath.base = base;
     sink(swath);
@@ -228,7 +229,7 @@ void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
     for (const Vec3& entry : entries) send(entry, span);
     for (const SilhouetteEdge& edge : emitter_scene.edges) {
       const double a = plane.height(edge.front.from), b = plane.height(edge.front.to);
-      const double slack = slack_of(edge.front);
+      const double slack = margins::slack_of(edge.front);
       const bool crosses = (a > slack && b < -slack) || (a < -slack && b > slack);
       if (crosses) send(edge.front.at(a / (a - b)), span);
     }

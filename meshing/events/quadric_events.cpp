@@ -1,6 +1,6 @@
 #include "meshing/events/quadric_events.h"
 
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ double det(const Vec3& a, const Vec3& b, const Vec3& c) { return a.dot(b.cross(c
 
 /// A sum, or 0 if it is rounding of terms of this size.
 double unless_rounding(double sum, double size) {
-  return std::abs(sum) > determinant_error * size ? sum : 0;
+  return std::abs(sum) > margins::determinant_error * size ? sum : 0;
 }
 
 /// b² − 4 a c without cancellation beyond that of the exact difference (Kahan).
@@ -41,8 +41,8 @@ QuadraticRoots roots(const Quadratic& coefficients) {
     return {false, 1, {-c / b, 0}};
   }
   const double d = discriminant(a, b, c);
-  if (d <= discriminant_error * (b * b)) {
-    if (d < -discriminant_error * (b * b)) return {};
+  if (d <= margins::discriminant_error * (b * b)) {
+    if (d < -margins::discriminant_error * (b * b)) return {};
     return {false, 1, {-b / (2 * a), 0}};
   }
   const double sum = -(b + std::copysign(std::sqrt(d), b)) / 2;

@@ -1,6 +1,6 @@
 #include "meshing/events/silhouette_edges.h"
 
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <map>
@@ -21,7 +21,7 @@ class SilhouetteSearch {
     silhouette.id = id;
     silhouette.whole = {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]};
     silhouette.front = silhouette.whole;
-    silhouette.joined = std::max(edge.joined, slack_of(silhouette.whole));
+    silhouette.joined = std::max(edge.joined, margins::slack_of(silhouette.whole));
     const double a = heights_.height(edge.from), b = heights_.height(edge.to);
     if (heights_.is_behind(edge.from)) silhouette.front.from = silhouette.whole.at(a / (a - b));
     if (heights_.is_behind(edge.to)) silhouette.front.to = silhouette.whole.at(a / (a - b));
@@ -68,7 +68,7 @@ class SilhouetteSearch {
   /// Whether the edge is a silhouette seen from some point of the emitter.
   bool is_capable(const SilhouetteEdge& edge) const {
     int weight = 0;
-    const double slack = std::max(out_.slack, slack_of(edge.whole));
+    const double slack = std::max(out_.slack, margins::slack_of(edge.whole));
     for (int f = edge.first_face; f < edge.first_face + edge.face_count; ++f) {
       const SilhouetteEdge::Face& face = out_.faces[at(f)];
       bool above = false, below = false;

@@ -1,6 +1,6 @@
 #include "meshing/events/swath.h"
 
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,13 +22,13 @@ void add_roots(const Quadratic& polynomial, std::vector<double>& parameters) {
     if (const double t = found.at[at(k)]; t > 0 && t < 1) parameters.push_back(t);
 }
 
-bool lies_within(double s) { return s >= -edge_margin && s <= 1 + edge_margin; }
+bool lies_within(double s) { return s >= -margins::edge_margin && s <= 1 + margins::edge_margin; }
 
 std::optional<SightLine> line_through(const PlaneFrame& emitter, const Vec3* points, int count,
                                       Vec3 direction) {
   direction.normalize();
   const double away = emitter.normal.dot(direction);
-  if (!(std::abs(away) > parallel_sine)) return std::nullopt;
+  if (!(std::abs(away) > margins::parallel_sine)) return std::nullopt;
   if (away < 0) direction = -direction;
   double least = HUGE_VAL, most = -HUGE_VAL;
   SightLine line{points[0], points[0], direction};
@@ -192,7 +192,7 @@ std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, doubl
             (f.constant[0] + t * f.slope[0]).cross(f.slope[1]);
   }
   const double speed = plane.normal.dot(d), height = plane.height(x);
-  if (!(std::abs(speed) > parallel_sine * d.norm())) return std::nullopt;
+  if (!(std::abs(speed) > margins::parallel_sine * d.norm())) return std::nullopt;
   const double along = -height / speed;
   const double along_dot = -(plane.normal.dot(x_dot) + along * plane.normal.dot(d_dot)) / speed;
   return Trace{x + along * d, x_dot + along_dot * d + along * d_dot};

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/backprojection/opaque_topology.h"
-#include "meshing/events/rounding.h"
+#include "meshing/events/margins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@ class VertexHeights {
   VertexHeights(const OpaqueTopology& opaque, const PlaneFrame& emitter, double slack) {
     for (const Vec3& p : opaque.vertices) {
       height_.push_back(emitter.height(p));
-      slack_.push_back(std::max(slack, slack_at(p)));
+      slack_.push_back(std::max(slack, margins::slack_at(p)));
     }
   }
 

@@ -14,7 +14,7 @@ constexpr std::array<double, 4> steps = {0.8566748838545029, 0.7338918566271260,
                                          0.5385972572236101};
 
 /// How many times the rays asked for may be tried to find one.
-constexpr int patience = 16;
+constexpr int most_tries = 16;
 
 double fraction(double x) { return x - std::floor(x); }
 
@@ -38,7 +38,7 @@ double RayVisibility::visible_fraction(const PairEnd& a, const PairEnd& b, int r
   weights_.clear();
   // Where the triangles hardly face each other, most pairs of points do not: look on until one
   // does.
-  for (int k = 0; k < rays || (segments_.empty() && k < patience * rays); ++k) {
+  for (int k = 0; k < rays || (segments_.empty() && k < most_tries * rays); ++k) {
     std::array<double, 4> u{};
     for (std::size_t d = 0; d < 4; ++d) u[d] = fraction(start[d] + k * steps[d]);
     const Vec3 from = point_on(a.triangle, u[0], u[1]), to = point_on(b.triangle, u[2], u[3]);

@@ -49,11 +49,7 @@ TEST_P(BadInputs, GiveOneSentenceAndTheDocumentedExitCode) {
   if (input.scene != "-") write_file(folder.path() / "scene.obj", input.scene);
   write_file(folder.path() / "lamp.mtl", input.material);
   const test::Outcome outcome = halfshade(input.arguments, folder.path());
-  EXPECT_EQ(outcome.exit_code, input.exit_code) << outcome.err;
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_EQ(outcome.err.rfind("halfshade: ", 0), 0u) << outcome.err;
-  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-  EXPECT_NE(outcome.err.find(input.sentence_names), std::string::npos) << outcome.err;
+  test::expect_sentence(outcome, input.exit_code, input.sentence_names);
   for (const auto& entry : fs::directory_iterator(folder.path()))
     EXPECT_EQ(entry.path().extension() == ".vtu" || entry.path().extension() == ".ply", false)
         << entry.path();
@@ -158,14 +154,6 @@ TEST(CommandLine, WrongUsageEndsWithCode2AndSaysHowToGetHelp) {
   EXPECT_EQ(halfshade({"--version"}, folder.path()).exit_code, 0);
 }
 
-/// Splits at blanks.
-std::vector<std::string> words(const std::string& line) {
-  std::istringstream stream(line);
-  std::vector<std::string> result;
-  for (std::string word; stream >> word;) result.push_back(word);
-  return result;
-}
-
 TEST(CommandLine, ExamplesOfTheHelpRun) {
   const test::TempDir folder;
   fs::create_directory_symlink(data, folder.path() / "data");
@@ -173,22 +161,17 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
   ASSERT_EQ(halfshade({"solve", "data/s1.obj", "--elements", "100", "-q"}, folder.path()).exit_code,
             0);
   int ran = 0;
-  for (const std::string command : {"solve", "render"}) {
-    std::istringstream help(halfshade({command, "--help"}, folder.path()).out);
-    for (std::string line; std::getline(help, line);) {
-      std::vector<std::string> arguments = words(line);
-      if (arguments.size() < 3 || arguments[0] != "halfshade" || arguments[1] != command ||
-          line.find("Usage") != std::string::npos)
-        continue;
-      arguments.erase(arguments.begin());
+  for (const std::string command : {"solve", "render"})
+    for (auto arguments :
+         test::examples_of(halfshade({command, "--help"}, folder.path()).out, command)) {
+      arguments.insert(arguments.begin(), command);
       if (command == "solve" &&
           std::find(arguments.begin(), arguments.end(), "--elements") == arguments.end())
         arguments.insert(arguments.end(), {"--elements", "300"});
       const test::Outcome outcome = halfshade(arguments, folder.path());
-      EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
+      EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
       ++ran;
     }
-  }
   EXPECT_GE(ran, 6);
   for (const char* file : {"cornell.vtu", "cornell.ply", "cornell.png", "l_room.vtu", "s1.png"})
     EXPECT_TRUE(fs::exists(folder.path() / file)) << file;

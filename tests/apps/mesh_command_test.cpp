@@ -150,19 +150,12 @@ TEST_F(Mesh, InterruptWritesWhatThereIsMarked) {
 
 TEST_F(Mesh, ExamplesOfTheHelpRun) {
   fs::create_directory_symlink(data, folder_.path() / "data");
-  std::istringstream help(mesh({"--help"}).out);
-  int ran = 0;
-  for (std::string line; std::getline(help, line);) {
-    std::istringstream words(line);
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    if (arguments.size() < 4 || arguments[0] != "halfshade" || arguments[1] != "mesh") continue;
-    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  const auto examples = test::examples_of(mesh({"--help"}).out, "mesh");
+  EXPECT_GE(examples.size(), 4u);
+  for (const std::vector<std::string>& arguments : examples) {
     const test::Outcome outcome = mesh(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
-    ++ran;
+    EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
   }
-  EXPECT_GE(ran, 4);
   for (const char* name : {"s1_mesh.vtu", "s1_curves.vtp", "skew_bars.png", "bars.vtp"})
     EXPECT_TRUE(exists(name)) << name;
 }
@@ -188,12 +181,7 @@ TEST_F(Mesh, SaysInOneSentenceWhatIsWrong) {
       {{s1, "--json", "none/r.json", "-o", "m.vtu"}, 5, "none"},
   };
   for (const Wrong& wrong : all) {
-    const test::Outcome outcome = mesh(wrong.arguments);
-    EXPECT_EQ(outcome.exit_code, wrong.exit_code) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(outcome.err.rfind("halfshade: ", 0), 0u) << outcome.err;
-    EXPECT_NE(outcome.err.find(wrong.names), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    test::expect_sentence(mesh(wrong.arguments), wrong.exit_code, wrong.names);
     for (const char* name : {"m.vtu", "c.vtp", "p.png"}) EXPECT_FALSE(exists(name));
   }
 }

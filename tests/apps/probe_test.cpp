@@ -139,19 +139,12 @@ TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
 
 TEST_F(Probe, ExamplesOfTheHelpRun) {
   fs::create_directory_symlink(data, folder() / "data");
-  std::istringstream help(probe({"--help"}).out);
-  int ran = 0;
-  for (std::string line; std::getline(help, line);) {
-    std::istringstream words(line);
-    std::vector<std::string> arguments;
-    for (std::string word; words >> word;) arguments.push_back(word);
-    if (arguments.size() < 4 || arguments[0] != "halfshade" || arguments[1] != "probe") continue;
-    arguments.erase(arguments.begin(), arguments.begin() + 2);
+  const auto examples = test::examples_of(probe({"--help"}).out, "probe");
+  EXPECT_GE(examples.size(), 3u);
+  for (const std::vector<std::string>& arguments : examples) {
     const test::Outcome outcome = probe(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << line << "\n" << outcome.err;
-    ++ran;
+    EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
   }
-  EXPECT_GE(ran, 3);
   for (const char* name : {"s1.csv", "bars.vtp", "cornell.csv"}) EXPECT_TRUE(exists(name)) << name;
 }
 
@@ -176,10 +169,7 @@ TEST_F(Probe, SaysInOneSentenceWhatIsWrong) {
       {{s1, "--grid", "receiver", "--spacing", "1e-9", "-o", "o.csv"}, 3, "1e-09"},
   };
   for (const Wrong& wrong : all) {
-    const test::Outcome outcome = probe(wrong.arguments);
-    EXPECT_EQ(outcome.exit_code, wrong.exit_code) << outcome.err;
-    EXPECT_NE(outcome.err.find(wrong.names), std::string::npos) << outcome.err;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    test::expect_sentence(probe(wrong.arguments), wrong.exit_code, wrong.names);
     EXPECT_FALSE(exists("o.csv"));
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "tests/architecture/source_text.h"
+
 #include <map>
 #include <set>
 #include <string>
@@ -15,12 +17,6 @@ using IncludeRules = std::map<std::string, std::set<std::string>>;
 /// cell is a folder in backquotes; the third names folders, or rooms of the same house by their
 /// last part, separated by commas.
 IncludeRules rules_of(std::string_view markdown);
-
-/// A source file and the text in it.
-struct SourceText {
-  std::string path;  ///< relative to the repository
-  std::string text;
-};
 
 /// One sentence for each thing that breaks the rules:
 /// * an #include in quotes of a file that is not there, or of a room that the table does not allow;

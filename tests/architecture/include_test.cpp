@@ -1,9 +1,6 @@
 #include "tests/architecture/include_rules.h"
 
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <sstream>
 
 namespace halfshade::test {
 namespace {
@@ -12,26 +9,11 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-std::string read(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
-}
-
-std::vector<SourceText> sources_of(const std::filesystem::path& root) {
-  std::vector<SourceText> files;
-  for (const char* house : {"meshing", "solver", "io", "apps"})
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(root / house))
-      if (entry.path().extension() == ".h" || entry.path().extension() == ".cpp")
-        files.push_back({entry.path().lexically_relative(root).string(), read(entry.path())});
-  return files;
-}
-
 TEST(Architecture, IncludesKeepToTheTableOfRooms) {
   const std::filesystem::path root = HALFSHADE_SOURCES;
-  const IncludeRules rules = rules_of(read(root / "ARCHITECTURE.md"));
+  const IncludeRules rules = rules_of(read_whole(root / "ARCHITECTURE.md"));
   ASSERT_GE(rules.size(), 20u);
-  const std::vector<SourceText> files = sources_of(root);
+  const std::vector<SourceText> files = sources_of(root, {"meshing", "solver", "io", "apps"});
   ASSERT_GE(files.size(), 200u);
   for (const std::string& sentence : broken_rules(rules, files)) ADD_FAILURE() << sentence;
 }

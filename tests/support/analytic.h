@@ -15,6 +15,16 @@ inline double point_parallel_rectangle(double a, double b, double c) {
   return (X / p * std::atan(Y / p) + Y / q * std::atan(X / q)) / (2 * std::numbers::pi);
 }
 
+/// Point to any parallel rectangle [x0, x1] × [y0, y1] at distance c, all relative to it: the
+/// corners' rectangles added up.
+inline double point_parallel_rectangle(double x0, double x1, double y0, double y1, double c) {
+  const auto corner = [&](double a, double b) {
+    const double f = point_parallel_rectangle(std::abs(a), std::abs(b), c);
+    return a * b < 0 ? -f : f;
+  };
+  return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
+}
+
 /// Point at the origin with normal z to the rectangle 0 ≤ y ≤ b, 0 ≤ z ≤ a in the plane x = c
 /// (B-4).
 inline double point_perpendicular_rectangle(double a, double b, double c) {

@@ -2,10 +2,12 @@
 
 #include "tests/support/files.h"
 
+#include <algorithm>
 #include <array>
 #include <csignal>
 #include <fcntl.h>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <sys/wait.h>
@@ -45,6 +47,36 @@ inline Outcome run_program(std::vector<std::string> arguments, const std::filesy
   int status = 0;
   waitpid(child, &status, 0);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+}
+
+/// Splits at blanks.
+inline std::vector<std::string> words(const std::string& line) {
+  std::istringstream stream(line);
+  std::vector<std::string> result;
+  for (std::string word; stream >> word;) result.push_back(word);
+  return result;
+}
+
+/// The examples in the help of a command: what follows `halfshade <command>` in its lines.
+inline std::vector<std::vector<std::string>> examples_of(const std::string& help,
+                                                         const std::string& command) {
+  std::vector<std::vector<std::string>> examples;
+  std::istringstream stream(help);
+  for (std::string line; std::getline(stream, line);) {
+    const std::vector<std::string> all = words(line);
+    if (all.size() > 2 && all[0] == "halfshade" && all[1] == command)
+      examples.emplace_back(all.begin() + 2, all.end());
+  }
+  return examples;
+}
+
+/// Expects that a program says in one sentence what is wrong, and nothing else.
+inline void expect_sentence(const Outcome& outcome, int exit_code, const std::string& part) {
+  EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(outcome.err.rfind("halfshade: ", 0), 0u) << outcome.err;
+  EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
 }
 
 }  // namespace halfshade::test

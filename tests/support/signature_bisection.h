@@ -1,10 +1,11 @@
 #pragma once
 
+#include "meshing/core/planar.h"
 #include "meshing/discontinuity/discontinuity.h"
-#include "tests/support/mesh_invariants.h"
 #include "tests/support/sound_scenes.h"
 #include "tests/support/visible_signature.h"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -34,6 +35,13 @@ inline Vec2 random_point(const Surface& receiver, Random& random) {
     const Vec2 p(random(low.x(), high.x()), random(low.y(), high.y()));
     if (is_inside(receiver.rings, p)) return p;
   }
+}
+
+/// Distance from the nearest border line of a surface.
+inline double distance_to_border_lines(const Surface& surface, const Vec2& p) {
+  double least = distance_to_rings(surface.rings, p);
+  for (const auto& [a, b] : surface.contacts) least = std::min(least, distance_to_segment(p, a, b));
+  return least;
 }
 
 inline bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
@@ -93,12 +101,7 @@ class SegmentAuditor {
 
   /// Distance from what a signature may change at.
   double distance_to_lines(const Vec2& p, int receiver, int emitter) const {
-    const Surface& surface = scene_.surfaces[static_cast<std::size_t>(receiver)];
-    double best = HUGE_VAL;
-    for (const Ring& ring : surface.rings)
-      for (std::size_t k = 0; k < ring.size(); ++k)
-        best = std::min(best, distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
-    for (const Segment2& s : surface.contacts) best = std::min(best, distance_to_segment(p, s));
+    double best = distance_to_border_lines(scene_.surfaces[static_cast<std::size_t>(receiver)], p);
     for (const DiscontinuityCurve& curve : curves_)
       if (curve.receiver == receiver && curve.emitter == emitter &&
           box_distance(curve.arc, p) < best)

@@ -2,11 +2,11 @@
 
 #include "meshing/core/sound_scene.h"
 #include "meshing/core/tolerance.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 /// Sound scenes made without the repair, so that tests of what comes after it do not depend on it.
 namespace halfshade::test {
@@ -73,30 +73,6 @@ inline SoundScene s1() {
   add_surface(scene, {square(-1.9371, 1.8613, 0)}, 0);
   return scene;
 }
-
-/// Seeded random numbers that come out the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
-  }
-  int integer(int low, int high) {
-    return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
-  }
-  Vec3 in_box(const Vec3& low, const Vec3& high) {
-    return {(*this)(low.x(), high.x()), (*this)(low.y(), high.y()), (*this)(low.z(), high.z())};
-  }
-  Vec3 direction() {
-    for (;;)
-      if (const Vec3 v = in_box(Vec3::Constant(-1), Vec3::Ones());
-          v.squaredNorm() < 1 && v.squaredNorm() > 0.01)
-        return v.normalized();
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// A convex polygon of 3…7 corners on a circle.
 inline std::vector<Vec3> random_polygon(Random& random, const Vec3& centre, const Vec3& normal,

@@ -1,29 +1,15 @@
 #pragma once
 
 #include "meshing/rays/visibility.h"
+#include "tests/support/random.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
 /// Triangle soups and random segments for the tests of visibility.
 namespace halfshade::test {
-
-struct Random {
-  std::mt19937_64 engine;
-
-  explicit Random(unsigned seed) : engine(seed) {}
-  /// Uniform in [low, high); the same on every platform.
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  }
-  Vec3 point(double low, double high) {
-    const double x = (*this)(low, high), y = (*this)(low, high);
-    return {x, y, (*this)(low, high)};
-  }
-};
 
 inline void add_triangle(TriangleSoup& soup, const Vec3& a, const Vec3& b, const Vec3& c,
                          int owner = -1, int plane = -1) {

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "meshing/repair/repair.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,29 +69,13 @@ inline Polygon facing_down(double x0, double x1, double y0, double y1, double z)
 
 inline Polygon reversed(Polygon polygon) { return {polygon.rbegin(), polygon.rend()}; }
 
-/// Random numbers that are the same on every platform.
-struct Dice {
-  std::mt19937_64 engine;
-
-  explicit Dice(unsigned seed) : engine(seed) {}
-  double operator()(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
-  }
-  /// 0, …, count − 1.
-  int operator()(int count) { return static_cast<int>((*this)(0, count)); }
-  Vec3 point(double low, double high) {
-    const double x = (*this)(low, high), y = (*this)(low, high);
-    return {x, y, (*this)(low, high)};
-  }
-};
-
 /// A convex polygon inscribed in a circle that looks in a random direction.
-inline Polygon random_polygon(Dice& dice, const Vec3& centre, double radius, int corners) {
-  const PlaneFrame frame = make_frame(centre, dice.point(-1, 1));
-  const double start = dice(0, 6.28);
+inline Polygon random_polygon(Random& random, const Vec3& centre, double radius, int corners) {
+  const PlaneFrame frame = make_frame(centre, random.point(-1, 1));
+  const double start = random(0, 6.28);
   Polygon polygon;
   for (int k = 0; k < corners; ++k) {
-    const double angle = start + (k + dice(0, 0.8)) * 6.283185307179586 / corners;
+    const double angle = start + (k + random(0, 0.8)) * 6.283185307179586 / corners;
     polygon.push_back(frame.to_space(radius * Vec2(std::cos(angle), std::sin(angle))));
   }
   return polygon;

@@ -39,6 +39,11 @@ inline double lambert(std::span<const BoundaryPiece> pieces, const Vec3& point,
   return static_cast<double>(-sum / (2 * std::numbers::pi_v<long double>));
 }
 
+inline double factor(const VisiblePart& part, const Vec3& point,
+                     const Vec3& normal = Vec3::UnitZ()) {
+  return lambert(part.pieces, point, normal);
+}
+
 /// How far inside (+) or outside (−) of polygons with holes a point lies, by crossing number and
 /// distance to the border.
 template <class Polygons>

@@ -1,5 +1,5 @@
 #include "io/read/read_scene.h"
-#include "tests/support/files.h"
+#include "tests/support/scene_texts.h"
 
 #include <gmock/gmock.h>
 #include <string>
@@ -7,16 +7,12 @@
 namespace halfshade {
 namespace {
 
-using test::expect_error;
-using test::TempDir;
+using test::expect_refused;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-SceneFile read(const std::string& off) {
-  const TempDir folder;
-  return read_scene(folder.write("scene.off", off));
-}
+SceneFile read(const std::string& off) { return test::read_text("scene.off", off); }
 
 const std::string vertices = "0.1 0 0\n1 0 0\n1 1 0\n0 1 0\n0.5 2 0\n";
 
@@ -66,7 +62,7 @@ void PrintTo(const BadOff& file, std::ostream* out) { *out << file.name; }
 class BadOffFile : public testing::TestWithParam<BadOff> {};
 
 TEST_P(BadOffFile, IsRefusedWithFileAndLine) {
-  expect_error([&] { read(GetParam().text); }, ErrorCode::invalid_input, GetParam().sentence);
+  expect_refused("scene.off", GetParam().text, GetParam().sentence);
 }
 
 const BadOff bad_files[] = {

@@ -1,5 +1,5 @@
 #include "io/read/read_scene.h"
-#include "tests/support/files.h"
+#include "tests/support/scene_texts.h"
 
 #include <algorithm>
 #include <bit>
@@ -11,15 +11,15 @@
 namespace halfshade {
 namespace {
 
-using test::expect_error;
 using test::TempDir;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-SceneFile read(const std::string& ply) {
-  const TempDir folder;
-  return read_scene(folder.write("scene.ply", ply));
+SceneFile read(const std::string& ply) { return test::read_text("scene.ply", ply); }
+
+void expect_refused(const std::string& ply, const std::vector<std::string>& parts) {
+  test::expect_refused("scene.ply", ply, parts);
 }
 
 const std::string ascii_header =
@@ -132,17 +132,17 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 TEST(ReadPly, DoesNotBelieveCountsThatCannotBe) {
   const std::string whole = ascii_header + ascii_data;
   for (const char* count : {"999999999999", "9223372036854775807", "1000"}) {
-    expect_error([&] { read(replaced(whole, "vertex 5", std::string("vertex ") + count)); },
-                 ErrorCode::invalid_input, {"scene.ply", count, "'vertex'", "cut short"});
-    expect_error([&] { read(replaced(whole, "face 2", std::string("face ") + count)); },
-                 ErrorCode::invalid_input, {"scene.ply", count, "'face'"});
+    expect_refused(replaced(whole, "vertex 5", std::string("vertex ") + count),
+                   {"scene.ply", count, "'vertex'", "cut short"});
+    expect_refused(replaced(whole, "face 2", std::string("face ") + count),
+                   {"scene.ply", count, "'face'"});
   }
-  expect_error([&] { read(replaced(whole, "\n0 5 0 1", "\n0 4000000000 0 1")); },
-               ErrorCode::invalid_input, {"scene.ply:19", "4000000000", "'vertex_indices'"});
+  expect_refused(replaced(whole, "\n0 5 0 1", "\n0 4000000000 0 1"),
+                 {"scene.ply:19", "4000000000", "'vertex_indices'"});
   // A file of 2^32 − 1 corners in its last list.
   std::string binary = binary_file(false);
   binary.replace(binary.size() - 14, 4, "\xFF\xFF\xFF\xFF");
-  expect_error([&] { read(binary); }, ErrorCode::invalid_input, {"4294967295"});
+  expect_refused(binary, {"4294967295"});
 }
 
 struct BadPly {
@@ -157,7 +157,7 @@ class BadPlyFile : public testing::TestWithParam<BadPly> {};
 
 TEST_P(BadPlyFile, IsRefusedWithFileAndLine) {
   const std::string text = replaced(ascii_header + ascii_data, GetParam().from, GetParam().to);
-  expect_error([&] { read(text); }, ErrorCode::invalid_input, GetParam().sentence);
+  expect_refused(text, GetParam().sentence);
 }
 
 const BadPly bad_files[] = {

@@ -17,16 +17,6 @@ SoundScene load(const std::string& name) {
   return make_sound(read_scene(test::data_file(name + ".obj")).scene);
 }
 
-/// Form factor from a point below, looking up, to [x0,x1] × [y0,y1] at height c, all relative to
-/// it.
-double rectangle_above(double x0, double x1, double y0, double y1, double c) {
-  const auto corner = [&](double a, double b) {
-    const double f = test::point_parallel_rectangle(std::abs(a), std::abs(b), c);
-    return a * b < 0 ? -f : f;
-  };
-  return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
-}
-
 using Intervals = std::vector<std::array<double, 2>>;
 
 /// What the bars of bars.md at height h leave of [−0.5, 0.5], seen from x on the floor.
@@ -53,7 +43,7 @@ TEST(DirectLightScenes, BarsLeaveAProductOfGaps) {
       for (const auto& u : gaps(x, 1.5))
         for (const auto& v : gaps(y, 1.6))
           if (u[1] > u[0] && v[1] > v[0])
-            want += rectangle_above(u[0] - x, u[1] - x, v[0] - y, v[1] - y, 3);
+            want += test::point_parallel_rectangle(u[0] - x, u[1] - x, v[0] - y, v[1] - y, 3);
       EXPECT_NEAR(index.factor({{x, y, 0}, up}, index.emitters()[0]).visible, want, 1e-15)
           << x << " " << y;
       ++compared;
@@ -101,7 +91,7 @@ TEST(DirectLightScenes, SkewBarsHaveTheTabulatedJump) {
 TEST(DirectLightScenes, SphereCoversItsCone) {
   const DirectLightIndex index(load("sphere"));
   const PointFactor factor = index.factor({{0, 0, 0}, up}, index.emitters()[0]);
-  const double light = rectangle_above(-1, 1, -1, 1, 3);
+  const double light = test::point_parallel_rectangle(-1, 1, -1, 1, 3);
   EXPECT_NEAR(factor.unobstructed, light, 1e-15);
   EXPECT_GT(light - factor.visible, 0.99943 / 16);
   EXPECT_LT(light - factor.visible, 1. / 16);
@@ -117,7 +107,7 @@ TEST(DirectLightScenes, LightWithAHoleIsTheSumOfItsRectangles) {
   for (const auto& [x, y] : {std::pair(1.9, -1.9), std::pair(0.02, 0.01), std::pair(-1.1, 0.3)}) {
     double want = 0;
     for (const auto& r : rectangles)
-      want += rectangle_above(r[0] - x, r[1] - x, r[2] - y, r[3] - y, 2.5);
+      want += test::point_parallel_rectangle(r[0] - x, r[1] - x, r[2] - y, r[3] - y, 2.5);
     const PointFactor factor = index.factor({{x, y, 0}, up}, index.emitters()[0]);
     EXPECT_NEAR(factor.unobstructed, want, 2e-15);
   }
@@ -135,7 +125,7 @@ TEST(DirectLightScenes, HundredLightsStayBelowTheirSum) {
     for (int i = 0; i < 10; ++i)
       for (int j = 0; j < 10; ++j) {
         const double u = -5.4 + 1.2 * i - x, v = -5.4 + 1.2 * j - y;
-        whole += rectangle_above(u - 0.15, u + 0.15, v - 0.15, v + 0.15, 4);
+        whole += test::point_parallel_rectangle(u - 0.15, u + 0.15, v - 0.15, v + 0.15, 4);
       }
     const DirectLight light = index.irradiance(SurfacePoint{{x, y, 0}, up});
     EXPECT_LT(light.irradiance[0], whole);

@@ -2,11 +2,11 @@
 
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
+#include "meshing/core/planar.h"
 #include "meshing/geometry/corner_fans.h"
 #include "meshing/patches/face_lookup.h"
 #include "meshing/repair/planes.h"
 #include "tests/support/expect_error.h"
-#include "tests/support/mesh_invariants.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,6 @@ namespace halfshade {
 namespace {
 
 using Link = std::array<int, 2>;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 std::vector<Link> links_of(const Arrangement& arrangement) {
   std::vector<Link> links;
@@ -37,14 +35,14 @@ void expect_arranged(const Arrangement& arrangement, double snap) {
   for (const auto& [a, b] : links)
     for (const auto& [c, d] : links) {
       if (a == c || a == d || b == c || b == d) continue;
-      EXPECT_GT(test::distance_to_segment(at(c), {at(a), at(b)}), 0.7 * snap);
+      EXPECT_GT(distance_to_segment(at(c), at(a), at(b)), 0.7 * snap);
       // Parts of one line are told from crossings by their boxes, not by signs of zero.
       if ((at(a).cwiseMin(at(b)).array() > at(c).cwiseMax(at(d)).array()).any()) continue;
       if ((at(c).cwiseMin(at(d)).array() > at(a).cwiseMax(at(b)).array()).any()) continue;
-      const bool c_left = cross(at(b) - at(a), at(c) - at(a)) > 0;
-      const bool d_left = cross(at(b) - at(a), at(d) - at(a)) > 0;
-      const bool a_left = cross(at(d) - at(c), at(a) - at(c)) > 0;
-      const bool b_left = cross(at(d) - at(c), at(b) - at(c)) > 0;
+      const bool c_left = cross_2d(at(b) - at(a), at(c) - at(a)) > 0;
+      const bool d_left = cross_2d(at(b) - at(a), at(d) - at(a)) > 0;
+      const bool a_left = cross_2d(at(d) - at(c), at(a) - at(c)) > 0;
+      const bool b_left = cross_2d(at(d) - at(c), at(b) - at(c)) > 0;
       EXPECT_FALSE(c_left != d_left && a_left != b_left) << "links cross";
     }
 }
@@ -92,8 +90,9 @@ TEST(Arrange, RandomSegmentsMeetInCommonPointsOnly) {
       EXPECT_EQ(result.chains[s].back(), segments[s][1]);
       const Segment2 segment = {points[2 * s], points[2 * s + 1]};
       for (const int p : result.chains[s])
-        EXPECT_LT(test::distance_to_segment(result.points[static_cast<std::size_t>(p)], segment),
-                  4 * snap);
+        EXPECT_LT(
+            distance_to_segment(result.points[static_cast<std::size_t>(p)], segment[0], segment[1]),
+            4 * snap);
     }
   }
 }

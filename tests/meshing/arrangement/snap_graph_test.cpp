@@ -1,8 +1,8 @@
 #include "meshing/arrangement/snap_graph.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/geometry/planar_signs.h"
 #include "tests/support/curve_families.h"
-#include "tests/support/mesh_invariants.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +95,8 @@ TEST_P(SnapGraphFamily, MinimumSeparationOfPointsAndEdges) {
   for (std::size_t e = 0; e < p.edges.size(); ++e)
     for (const int i : p.points)
       if (i != p.ends[e][0] && i != p.ends[e][1]) {
-        EXPECT_GE(distance_to_segment(graph.points()[static_cast<std::size_t>(i)], p.edges[e]),
+        EXPECT_GE(distance_to_segment(graph.points()[static_cast<std::size_t>(i)], p.edges[e][0],
+                                      p.edges[e][1]),
                   snap / 3);
       }
 }
@@ -121,7 +122,7 @@ TEST_P(SnapGraphFamily, EveryLineIsAChainCloseToIt) {
       for (const int end : {e.a, e.b}) {
         ++degree[end];
         const Vec2& p = graph.points()[static_cast<std::size_t>(end)];
-        EXPECT_LE(distance_to_segment(p, segments[s]), 6 * snap);
+        EXPECT_LE(distance_to_segment(p, segments[s][0], segments[s][1]), 6 * snap);
       }
     });
     int odd = 0;

@@ -12,16 +12,13 @@
 namespace halfshade {
 namespace {
 
-using test::Dice;
 using test::facing_down;
+using test::factor;
 using test::find_visible;
 using test::Polygon;
+using test::Random;
 
 const Vec3 up = Vec3::UnitZ();
-
-double factor(const VisiblePart& part, const Vec3& point, const Vec3& normal = up) {
-  return test::lambert(part.pieces, point, normal);
-}
 
 double exact_factor(const Polygon& light, const std::vector<Polygon>& occluders, const Vec3& point,
                     const Vec3& normal = up) {
@@ -48,16 +45,17 @@ TEST(VisiblePartLimits, TheSurfaceDoesNotHideWhatItSees) {
 }
 
 TEST(VisiblePartLimits, ASlantedSurfaceDoesNotHideWhatItSees) {
-  Dice dice(4);
+  Random random(4);
   for (int round = 0; round < 50; ++round) {
-    const Vec3 normal = Vec3(dice(-.5, .5), dice(-.5, .5), 1).normalized();
-    const PlaneFrame plane = make_frame({dice(-.1, .1), dice(-.1, .1), dice(-.1, .1)}, normal);
+    const Vec3 normal = Vec3(random(-.5, .5), random(-.5, .5), 1).normalized();
+    const PlaneFrame plane =
+        make_frame({random(-.1, .1), random(-.1, .1), random(-.1, .1)}, normal);
     Polygon surface;
     for (const Vec2& q : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
       surface.push_back(plane.to_space(q));
     const SoundScene scene = with_light({surface});
     for (int k = 0; k < 20; ++k) {
-      const Vec3 point = plane.to_space({dice(-1, 1), dice(-1, 1)});
+      const Vec3 point = plane.to_space({random(-1, 1), random(-1, 1)});
       EXPECT_EQ(find_visible(scene, point, plane.normal).region, Region::lit);
     }
   }
@@ -80,9 +78,9 @@ TEST(VisiblePartLimits, ABoxOnTheFloorBlocksUpToTheContactLine) {
 TEST(VisiblePartLimits, AFenceThroughTheFloorBlocksOnlyWhatItStandsBefore) {
   const Polygon fence = {{.2, -1, -1}, {.2, 1, -1}, {.2, 1, .8}, {.2, -1, .8}};
   const SoundScene scene = with_light({ground, fence});
-  Dice dice(8);
+  Random random(8);
   for (int k = 0; k < 200; ++k) {
-    const Vec3 point(dice(-1, 1), dice(-.9, .9), 0);
+    const Vec3 point(random(-1, 1), random(-.9, .9), 0);
     const double whole = exact_factor(light, {}, point);
     EXPECT_NEAR(factor(find_visible(scene, point), point), exact_factor(light, {fence}, point),
                 1e-13 * whole);
@@ -94,9 +92,9 @@ TEST(VisiblePartLimits, OccludersThatTouchOrPierceTheEmitterBlockUpToItsPlane) {
     const Polygon baffle = {{.1, -.3, 1.5}, {.1, .3, 1.5}, {.1, .3, top}, {.1, -.3, top}};
     const Polygon upto = {{.1, -.3, 1.5}, {.1, .3, 1.5}, {.1, .3, 2}, {.1, -.3, 2}};
     const SoundScene scene = with_light({ground, baffle});
-    Dice dice(5);
+    Random random(5);
     for (int k = 0; k < 200; ++k) {
-      const Vec3 point(dice(-2, 2), dice(-2, 2), 0);
+      const Vec3 point(random(-2, 2), random(-2, 2), 0);
       EXPECT_NEAR(factor(find_visible(scene, point), point), exact_factor(light, {upto}, point),
                   1e-14);
     }
@@ -109,9 +107,9 @@ TEST(VisiblePartLimits, ABoxHangingFromTheEmitterCountsLikeItsFacesBelow) {
   test::add_box(scene, {-.2, -.1, 1.6}, {.3, .2, 2});
   test::finish(scene);
   // The box is convex: its shadow is that of the hull of its bottom and top.
-  Dice dice(6);
+  Random random(6);
   for (int k = 0; k < 100; ++k) {
-    const Vec3 point(dice(-.2, .3), dice(-.1, .2), 0);  // sees the bottom only
+    const Vec3 point(random(-.2, .3), random(-.1, .2), 0);  // sees the bottom only
     EXPECT_NEAR(factor(find_visible(scene, point), point),
                 exact_factor(light, {facing_down(-.2, .3, -.1, .2, 1.6)}, point), 1e-14);
   }
@@ -131,10 +129,11 @@ TEST(VisiblePartLimits, CoplanarOverlappingAndRepeatedOccludersCountOnce) {
   const Polygon left = facing_down(-.4, .1, -.3, .3, 1), right = facing_down(-.2, .4, -.3, .3, 1);
   const SoundScene scene = with_light({left, right, left, test::reversed(right)});
   const Polygon both = facing_down(-.4, .4, -.3, .3, 1);
-  Dice dice(7);
+  Random random(7);
   for (int k = 0; k < 200; ++k) {
     // Every other point lies in a plane of occluder and light edges.
-    const Vec3 point(k % 2 == 0 ? dice(-1.5, 1.5) : .25 * dice(7) - .75, dice(-1, 1), 0);
+    const Vec3 point(k % 2 == 0 ? random(-1.5, 1.5) : .25 * random.below(7) - .75, random(-1, 1),
+                     0);
     EXPECT_NEAR(factor(find_visible(scene, point), point), exact_factor(light, {both}, point),
                 1e-14);
   }
@@ -152,10 +151,10 @@ TEST(VisiblePartLimits, AbuttingTilesLeaveNoGap) {
                         facing_down(x0, std::min(1., x1), -1 + .25 * row, -1 + .25 * (row + 1), 1));
     }
   test::finish(scene);
-  Dice dice(9);
+  Random random(9);
   for (int k = 0; k < 300; ++k) {
-    const Vec3 point(k % 3 == 0 ? .125 * dice(9) - .5 : dice(-1, 1),
-                     k % 2 == 0 ? .125 * dice(9) - .5 : dice(-1, 1), 0);
+    const Vec3 point(k % 3 == 0 ? .125 * random.below(9) - .5 : random(-1, 1),
+                     k % 2 == 0 ? .125 * random.below(9) - .5 : random(-1, 1), 0);
     EXPECT_EQ(find_visible(scene, point).region, Region::umbra) << point.transpose();
   }
 }
@@ -188,9 +187,9 @@ TEST(VisiblePartLimits, TheInsideOfAClosedRoomSeesItsLampWhole) {
   for (std::size_t f = 0; f < 5; ++f) test::add_surface(scene, faces[f]);
   test::add_surface(scene, {faces[5], test::reversed(lamp)});
   test::finish(scene);
-  Dice dice(12);
+  Random random(12);
   for (int k = 0; k < 100; ++k) {
-    const Vec3 point(dice(0, 4), dice(0, 5), 0);
+    const Vec3 point(random(0, 4), random(0, 5), 0);
     const VisiblePart part = find_visible(scene, point);
     EXPECT_EQ(part.region, Region::lit);
     EXPECT_EQ(part.pieces.size(), 4u);
@@ -204,9 +203,9 @@ TEST(VisiblePartLimits, AWallThatIsTheLightSharesItsEdgesWithItsNeighbours) {
   auto faces = test::box_faces({0, 0, 0}, {4, 5, 3}, true);
   for (std::size_t f = 0; f < 6; ++f) test::add_surface(scene, faces[f]);
   test::finish(scene);
-  Dice dice(13);
+  Random random(13);
   for (int k = 0; k < 100; ++k) {
-    const Vec3 point(dice(.01, 4), dice(0, 5), 0);
+    const Vec3 point(random(.01, 4), random(0, 5), 0);
     const VisiblePart part = find_visible(scene, point, up, 0);
     EXPECT_EQ(part.region, Region::lit);
     const double exact = exact_factor(faces[0], {}, point);
@@ -220,10 +219,10 @@ TEST(VisiblePartLimits, AWallWithAWindowHidesAllButTheWindow) {
   SoundScene scene = with_light({ground});
   test::add_surface(scene, {wall, test::reversed(window)});
   test::finish(scene);
-  Dice dice(15);
+  Random random(15);
   int partly = 0;
   for (int k = 0; k < 200; ++k) {
-    const Vec3 point(dice(.6, 2), dice(-1, 1), 0);
+    const Vec3 point(random(.6, 2), random(-1, 1), 0);
     // What the window shows is what it would hide.
     const double exact = exact_factor(light, {}, point) - exact_factor(light, {window}, point);
     const VisiblePart part = find_visible(scene, point);
@@ -236,20 +235,21 @@ TEST(VisiblePartLimits, AWallWithAWindowHidesAllButTheWindow) {
 
 /// Boxes, plates and triangles on a coarse grid: most edges are parallel, many lie on one line or
 /// meet in a point, as seen from anywhere or from points on the grid.
-SoundScene grid_scene(Dice& dice, double step) {
+SoundScene grid_scene(Random& random, double step) {
   const auto grid = [&](double low, double high) {
-    return step * std::round(dice(low, high) / step);
+    return step * std::round(random(low, high) / step);
   };
   SoundScene scene = with_light({ground});
-  for (int count = 1 + dice(12); count > 0; --count) {
+  for (int count = 1 + random.below(12); count > 0; --count) {
     const double x = grid(-1.5, 1), y = grid(-1.5, 1), z = grid(0, 1.75);
-    const Vec3 low(x, y, z), high = low + step * Vec3(1 + dice(3), 1 + dice(3), 1 + dice(3));
+    const Vec3 low(x, y, z),
+        high = low + step * Vec3(1 + random.below(3), 1 + random.below(3), 1 + random.below(3));
     Polygon triangle;
     for (int k = 0; k < 3; ++k) {
       const double u = grid(-1.5, 1.5), v = grid(-1.5, 1.5);
       triangle.emplace_back(u, v, step + grid(0, 1.75));
     }
-    const int kind = dice(3);
+    const int kind = random.below(3);
     if (kind == 0)
       test::add_box(scene, low, high);
     else if (kind == 1)
@@ -264,14 +264,14 @@ SoundScene grid_scene(Dice& dice, double step) {
 TEST(VisiblePartLimits, GridScenesSeenFromTheGridAgreeWithSampledSightLines) {
   int tested = 0, partly = 0;
   for (unsigned seed = 0; seed < 80; ++seed) {
-    Dice dice(seed);
+    Random random(seed);
     const double step = seed % 2 == 0 ? .25 : .3;
-    const SoundScene scene = grid_scene(dice, step);
+    const SoundScene scene = grid_scene(random, step);
     const OpaqueScene opaque(scene);
     VisiblePartFinder finder(opaque);
     VisiblePart part;
     for (int k = 0; k < 20; ++k) {
-      const Vec3 point(step * (dice(13) - 6), step * (dice(13) - 6), 0);
+      const Vec3 point(step * (random.below(13) - 6), step * (random.below(13) - 6), 0);
       finder.find(point, up, 0, part);
       EXPECT_EQ(test::wrong_samples(scene, 0, point, up, part, 10, 1e-9, tested), 0)
           << "seed " << seed << ", point " << point.transpose();
@@ -302,9 +302,9 @@ double largest_error(double scale, const Vec3& shift) {
   for (const Polygon& polygon : images) test::add_surface(scene, polygon);
   test::finish(scene);
   double worst = 0;
-  Dice dice(14);
+  Random random(14);
   for (int k = 0; k < 100; ++k) {
-    const Vec3 point(dice(-1.5, 1.5), dice(-1.5, 1.5), 0);
+    const Vec3 point(random(-1.5, 1.5), random(-1.5, 1.5), 0);
     const Vec3 image = scale * point + shift;
     const double whole = exact_factor(light, {}, point);
     const double error =

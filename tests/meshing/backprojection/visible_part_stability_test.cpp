@@ -15,9 +15,9 @@
 namespace halfshade {
 namespace {
 
-using test::Dice;
 using test::facing_down;
 using test::find_visible;
+using test::Random;
 
 int cell(double x) { return x < -1.25 ? 0 : x < -.25 ? 1 : x < .25 ? 2 : x < 1.25 ? 3 : 4; }
 
@@ -25,9 +25,9 @@ TEST(VisiblePartSignature, IsConstantInACellAndDiffersBetweenCells) {
   // The discontinuity lines of a square under a square are |x|, |y| = 0.25 and 1.25.
   const SoundScene scene = test::square_over_square();
   std::map<std::pair<int, int>, std::set<std::uint64_t>> seen;
-  Dice dice(1);
+  Random random(1);
   for (int k = 0; k < 4000; ++k) {
-    const Vec3 point(dice(-1.9, 1.9), dice(-1.9, 1.9), 0);
+    const Vec3 point(random(-1.9, 1.9), random(-1.9, 1.9), 0);
     const VisiblePart part = find_visible(scene, point);
     const bool is_lit = std::max(std::abs(point.x()), std::abs(point.y())) > 1.25;
     EXPECT_EQ(part.region == Region::lit, is_lit);
@@ -56,8 +56,8 @@ TEST(VisiblePartFinder, FindsTheSameInAnyOrderAndWithAnyFinder) {
   const OpaqueScene opaque(scene);
   VisiblePartFinder one(opaque), other(opaque);
   std::vector<Vec3> points;
-  Dice dice(2);
-  for (int k = 0; k < 50; ++k) points.emplace_back(dice(-1, 1), dice(-1, 1), 0);
+  Random random(2);
+  for (int k = 0; k < 50; ++k) points.emplace_back(random(-1, 1), random(-1, 1), 0);
   std::vector<VisiblePart> forward(points.size());
   for (std::size_t k = 0; k < points.size(); ++k) one.find(points[k], Vec3::UnitZ(), 0, forward[k]);
   for (std::size_t k = points.size(); k-- > 0;) {
@@ -77,8 +77,8 @@ TEST(VisiblePartFinder, AllocatesNothingOnceItsBuffersHaveGrown) {
   VisiblePartFinder finder(opaque);
   VisiblePart part;
   std::vector<Vec3> points;
-  Dice dice(3);
-  for (int k = 0; k < 300; ++k) points.emplace_back(dice(-1.5, 1.5), dice(-1.5, 1.5), 0);
+  Random random(3);
+  for (int k = 0; k < 300; ++k) points.emplace_back(random(-1.5, 1.5), random(-1.5, 1.5), 0);
   const auto find_all = [&] {
     for (const Vec3& point : points) finder.find(point, Vec3::UnitZ(), 0, part);
   };

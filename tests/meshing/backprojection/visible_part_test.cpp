@@ -15,16 +15,13 @@
 namespace halfshade {
 namespace {
 
-using test::Dice;
 using test::facing_down;
+using test::factor;
 using test::find_visible;
 using test::Polygon;
+using test::Random;
 
 const Vec3 up = Vec3::UnitZ();
-
-double factor(const VisiblePart& part, const Vec3& point, const Vec3& normal = up) {
-  return test::lambert(part.pieces, point, normal);
-}
 
 TEST(VisiblePart, SquareOverSquareHasThePublishedFactors) {
   const SoundScene scene = test::square_over_square();
@@ -73,19 +70,20 @@ TEST(VisiblePart, LitPartIsTheWholeOutlineToTheBit) {
 }
 
 /// Convex polygons strewn between the floor and the light, in front of the floor points.
-std::vector<Polygon> strewn(Dice& dice, int count) {
+std::vector<Polygon> strewn(Random& random, int count) {
   std::vector<Polygon> polygons;
   for (int i = 0; i < count; ++i)
-    polygons.push_back(test::random_polygon(dice, {dice(-.7, .7), dice(-.7, .7), dice(.7, 1.3)},
-                                            dice(.2, .6), 3 + dice(5)));
+    polygons.push_back(test::random_polygon(random,
+                                            {random(-.7, .7), random(-.7, .7), random(.7, 1.3)},
+                                            random(.2, .6), 3 + random.below(5)));
   return polygons;
 }
 
 TEST(VisiblePart, ConvexOccludersAgreeWithInclusionAndExclusion) {
-  Dice dice(3);
+  Random random(3);
   int partly = 0;
   for (int round = 0; round < 100; ++round) {
-    const std::vector<Polygon> occluders = strewn(dice, 1 + dice(3));
+    const std::vector<Polygon> occluders = strewn(random, 1 + random.below(3));
     const Polygon light = facing_down(-.5, .5, -.4, .6, 2);
     SoundScene scene;
     test::add_surface(scene, light, 1);
@@ -95,8 +93,8 @@ TEST(VisiblePart, ConvexOccludersAgreeWithInclusionAndExclusion) {
     VisiblePartFinder finder(opaque);
     VisiblePart part;
     for (int k = 0; k < 20; ++k) {
-      const Vec3 point(dice(-1.5, 1.5), dice(-1.5, 1.5), 0);
-      const Vec3 normal = (k % 2 == 0 ? up : Vec3(dice(-1, 1), dice(-1, 1), .5)).normalized();
+      const Vec3 point(random(-1.5, 1.5), random(-1.5, 1.5), 0);
+      const Vec3 normal = (k % 2 == 0 ? up : Vec3(random(-1, 1), random(-1, 1), .5)).normalized();
       finder.find(point, normal, 0, part);
       const auto exact = static_cast<double>(test::visible_factor(light, occluders, point, normal));
       const double whole = static_cast<double>(test::visible_factor(light, {}, point, normal));
@@ -127,30 +125,31 @@ Polygon sunken_light() {
           {3, 1, 1.5}, {3, 1, -1},    {3, -1, -1}};
 }
 
-void add_random_object(SoundScene& scene, Dice& dice) {
-  const Vec3 centre(dice(-1.2, 1.2), dice(-1.2, 1.2), dice(.3, 2.2));
-  switch (dice(4)) {
+void add_random_object(SoundScene& scene, Random& random) {
+  const Vec3 centre(random(-1.2, 1.2), random(-1.2, 1.2), random(.3, 2.2));
+  switch (random.below(4)) {
     case 0: {
-      Vec3 low = dice.point(-1.5, 1.2);
-      low.z() = dice(2) == 0 ? 0 : dice(0, 1.7);
-      test::add_box(scene, low, low + dice.point(.1, .8));
+      Vec3 low = random.point(-1.5, 1.2);
+      low.z() = random.below(2) == 0 ? 0 : random(0, 1.7);
+      test::add_box(scene, low, low + random.point(.1, .8));
       break;
     }
     case 1:
-      test::add_sphere(scene, centre, dice(.1, .6), 1 + dice(2));
+      test::add_sphere(scene, centre, random(.1, .6), 1 + random.below(2));
       break;
     case 2:
-      test::add_surface(scene, test::random_polygon(dice, centre, dice(.2, 1), 3 + dice(5)));
+      test::add_surface(scene,
+                        test::random_polygon(random, centre, random(.2, 1), 3 + random.below(5)));
       break;
     default:
-      test::add_surface(scene, notched_light(dice(.3, 1.9)));
+      test::add_surface(scene, notched_light(random(.3, 1.9)));
   }
 }
 
 TEST(VisiblePart, RandomScenesAgreeWithSampledSightLines) {
   int tested = 0, wrong = 0, partly = 0;
   for (unsigned seed = 0; seed < 60; ++seed) {
-    Dice dice(seed);
+    Random random(seed);
     SoundScene scene;
     if (seed % 3 == 0)
       test::add_surface(scene, sunken_light(), 1);
@@ -158,16 +157,16 @@ TEST(VisiblePart, RandomScenesAgreeWithSampledSightLines) {
       test::add_surface(scene, notched_light(2), 1);
     ASSERT_LT(scene.surfaces[0].frame.normal.sum(), 0);
     test::add_surface(scene, Polygon{{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
-    for (int count = 1 + dice(5); count > 0; --count) add_random_object(scene, dice);
+    for (int count = 1 + random.below(5); count > 0; --count) add_random_object(scene, random);
     test::finish(scene);
     const OpaqueScene opaque(scene);
     VisiblePartFinder finder(opaque);
     VisiblePart part;
     for (int k = 0; k < 12; ++k) {
-      Vec3 point(dice(-2, 2), dice(-2, 2), 0), normal = up;
+      Vec3 point(random(-2, 2), random(-2, 2), 0), normal = up;
       if (k % 4 == 3) {
-        point.z() = dice(0, 1.9);
-        normal = dice.point(-1, 1).normalized();
+        point.z() = random(0, 1.9);
+        normal = random.point(-1, 1).normalized();
       }
       finder.find(point, normal, 0, part);
       const int bad = test::wrong_samples(scene, 0, point, normal, part, 12, 1e-9, tested);
@@ -188,10 +187,10 @@ TEST(VisiblePart, WithoutOccludersTheOutlineGivesTheClosedForm) {
         sunken ? std::vector<Polygon>{sunken_light()} : notched_light(2);
     test::add_surface(scene, rings, 1);
     test::finish(scene);
-    Dice dice(11);
+    Random random(11);
     for (int k = 0; k < 100; ++k) {
-      const Vec3 point(dice(-2, 2), dice(-2, 2), dice(-.5, .5));
-      const Vec3 normal = Vec3(dice(-1, 1), dice(-1, 1), dice(.2, 1)).normalized();
+      const Vec3 point(random(-2, 2), random(-2, 2), random(-.5, .5));
+      const Vec3 normal = Vec3(random(-1, 1), random(-1, 1), random(.2, 1)).normalized();
       const VisiblePart part = find_visible(scene, point, normal);
       // Sutherland and Hodgman's overlapping edges cancel in the sum; a hole counts negative.
       double exact = 0;
@@ -206,13 +205,13 @@ TEST(VisiblePart, WithoutOccludersTheOutlineGivesTheClosedForm) {
 
 TEST(VisiblePart, ChainsAreClosedAndRunOneAfterTheOther) {
   for (unsigned seed = 0; seed < 40; ++seed) {
-    Dice dice(seed);
+    Random random(seed);
     SoundScene scene;
     test::add_surface(scene, notched_light(2), 1);
-    for (int count = 0; count < 4; ++count) add_random_object(scene, dice);
+    for (int count = 0; count < 4; ++count) add_random_object(scene, random);
     test::finish(scene);
     for (int k = 0; k < 10; ++k) {
-      const Vec3 point(dice(-2, 2), dice(-2, 2), 0);
+      const Vec3 point(random(-2, 2), random(-2, 2), 0);
       const VisiblePart part = find_visible(scene, point);
       int first = 0;
       for (const int end : part.chain_ends) {

@@ -1,5 +1,6 @@
 #include "meshing/discontinuity/event_evidence.h"
 
+#include "meshing/core/planar.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +68,7 @@ double area(const Part& part) {
   double twice = 0;
   for (std::size_t k = 0; k < part.corners.size(); ++k) {
     const Vec2 &a = part.corners[k], &b = part.corners[(k + 1) % part.corners.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += cross_2d(a, b);
   }
   return 0.5 * twice;
 }
@@ -201,7 +202,7 @@ double triangle_area(const Half& a, const Half& b, const Half& c) {
     return Vec2(m.inverse() * Vec2(u.offset, v.offset));
   };
   const Vec2 p = meet(a, b), q = meet(b, c) - p, r = meet(c, a) - p;
-  return 0.5 * std::abs(q.x() * r.y() - q.y() * r.x());
+  return 0.5 * std::abs(cross_2d(q, r));
 }
 
 TEST(EventEvidence, TriplesAddUpToTheJumpOfTheAreasSecondDerivative) {

@@ -1,5 +1,6 @@
 #include "meshing/discontinuity/event_jump.h"
 
+#include "meshing/core/planar.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,7 @@ double triangle_area(const Vec3& point, const PlaneFrame& emitter,
                      .cross(image(point, emitter, lines[(i + 1) % 3]))
                      .hnormalized();
   const Vec2 a = corners[1] - corners[0], b = corners[2] - corners[0];
-  return 0.5 * std::abs(a.x() * b.y() - a.y() * b.x());
+  return 0.5 * std::abs(cross_2d(a, b));
 }
 
 double kernel(const ReceivingPoint& at, const PlaneFrame& emitter, const Vec3& q) {
@@ -168,7 +169,7 @@ TEST(EventJump, IsTheKernelTimesTheGrowthOfTheTriangle) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 a = image(c.at.position, c.emitter, c.lines[i]).head<2>().normalized();
       const Vec2 b = image(c.at.position, c.emitter, c.lines[(i + 1) % 3]).head<2>().normalized();
-      slim = std::min(slim, std::abs(a.x() * b.y() - a.y() * b.x()));
+      slim = std::min(slim, std::abs(cross_2d(a, b)));
     }
     if (slim < 0.05) continue;
     EXPECT_NEAR(got, expected, 1e-5 * expected + 1e-7) << round;

@@ -1,6 +1,7 @@
 #include "meshing/discontinuity/swath_tracer.h"
 
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/core/planar.h"
+#include "meshing/discontinuity/margins.h"
 #include "meshing/events/events.h"
 #include "tests/support/critical_conic.h"
 #include "tests/support/discontinuity_scenes.h"
@@ -188,7 +189,7 @@ TEST(SwathTracer, FollowsALineOfSecondOrder) {
   expect_ranges(traced.ranges(curves, -1, 0.1, 0,
                               [&](const Vec3& p) {
                                 const Vec2 off = Vec2(p.x(), p.y()) - from;
-                                return std::abs(off.x() * along.y() - off.y() * along.x()) < 1e-9;
+                                return std::abs(cross_2d(off, along)) < 1e-9;
                               }),
                 {{0.9, 2.3}});
   for (const DiscontinuityCurve& curve : curves) {

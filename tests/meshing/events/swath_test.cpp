@@ -240,13 +240,17 @@ TEST(GrazingParameters, AreWhereTheLineRunsAlongThePlane) {
   EXPECT_GT(found, 50);
 }
 
+PlaneFrame leaning_floor(Random& random) {
+  return make_frame(random.in_box({-1, -1, -1}, {1, 1, 0}),
+                    Vec3::UnitZ() + 0.5 * random.direction());
+}
+
 TEST(Trace, LiesOnThePlaneAndOnTheLine) {
   Random random(9);
   int compared = 0;
   for (int round = 0; round < 600; ++round) {
     const Swath swath = random_swath(random);
-    const PlaneFrame plane = make_frame(random.in_box({-1, -1, -1}, {1, 1, 0}),
-                                        Vec3::UnitZ() + 0.5 * random.direction());
+    const PlaneFrame plane = leaning_floor(random);
     const double t = random(0, 1);
     const auto line = line_at(swath, emitter, t);
     if (!line || std::abs(plane.normal.dot(line->direction)) < 0.1) continue;
@@ -265,8 +269,7 @@ TEST(Trace, TangentIsTheCentralDifference) {
   int compared = 0;
   for (int round = 0; round < 1000; ++round) {
     const Swath swath = random_swath(random);
-    const PlaneFrame plane = make_frame(random.in_box({-1, -1, -1}, {1, 1, 0}),
-                                        Vec3::UnitZ() + 0.5 * random.direction());
+    const PlaneFrame plane = leaning_floor(random);
     const double t = random(0.1, 0.9), h = 1e-4;
     const auto line = line_at(swath, emitter, t);
     if (!line || std::abs(plane.normal.dot(line->direction)) < 0.2) continue;

@@ -1,29 +1,20 @@
 #include "meshing/geometry/conic_arc.h"
 
+#include "meshing/core/planar.h"
+#include "tests/support/random.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <random>
 
 namespace halfshade {
 namespace {
 
+using test::Random;
+
 constexpr double flat = 1e-12;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double operator()(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 Vec2 on_circle(double radius, double angle) {
   return radius * Vec2(std::cos(angle), std::sin(angle));
@@ -69,6 +60,15 @@ std::optional<ConicArc> arc_of(const Conic& conic, double t0, double t1, double 
                    2.5 * side * conic.velocity(t1), flat);
 }
 
+/// Corners in [−1, 1]², a weight between 10^−d and 10^d.
+ConicArc random_arc(Random& random, int d) {
+  return {{random(-1, 1), random(-1, 1)},
+          {random(-1, 1), random(-1, 1)},
+          {random(-1, 1), random(-1, 1)},
+          std::pow(10, random(-d, d)),
+          false};
+}
+
 /// Distance by a fine scan and golden sections: slow, but nothing to get wrong.
 double scanned_distance(const ConicArc& arc, const Vec2& q) {
   const auto away = [&](double s) { return (point_at(arc, s) - q).norm(); };
@@ -97,7 +97,7 @@ TEST(ConicArc, OfACircleHasTheCosineOfHalfItsTurnAsWeight) {
       EXPECT_NEAR(point_at(*arc, s).norm(), 2, 1e-14);
       EXPECT_NEAR(tangent_at(*arc, s).dot(point_at(*arc, s)), 0, 1e-15 / turn + 1e-13);
       EXPECT_NEAR(tangent_at(*arc, s).norm(), 1, 1e-14);
-      EXPECT_GT(cross(point_at(*arc, s), tangent_at(*arc, s)), 0);
+      EXPECT_GT(cross_2d(point_at(*arc, s), tangent_at(*arc, s)), 0);
     }
     EXPECT_NEAR(length(*arc), 2 * turn, 4e-6 * turn);
   }
@@ -186,11 +186,7 @@ TEST(ConicArc, OfALengthBelowTheToleranceIsStraight) {
 TEST(ConicArc, PartsAreThePiecesOfTheWhole) {
   Random random(4);
   for (int round = 0; round < 2000; ++round) {
-    ConicArc arc = {{random(-1, 1), random(-1, 1)},
-                    {random(-1, 1), random(-1, 1)},
-                    {random(-1, 1), random(-1, 1)},
-                    std::pow(10, random(-2, 2)),
-                    false};
+    ConicArc arc = random_arc(random, 2);
     double s0 = random(0, 1), s1 = random(0, 1);
     if (s0 > s1) std::swap(s0, s1);
     const ConicArc piece = part(arc, s0, s1);
@@ -210,11 +206,7 @@ TEST(ConicArc, PartsAreThePiecesOfTheWhole) {
 TEST(ConicArc, DistanceIsThatOfAScan) {
   Random random(5);
   for (int round = 0; round < 400; ++round) {
-    const ConicArc arc = {{random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          std::pow(10, random(-3, 3)),
-                          false};
+    const ConicArc arc = random_arc(random, 3);
     const Vec2 q(random(-2, 2), random(-2, 2));
     const double expected = scanned_distance(arc, q);
     EXPECT_LE(distance(arc, q), expected + 1e-12) << round;
@@ -226,11 +218,7 @@ TEST(ConicArc, DistanceIsThatOfAScan) {
 TEST(ConicArc, DistanceVanishesOnTheArcForAnyWeight) {
   Random random(6);
   for (int round = 0; round < 3000; ++round) {
-    const ConicArc arc = {{random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          std::pow(10, random(-6, 6)),
-                          false};
+    const ConicArc arc = random_arc(random, 6);
     const double s = random(0, 1);
     EXPECT_LT(distance(arc, point_at(arc, s)), 3e-13) << round;
   }
@@ -251,11 +239,7 @@ TEST(ConicArc, DistanceFromTheCentreOfACircleIsItsRadius) {
 TEST(ConicArc, FlatteningKeepsTheDeviationAndWastesLittle) {
   Random random(7);
   for (int round = 0; round < 200; ++round) {
-    const ConicArc arc = {{random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          {random(-1, 1), random(-1, 1)},
-                          std::pow(10, random(-2, 2)),
-                          false};
+    const ConicArc arc = random_arc(random, 2);
     const double deviation = std::pow(10, random(-5, -1));
     const std::vector<double> ends = flatten(arc, deviation);
     ASSERT_GE(ends.size(), 2u);

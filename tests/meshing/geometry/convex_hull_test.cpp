@@ -1,5 +1,6 @@
 #include "meshing/geometry/convex_hull.h"
 
+#include "meshing/core/planar.h"
 #include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
@@ -20,12 +21,11 @@ TEST(ConvexHull, HoldsAllPointsOnItsLeftAndTurnsLeft) {
     points.insert(points.end(), {Vec2(-3, -3), Vec2(3, -2), Vec2(0, 3)});
     std::vector<Vec2> hull;
     for (const std::size_t k : convex_hull(points)) hull.push_back(points[k]);
-    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
     for (std::size_t k = 0; k < hull.size(); ++k) {
       const Vec2 &a = hull[k], &b = hull[(k + 1) % hull.size()], &c = hull[(k + 2) % hull.size()];
-      EXPECT_GT(cross(b - a, c - b), 0);
+      EXPECT_GT(cross_2d(b - a, c - b), 0);
       EXPECT_TRUE(std::find(points.begin(), points.end(), a) != points.end());
-      for (const Vec2& p : points) EXPECT_GE(cross(b - a, p - a), 0);
+      for (const Vec2& p : points) EXPECT_GE(cross_2d(b - a, p - a), 0);
     }
   }
 }

@@ -10,7 +10,7 @@
 namespace halfshade {
 namespace {
 
-using test::Dice;
+using test::Random;
 
 SeenPoint seen(const Vec3& eye, const Vec3& position, int rank) {
   return {position, position - eye, rank};
@@ -42,10 +42,10 @@ TEST(ExactSigns, AHairOffThePlaneIsDecidedExactly) {
 
 /// Points on a tiny grid: most triples lie in a plane with the eye, many are aligned with it, and
 /// some coincide with it.
-std::vector<SeenPoint> degenerate_points(Dice& dice, const Vec3& eye, int count) {
+std::vector<SeenPoint> degenerate_points(Random& random, const Vec3& eye, int count) {
   std::vector<SeenPoint> points;
   while (static_cast<int>(points.size()) < count) {
-    const Vec3 p(dice(3), dice(3), dice(3));
+    const Vec3 p(random.below(3), random.below(3), random.below(3));
     const auto same = [&](const SeenPoint& other) { return other.position == p; };
     if (std::none_of(points.begin(), points.end(), same))
       points.push_back(seen(eye, p, static_cast<int>(points.size())));
@@ -54,10 +54,10 @@ std::vector<SeenPoint> degenerate_points(Dice& dice, const Vec3& eye, int count)
 }
 
 TEST(ExactSigns, AnswersAreAlternating) {
-  Dice dice(1);
+  Random random(1);
   for (int round = 0; round < 500; ++round) {
-    const Vec3 eye(dice(3), dice(3), dice(3));
-    const auto p = degenerate_points(dice, eye, 3);
+    const Vec3 eye(random.below(3), random.below(3), random.below(3));
+    const auto p = degenerate_points(random, eye, 3);
     const int sign = turn(eye, p[0], p[1], p[2]);
     EXPECT_EQ(std::abs(sign), 1);
     EXPECT_EQ(turn(eye, p[1], p[2], p[0]), sign);
@@ -71,10 +71,10 @@ TEST(ExactSigns, AnswersAreAlternating) {
 TEST(ExactSigns, TiesAreBrokenAsSomeSceneInGeneralPositionWould) {
   // Signs of determinants obey Grassmann and Plücker's relation
   // [abc][ade] − [abd][ace] + [abe][acd] = 0: the three terms cannot have one sign.
-  Dice dice(2);
+  Random random(2);
   for (int round = 0; round < 3000; ++round) {
-    const Vec3 eye(dice(3), dice(3), dice(3));
-    const auto p = degenerate_points(dice, eye, 5);
+    const Vec3 eye(random.below(3), random.below(3), random.below(3));
+    const auto p = degenerate_points(random, eye, 5);
     const auto sign = [&](std::size_t i, std::size_t j, std::size_t k) {
       return turn(eye, p[i], p[j], p[k]);
     };

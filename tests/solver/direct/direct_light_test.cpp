@@ -16,21 +16,12 @@ using test::Random;
 
 const Vec3 up = Vec3::UnitZ();
 
-/// Form factor from a point below, looking up, to [x0,x1] × [y0,y1] at height c above it.
-double rectangle_above(double x0, double x1, double y0, double y1, double c) {
-  const auto corner = [&](double a, double b) {
-    const double f = test::point_parallel_rectangle(std::abs(a), std::abs(b), c);
-    return a * b < 0 ? -f : f;
-  };
-  return corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0);
-}
-
 /// S1 in closed form: the light less what the occluder covers of it; see data/s1.md.
 double s1_form_factor(double x, double y) {
-  const double light = rectangle_above(-0.5 - x, 0.5 - x, -0.5 - y, 0.5 - y, 2);
+  const double light = test::point_parallel_rectangle(-0.5 - x, 0.5 - x, -0.5 - y, 0.5 - y, 2);
   const auto cut = [](double v) { return std::clamp(v, -0.5, 0.5); };
   const double x0 = cut(-0.75 - x), x1 = cut(0.75 - x), y0 = cut(-0.75 - y), y1 = cut(0.75 - y);
-  return light - rectangle_above(x0 - x, x1 - x, y0 - y, y1 - y, 2);
+  return light - test::point_parallel_rectangle(x0 - x, x1 - x, y0 - y, y1 - y, 2);
 }
 
 TEST(DirectLight, HasTheKnownValuesOfS1) {
@@ -132,7 +123,7 @@ TEST(DirectLight, AddsUpColouredLightsAndWeighsTheVisibleShare) {
   test::add_surface(scene, {square(0.5, 1, 0.4)}, 0);
   const DirectLightIndex index(scene);
   const DirectLight light = index.irradiance(std::vector{SurfacePoint{{0, 0, 0}, up}})[0];
-  const double each = rectangle_above(0.5, 1.5, -0.5, 0.5, 2);
+  const double each = test::point_parallel_rectangle(0.5, 1.5, -0.5, 0.5, 2);
   EXPECT_NEAR(light.irradiance[0], 6 * each, 1e-15);
   EXPECT_EQ(light.irradiance[1], 0);
   EXPECT_LT(light.irradiance[2], 1e-2 * 3 * each);

@@ -40,13 +40,8 @@ struct Tally {
 double clearance(const SoundScene& scene, const Discontinuities& found, std::size_t curve,
                  const Vec2& p) {
   const DiscontinuityCurve& own = found.curves[curve];
-  const Surface& receiver = scene.surfaces[static_cast<std::size_t>(own.receiver)];
-  double best = HUGE_VAL;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      best = std::min(best, test::distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
-  for (const Segment2& contact : receiver.contacts)
-    best = std::min(best, test::distance_to_segment(p, contact));
+  double best =
+      test::distance_to_border_lines(scene.surfaces[static_cast<std::size_t>(own.receiver)], p);
   for (std::size_t c = 0; c < found.curves.size(); ++c) {
     const DiscontinuityCurve& other = found.curves[c];
     if (c == curve || other.receiver != own.receiver || other.emitter != own.emitter) continue;

@@ -49,13 +49,9 @@ double distance_to_lines(const SoundScene& scene, const Discontinuities& found, 
                          const Vec3& point) {
   const Surface& surface = scene.surfaces[static_cast<std::size_t>(receiver)];
   const Vec2 p = surface.frame.to_plane(point);
-  double best = HUGE_VAL;
+  double best = test::distance_to_border_lines(surface, p);
   for (const DiscontinuityCurve& curve : found.curves)
     if (curve.receiver == receiver) best = std::min(best, distance(curve.arc, p));
-  for (const Segment2& s : surface.contacts) best = std::min(best, test::distance_to_segment(p, s));
-  for (const Ring& ring : surface.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k)
-      best = std::min(best, test::distance_to_segment(p, {ring[k], ring[(k + 1) % ring.size()]}));
   return best;
 }
 

@@ -125,64 +125,61 @@ bool compare(const Stage& stage, const std::array<Line3, 3>& lines) {
   return true;
 }
 
-TEST(EventJumpOfTheFormFactor, WhereAnOccludersVertexPassesAnEmittersEdge) {
-  Random random(21);
+/// Compares on random stages, where `arrange` adds occluders of which three lines are seen to meet
+/// from the point, and returns these.
+template <class Arrange>
+void compare_many(std::uint64_t seed, const Arrange& arrange) {
+  Random random(seed);
   int compared = 0;
   for (int round = 0; round < 200; ++round) {
     Stage stage(random);
+    const std::array<Line3, 3> lines = arrange(random, stage);
+    compared += compare(stage, lines);
+  }
+  EXPECT_GT(compared, 60);
+}
+
+TEST(EventJumpOfTheFormFactor, WhereAnOccludersVertexPassesAnEmittersEdge) {
+  compare_many(21, [](Random& random, Stage& stage) -> std::array<Line3, 3> {
     const Vec3 vertex = random.in_box({-0.3, -0.3, 0.8}, {0.3, 0.3, 1.2});
     const Vec3 b = vertex + 2 * random.direction().cwiseProduct(Vec3(1, 1, 0.1));
     const Vec3 c = vertex + 2 * random.direction().cwiseProduct(Vec3(1, 1, 0.1));
     stage.add_triangle(vertex, b, c);
     stage.look(stage.on_edge(0, random(0.2, 0.8)), vertex);
-    compared +=
-        compare(stage, {Line3{vertex, b - vertex}, Line3{vertex, c - vertex}, stage.edge(0)});
-  }
-  EXPECT_GT(compared, 60);
+    return {Line3{vertex, b - vertex}, Line3{vertex, c - vertex}, stage.edge(0)};
+  });
 }
 
 TEST(EventJumpOfTheFormFactor, WhereAnEmittersVertexPassesAnOccludersEdge) {
-  Random random(22);
-  int compared = 0;
-  for (int round = 0; round < 200; ++round) {
-    Stage stage(random);
+  compare_many(22, [](Random& random, Stage& stage) -> std::array<Line3, 3> {
     const Vec3 x = random.in_box({-0.3, -0.3, 0.8}, {0.3, 0.3, 1.2});
     const Line3 bar = stage.add_bar(random, x);
     stage.look(stage.corners[1], x);
-    compared += compare(stage, {bar, stage.edge(0), stage.edge(1)});
-  }
-  EXPECT_GT(compared, 60);
+    return {bar, stage.edge(0), stage.edge(1)};
+  });
 }
 
 TEST(EventJumpOfTheFormFactor, WhereTwoEdgesPassAnEmittersEdge) {
-  Random random(23);
-  int compared = 0;
-  for (int round = 0; round < 200; ++round) {
-    Stage stage(random);
+  compare_many(23, [](Random& random, Stage& stage) -> std::array<Line3, 3> {
     const Vec3 q = stage.on_edge(2, random(0.2, 0.8));
     const Vec3 x = random.in_box({-0.3, -0.3, 0.6}, {0.3, 0.3, 0.8});
     const Line3 low = stage.add_bar(random, x);
     const Line3 high = stage.add_bar(random, 0.5 * (x + q));
     stage.look(q, x);
-    compared += compare(stage, {low, high, stage.edge(2)});
-  }
-  EXPECT_GT(compared, 60);
+    return {low, high, stage.edge(2)};
+  });
 }
 
 TEST(EventJumpOfTheFormFactor, WhereThreeEdgesPassEachOther) {
-  Random random(24);
-  int compared = 0;
-  for (int round = 0; round < 200; ++round) {
-    Stage stage(random);
+  compare_many(24, [](Random& random, Stage& stage) -> std::array<Line3, 3> {
     const Vec3 q = random.in_box({-0.4, -0.4, 2}, {0.4, 0.4, 2});
     const Vec3 x = random.in_box({-0.3, -0.3, 0.6}, {0.3, 0.3, 0.7});
     const Line3 low = stage.add_bar(random, x);
     const Line3 middle = stage.add_bar(random, x + 0.35 * (q - x));
     const Line3 high = stage.add_bar(random, x + 0.7 * (q - x));
     stage.look(q, x);
-    compared += compare(stage, {low, middle, high});
-  }
-  EXPECT_GT(compared, 60);
+    return {low, middle, high};
+  });
 }
 
 TEST(EventJumpOfTheFormFactor, WhereAnEdgeIsSeenAlongAnEmittersEdge) {

@@ -4,7 +4,7 @@
 
 /// Every number of this room that stands for rounding, in one place. What they decide is which of
 /// two right answers is given, or how much work is done, unless a comment says otherwise.
-namespace halfshade::rounding {
+namespace halfshade::margins {
 
 // Lengths, relative to the largest coordinate.
 
@@ -73,4 +73,4 @@ inline constexpr double flattest_triangle = 1e-10;
 // A cone of normals with a wider sine than this is of no use.
 inline constexpr double widest_cone = 0.99;
 
-}  // namespace halfshade::rounding
+}  // namespace halfshade::margins

@@ -1,4 +1,4 @@
-#include "meshing/discontinuity/rounding.h"
+#include "meshing/discontinuity/margins.h"
 
 #include "meshing/events/emitter_scene.h"
 
@@ -10,7 +10,7 @@ namespace halfshade {
 namespace {
 
 double roundings(double magnitude) {
-  return roundings_per_step * std::numeric_limits<double>::epsilon() * magnitude;
+  return margins::roundings_per_step * std::numeric_limits<double>::epsilon() * magnitude;
 }
 
 }  // namespace
@@ -25,11 +25,12 @@ double side_step(const Surface& receiver, const EmitterScene& emitter_scene, con
   const double turned = before > after ? line.start.norm() * after / before : line.start.norm();
   const double magnitude = std::max({point.norm(), line.last.norm(), turned});
   return std::max(roundings(magnitude),
-                  std::min(relative_step * reach, step_in_penumbra * penumbra));
+                  std::min(margins::relative_step * reach, margins::step_in_penumbra * penumbra));
 }
 
 double side_step(const Surface& receiver) {
-  return std::max(roundings(receiver.scale.magnitude), relative_step * receiver.scale.magnitude);
+  return std::max(roundings(receiver.scale.magnitude),
+                  margins::relative_step * receiver.scale.magnitude);
 }
 
 }  // namespace halfshade

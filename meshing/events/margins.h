@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <limits>
 
-// What counts as rounding where events are enumerated.
-
-namespace halfshade {
+/// What counts as rounding where events are enumerated.
+namespace halfshade::margins {
 
 /// Lines with a smaller sine between them are parallel, and have no point in common; those with a
 /// smaller sine to the emitter do not come from it. A thousand times what rounding makes of equal
@@ -38,4 +37,4 @@ inline constexpr double determinant_error = 32 * std::numeric_limits<double>::ep
 /// Relative error of a discriminant that was computed from rounded coefficients.
 inline constexpr double discriminant_error = 4 * std::numeric_limits<double>::epsilon();
 
-}  // namespace halfshade
+}  // namespace halfshade::margins

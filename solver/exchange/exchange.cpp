@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "solver/exchange/cells.h"
 #include "solver/exchange/enclosures.h"
 #include "solver/exchange/form_factor.h"
 #include "solver/exchange/ray_factor.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <unistd.h>
 #include <vector>
@@ -26,6 +28,13 @@ constexpr double ray_spread = 4;
 constexpr double negligible = 0.01;
 /// The part of the machine's memory that a matrix may fill.
 constexpr double memory_share = 0.7;
+/// Rows of closed enclosures whose sums are off by more get more rays, this many times as many in
+/// each of so many rounds.
+constexpr double near_closed = 4e-3;
+constexpr int more_rays = 4;
+constexpr int refinements = 4;
+/// Rows that are off by more than this are not put right by scaling: light was lost on the way.
+constexpr double far_off = 0.03;
 /// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
 constexpr double bytes_per_factor = 20;
 
@@ -92,16 +101,19 @@ double unobstructed(const Shape& a, const Shape& b, double tolerance, double mar
 
 class Assembly {
  public:
-  Assembly(const SoundScene& scene, const ElementTable& elements, const VisibilityIndex& visibility,
-           const ExchangeOptions& options, const Progress& progress)
+  Assembly(const SoundScene& scene, const ElementTable& elements, const SpaceCells& cells,
+           const VisibilityIndex& visibility, const ExchangeOptions& options,
+           const Progress& progress)
       : scene_(scene),
         elements_(elements),
+        cells_(cells),
         visibility_(visibility),
         options_(options),
         shapes_(make_shapes(scene, elements)),
         pairs_(scene, visibility, progress),
         run_end_(shapes_.size()),
-        upper_(shapes_.size()) {
+        upper_(shapes_.size()),
+        effort_(shapes_.size(), 1) {
     for (std::size_t e = run_end_.size(); e-- > 0;) {
       const bool last = e + 1 == run_end_.size() || elements.surface[e] != elements.surface[e + 1];
       run_end_[e] = last ? static_cast<int>(e) + 1 : run_end_[e + 1];
@@ -111,11 +123,18 @@ class Assembly {
   /// False if stopped.
   bool run(const Progress& progress) {
     return parallel_for(
-        shapes_.size(), [&](std::size_t i) { fill_row(static_cast<int>(i)); }, progress,
-        "form factors");
+               shapes_.size(), [&](std::size_t i) { fill_row(static_cast<int>(i)); }, progress,
+               "form factors") &&
+           refine(progress);
   }
 
   std::size_t rays() const { return rays_; }
+
+  /// Rows that took more rays than others.
+  std::size_t refined() const {
+    return static_cast<std::size_t>(
+        std::count_if(effort_.begin(), effort_.end(), [](int effort) { return effort > 1; }));
+  }
 
   ExchangeMatrix matrix() const {
     const auto n = static_cast<Eigen::Index>(upper_.size());
@@ -140,19 +159,60 @@ class Assembly {
  private:
   /// More rays where more light is at stake: pairs with the mean form factor 1/n get the number
   /// asked for.
-  int ray_count(const Shape& a, const Shape& b, double mutual_area) const {
+  int ray_count(int i, int j, double mutual_area) const {
+    const Shape &a = shapes_[at(i)], &b = shapes_[at(j)];
     const double F = mutual_area / std::min(a.area, b.area);
     const double stake = std::sqrt(F * static_cast<double>(shapes_.size()));
-    return std::max(1, static_cast<int>(options_.rays_per_pair *
-                                        std::clamp(stake, 1 / ray_spread, ray_spread)));
+    const int rays = std::max(1, static_cast<int>(options_.rays_per_pair *
+                                                  std::clamp(stake, 1 / ray_spread, ray_spread)));
+    return rays * std::max(effort_[at(i)], effort_[at(j)]);
   }
 
-  void fill_row(int i) {
+  /// Σ_j A_i F(i,j) of all rows, as they are.
+  std::vector<double> row_sums() const {
+    std::vector<double> sums(upper_.size());
+    for (std::size_t i = 0; i < upper_.size(); ++i)
+      for (const Factor& factor : upper_[i]) {
+        sums[i] += factor.value;
+        sums[at(factor.column)] += factor.value;
+      }
+    return sums;
+  }
+
+  /// In closed cells a row's sum is known: where it is off, rays missed or met too much. False if
+  /// stopped.
+  bool refine(const Progress& progress) {
+    for (int round = 0; round < refinements; ++round) {
+      const std::vector<double> sums = row_sums();
+      std::vector<char> is_off(sums.size());
+      for (std::size_t i = 0; i < sums.size(); ++i)
+        is_off[i] = cells_.closed[at(cells_.of_side[i][0])] && sums[i] > 0 &&
+                    std::abs(sums[i] / shapes_[i].area - 1) > near_closed;
+      if (std::find(is_off.begin(), is_off.end(), 1) == is_off.end()) break;
+      for (std::size_t i = 0; i < sums.size(); ++i)
+        if (is_off[i]) effort_[i] *= more_rays;
+      const auto again = [&](std::size_t i) { fill_row(static_cast<int>(i), &is_off); };
+      if (!parallel_for(shapes_.size(), again, progress, "form factors")) return false;
+    }
+    return true;
+  }
+
+  /// The row's part right of the diagonal; with `only`, of it what belongs to one marked.
+  void fill_row(int i, const std::vector<char>* only = nullptr) {
     RayVisibility sampler(visibility_);
     const Shape& a = shapes_[static_cast<std::size_t>(i)];
     const int r = elements_.surface[static_cast<std::size_t>(i)];
+    const int cell = cells_.before(i);
     std::size_t rays = 0;
     auto& row = upper_[static_cast<std::size_t>(i)];
+    std::vector<Factor> kept;
+    if (only) {
+      if (!(*only)[at(i)])
+        std::copy_if(row.begin(), row.end(), std::back_inserter(kept),
+                     [&](const Factor& factor) { return !(*only)[at(factor.column)]; });
+      row.clear();
+    }
+    const std::size_t old = kept.size();
     for (int j = i + 1; j < elements_.count(); ++j) {
       const int s = elements_.surface[static_cast<std::size_t>(j)];
       const Sight sight = r == s ? Sight::none : pairs_.sight(r, s);
@@ -160,11 +220,12 @@ class Assembly {
         j = run_end_[static_cast<std::size_t>(j)] - 1;
         continue;
       }
+      if (cells_.before(j) != cell || (only && !(*only)[at(i)] && !(*only)[at(j)])) continue;
       const Shape& b = shapes_[static_cast<std::size_t>(j)];
       double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
       if (!(value > 0)) continue;
       if (sight == Sight::sampled && a.box.merged(b.box).intersects(pairs_.blockers(r, s))) {
-        const int count = ray_count(a, b, value);
+        const int count = ray_count(i, j, value);
         const auto seed =
             static_cast<std::uint64_t>(i) * shapes_.size() + static_cast<std::uint64_t>(j);
         value *= sampler.visible_fraction(a.end, b.end, count, seed);
@@ -172,18 +233,24 @@ class Assembly {
       }
       if (value > 0) row.push_back({j, value});
     }
-    row.shrink_to_fit();
+    std::vector<Factor> all;
+    all.reserve(old + row.size());
+    std::merge(kept.begin(), kept.end(), row.begin(), row.end(), std::back_inserter(all),
+               [](const Factor& p, const Factor& q) { return p.column < q.column; });
+    row = std::move(all);
     rays_ += rays;
   }
 
   const SoundScene& scene_;
   const ElementTable& elements_;
+  const SpaceCells& cells_;
   const VisibilityIndex& visibility_;
   ExchangeOptions options_;
   std::vector<Shape> shapes_;
   SurfacePairs pairs_;
   std::vector<int> run_end_;  ///< element → end of the run of elements of its surface
   std::vector<std::vector<Factor>> upper_;
+  std::vector<int> effort_;  ///< element → times as many rays
   std::atomic<std::size_t> rays_ = 0;
 };
 
@@ -232,13 +299,42 @@ void report_closure(Exchange& exchange) {
   if (lit_area > 0) report.escaping_fraction /= lit_area;
 }
 
-/// Which rows are to sum to one.
-std::vector<bool> closed_rows(const Exchange& exchange, Closure closure) {
-  std::vector<bool> rows(static_cast<std::size_t>(exchange.area.size()));
-  for (std::size_t e = 0; e < rows.size(); ++e)
+/// Which rows are to sum to one. Leaves out what scaling would only hide.
+std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
+  const Enclosures& enclosures = exchange.enclosures;
+  const Eigen::ArrayXd sees =
+      multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
+  std::vector<bool> is_off(enclosures.closed.size());
+  for (std::size_t e = 0; e < enclosures.of_element.size(); ++e) {
+    const auto row = static_cast<Eigen::Index>(e);
+    if (sees[row] > 0 && std::abs(sees[row] / exchange.area[row] - 1) > far_off)
+      is_off[at(enclosures.of_element[e])] = true;
+  }
+  for (std::size_t k = 0; k < is_off.size(); ++k)
+    exchange.report.unfinished += enclosures.closed[k] && enclosures.lit[k] && is_off[k];
+  std::vector<bool> rows(enclosures.of_element.size());
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const std::size_t k = at(enclosures.of_element[e]);
     rows[e] = closure == Closure::enforce ||
-              (closure == Closure::automatic && exchange.enclosures.is_closed(static_cast<int>(e)));
+              (closure == Closure::automatic && enclosures.closed[k] && !is_off[k]);
+  }
   return rows;
+}
+
+void close(Exchange& exchange, Closure closure) {
+  const std::vector<bool> rows = closed_rows(exchange, closure);
+  ExchangeReport& report = exchange.report;
+  if (report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
+    report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
+  exchange.lost = (exchange.area -
+                   multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array())
+                      .max(0.);
+  if (!report.closure_enforced) return;
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    // What sees nothing cannot be scaled.
+    if (rows[e] && exchange.lost[static_cast<Eigen::Index>(e)] <
+                       far_off * exchange.area[static_cast<Eigen::Index>(e)])
+      exchange.lost[static_cast<Eigen::Index>(e)] = 0;
 }
 
 }  // namespace
@@ -254,18 +350,18 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
   Exchange exchange;
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
                                                    static_cast<Eigen::Index>(elements.area.size()));
+  const SpaceCells cells = find_cells(scene, elements);
   {
-    Assembly assembly(scene, elements, visibility, options, progress);
+    Assembly assembly(scene, elements, cells, visibility, options, progress);
     exchange.report.complete = assembly.run(progress);
     exchange.report.rays = assembly.rays();
+    exchange.report.refined_rows = assembly.refined();
     exchange.matrix = assembly.matrix();
   }
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
-  exchange.enclosures = find_enclosures(scene, elements, visibility, exchange.matrix);
+  exchange.enclosures = find_enclosures(scene, elements, cells, exchange.matrix);
   report_closure(exchange);
-  const std::vector<bool> rows = closed_rows(exchange, options.closure);
-  if (exchange.report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
-    exchange.report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
+  close(exchange, options.closure);
   return exchange;
 }
 

@@ -29,10 +29,9 @@ constexpr double negligible = 0.01;
 /// The part of the machine's memory that a matrix may fill.
 constexpr double memory_share = 0.7;
 /// Rows of closed enclosures whose sums are off by more get more rays, this many times as many in
-/// each of so many rounds.
-constexpr double near_closed = 4e-3;
+/// each of so many rounds; in the later ones only those that are off by much.
+constexpr std::array near_closed = {4e-3, 1.5e-2, 1.5e-2};
 constexpr int more_rays = 4;
-constexpr int refinements = 4;
 /// Rows that are off by more than this are not put right by scaling: light was lost on the way.
 constexpr double far_off = 0.03;
 /// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
@@ -182,12 +181,12 @@ class Assembly {
   /// In closed cells a row's sum is known: where it is off, rays missed or met too much. False if
   /// stopped.
   bool refine(const Progress& progress) {
-    for (int round = 0; round < refinements; ++round) {
+    for (const double near : near_closed) {
       const std::vector<double> sums = row_sums();
       std::vector<char> is_off(sums.size());
       for (std::size_t i = 0; i < sums.size(); ++i)
         is_off[i] = cells_.closed[at(cells_.of_side[i][0])] && sums[i] > 0 &&
-                    std::abs(sums[i] / shapes_[i].area - 1) > near_closed;
+                    std::abs(sums[i] / shapes_[i].area - 1) > near;
       if (std::find(is_off.begin(), is_off.end(), 1) == is_off.end()) break;
       for (std::size_t i = 0; i < sums.size(); ++i)
         if (is_off[i]) effort_[i] *= more_rays;

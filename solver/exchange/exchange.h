@@ -80,6 +80,10 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options = {},
                           const Progress& progress = {});
 
+/// An exchange without any factors, for scenes where nothing reflects: what is left is which
+/// elements are closed in together. What is not closed loses everything.
+Exchange enclosures_alone(const SoundScene& scene, const ElementTable& elements);
+
 /// Scales the matrix from both sides, S M S with S diagonal and positive, until every row i that is
 /// `wanted` sums to area[i]: the symmetric form of Sinkhorn's scaling, found by Newton's method to
 /// rounding error. Keeps symmetry, sign and sparsity. Returns false, and leaves the matrix alone,

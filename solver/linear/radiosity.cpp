@@ -134,7 +134,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
                          const RadiosityOptions& options, RadiosityReport& report,
                          const Progress& progress) {
   report = {};
-  report.channels = is_grey(rho) && is_grey(exitance) ? 1 : 3;
+  report.channels = is_grey(rho) && is_grey(exitance) && !options.all_channels ? 1 : 3;
   const ChannelArray dark = ChannelArray::Zero(rho.rows(), 3);
   Solution solution{rho, exitance, dark, dark, dark, {}, {}};
   for (int c = 0; c < report.channels; ++c) {

@@ -12,7 +12,8 @@ namespace halfshade {
 struct RadiosityOptions {
   double tolerance = 1e-10;  ///< relative residual at which the iteration stops, in (0, 1)
   int max_iterations = 1000;
-  int bounces = -1;  ///< −1: all; n ≥ 0: only light reflected at most n times
+  bool all_channels = false;  ///< also where all three are the same
+  int bounces = -1;           ///< −1: all; n ≥ 0: only light reflected at most n times
 };
 
 struct ChannelReport {

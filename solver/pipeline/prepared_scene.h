@@ -19,8 +19,8 @@ class VisibilityIndex;
 /// concurrently.
 class PreparedScene {
  public:
-  /// Throws Error(invalid_input) unless the scene is valid and has an emitter; see validate,
-  /// require_emitter and make_sound.
+  /// Throws Error(invalid_input) unless the scene is valid and has an emitter that the repair
+  /// leaves, of an exitance between 1e-200 and 1e200 W/m²; see validate and make_sound.
   explicit PreparedScene(const Scene& scene, const Progress& progress = {});
   ~PreparedScene();
 

@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/adapt/recovery_estimate.h"
+#include "solver/linear/system_solver.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_light.h"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -58,10 +60,16 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, c
 
 void estimate_error(Stages& stages, SolveResult& result) {
   stages.run("error estimate", [&] {
-    const ChannelArray& irradiance = result.solution.irradiance;
-    result.solution.error_estimate = recovery_estimate(result.elements, irradiance);
-    result.relative_error =
-        relative_error(result.elements, irradiance, result.solution.error_estimate);
+    // Squares of light of any size must not over- or underflow.
+    const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
+    const ChannelArray irradiance = scale * result.solution.irradiance;
+    const Eigen::ArrayXd estimate = recovery_estimate(result.elements, irradiance);
+    result.solution.error_estimate = estimate / scale;
+    result.relative_error = relative_error(result.elements, irradiance, estimate);
+    double of_solver = 0;
+    for (const ChannelReport& channel : result.radiosity.channel)
+      of_solver = std::max(of_solver, channel.error);
+    result.relative_error += of_solver;
     return result.elements.corners.size();
   });
 }

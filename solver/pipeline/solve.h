@@ -31,8 +31,9 @@ struct SolveResult {
   std::vector<StageReport> stages;
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  double relative_error = 0;  ///< estimated, of the irradiance in the L2 norm
-  bool interrupted = false;   ///< stopped early: factors not reached count as zero
+  /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
+  double relative_error = 0;
+  bool interrupted = false;  ///< stopped early: factors not reached count as zero
 };
 
 /// The main job: makes the scene sound, meshes it along its discontinuities, computes form factors,

@@ -62,6 +62,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress)
   });
   repair_ = reports.front();
   require_light(scene, scene_);
+  warnings_ = repair_warnings(scene, scene_);
 }
 
 PreparedScene::~PreparedScene() = default;

@@ -36,12 +36,16 @@ Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
   if (plan.no_discontinuities.empty())
     stages.run("discontinuities", [&] {
       DiscontinuityOptions events = options.events;
+      events.eee = events.eee && plan.no_eee.empty();
       events.irradiance_tolerance = options.tolerance * plan.mean_irradiance;
       events.max_length = longest_edge(prepared.scene(), options);
       found =
           find_discontinuities(prepared.scene(), prepared.opaque(), plan.sources, events, progress);
       return found.curves.size();
     });
+  stages.leave_out_if(plan.weak_sources > 0, "curves of weak sources",
+                      fmt::format("{} of them give too little", plan.weak_sources));
+  stages.leave_out_if(!plan.no_eee.empty(), "curves at three edges", plan.no_eee);
   return found;
 }
 
@@ -97,14 +101,17 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   result.discontinuity_tolerance = mesh.tolerance;
   result.elements = std::move(mesh.elements);
 
-  SolvedLight light =
-      solve_light(prepared, result.elements, plan.no_exact_direct_light, options, progress, stages);
+  SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
 
   estimate_error(stages, result);
   result.interrupted = progress.stopped();
+  if (result.interrupted) return result;
+  const std::vector<Warning> warnings = light_warnings(
+      {result.scene, result.elements, result.solution, result.exchange, result.radiosity});
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "solver/elements/solution.h"
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
+#include "solver/pipeline/warnings.h"
 
 #include <cstddef>
 #include <string>
@@ -29,6 +30,7 @@ struct SolveResult {
   ElementTable elements;
   Solution solution;
   std::vector<StageReport> stages;
+  std::vector<Warning> warnings;
   ExchangeReport exchange;
   RadiosityReport radiosity;
   /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.

@@ -17,17 +17,6 @@ namespace {
 constexpr double commonly_absorbed = 0.01;
 constexpr double most_exact = 1e-5;
 
-/// Why no factors are needed; empty if they are.
-std::string factors_needless(const SoundScene& scene, bool is_exact, const SolveOptions& options) {
-  if (!is_exact || options.force.factors) return {};
-  if (options.radiosity.bounces == 0) return "no reflected light was asked for";
-  const bool reflects =
-      std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
-        return (scene.materials[at(surface.material)].rho > 0).any();
-      });
-  return reflects ? "" : "no surface reflects";
-}
-
 /// In a closed enclosure everything an emitter sends arrives somewhere. Averaging over elements
 /// loses or gains a little where shadows cut them; one factor for each emitter puts that right.
 void conserve_power(ElementDirectLight& light, const SoundScene& scene,
@@ -108,17 +97,17 @@ void require_limits(const SoundScene& scene, const ElementTable& elements, const
 }  // namespace
 
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
-                        const std::string& no_exact_direct_light, const SolveOptions& options,
-                        const Progress& progress, Stages& stages) {
+                        const Plan& plan, const SolveOptions& options, const Progress& progress,
+                        Stages& stages) {
   const SoundScene& scene = prepared.scene();
-  const bool is_exact = no_exact_direct_light.empty();
+  const bool is_exact = plan.no_exact_direct_light.empty();
   ElementDirectLight direct;
-  stages.leave_out_if(!is_exact, "exact direct light", no_exact_direct_light);
+  stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
   if (is_exact)
     direct = find_direct_light(prepared, elements, options.direct_points, progress, stages);
   const Exchange exchange =
-      find_exchange(prepared, elements, needed_exactness(scene, options.exchange),
-                    factors_needless(scene, is_exact, options), progress, stages);
+      find_exchange(prepared, elements, needed_exactness(scene, options.exchange), plan.no_factors,
+                    progress, stages);
   ChannelArray direct_irradiance;
   if (is_exact) {
     if (options.exchange.closure != Closure::leave)
@@ -129,15 +118,16 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
   require_limits(scene, elements, exchange, materials, options.radiosity);
   SolvedLight light;
   light.exchange = exchange.report;
+  RadiosityOptions radiosity_options = options.radiosity;
+  radiosity_options.all_channels = plan.no_channels.empty();
   stages.run("radiosity", [&] {
     light.solution = solve_radiosity(exchange, materials.rho, materials.exitance, direct_irradiance,
-                                     options.radiosity, light.radiosity, progress);
+                                     radiosity_options, light.radiosity, progress);
     light.solution.region = std::move(direct.region);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });
   stages.leave_out_if(light.radiosity.unknowns == 0, "interreflection", "no surface reflects");
-  stages.leave_out_if(light.radiosity.channels == 1, "second and third channel",
-                      "every material is grey");
+  stages.leave_out_if(!plan.no_channels.empty(), "second and third channel", plan.no_channels);
   return light;
 }
 

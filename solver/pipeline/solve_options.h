@@ -15,6 +15,7 @@ enum class DirectLightBy {
 /// Stages to run also where the scene does not need them. What the user left out stays so.
 struct ForcedStages {
   bool discontinuities = false;
+  bool eee = false;  ///< also with one convex occluder
   bool exact_direct_light = false;
   bool factors = false;   ///< also where nothing reflects
   bool channels = false;  ///< all three, also in a grey scene

@@ -20,11 +20,13 @@ void print_scene(const Explanation& explanation) {
              scene.materials.size(), scene.materials.size() == 1 ? "" : "s");
   for (const Repair& repair : scene.repairs)
     fmt::print("repair       {}\n", sentence(repair, scene));
+  std::size_t unlit = 0;
   for (const SpacePart& part : explanation.parts) {
+    if (!part.lit) ++unlit;
+    if (!part.lit) continue;
     constexpr std::size_t most_names = 6;
     const std::size_t shown = std::min(most_names, part.groups.size());
-    fmt::print("part         {}, {}: {}{}{}\n", part.closed ? "closed" : "open",
-               part.lit ? "lit" : "without a light",
+    fmt::print("part         {}: {}{}{}\n", part.closed ? "closed" : "open",
                fmt::join(part.groups.begin(),
                          part.groups.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                shown < part.groups.size() ? ", …" : "",
@@ -32,6 +34,7 @@ void print_scene(const Explanation& explanation) {
                    ? ""
                    : fmt::format("; light reaches the back of {}", part.swallowing));
   }
+  if (unlit > 0) fmt::print("parts        {} more without a light, as inside solids\n", unlit);
 }
 
 void print_stages(const Explanation& explanation) {

@@ -96,9 +96,8 @@ void close(Exchange& exchange, Closure closure) {
   ExchangeReport& report = exchange.report;
   if (report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
     report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
-  exchange.lost = (exchange.area -
-                   multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array())
-                      .max(0.);
+  exchange.lost = exchange.area -
+                  multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
   if (!report.closure_enforced) return;
   for (std::size_t e = 0; e < rows.size(); ++e)
     // What sees nothing cannot be scaled.

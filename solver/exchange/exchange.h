@@ -63,8 +63,8 @@ struct Enclosures {
 struct Exchange {
   ExchangeMatrix matrix;
   Eigen::ArrayXd area;  ///< A_i
-  /// A_i times the share of what leaves i that meets nothing, ≥ 0; exactly 0 where closure is
-  /// enforced.
+  /// A_i times the share of what leaves i that meets nothing; exactly 0 where closure is enforced.
+  /// Errors of factors may make it negative.
   Eigen::ArrayXd lost;
   Enclosures enclosures;
   ExchangeReport report;

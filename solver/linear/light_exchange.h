@@ -17,7 +17,7 @@ struct LightExchange {
                      Eigen::VectorXd& out)>
       apply;
   Eigen::ArrayXd area;  ///< A_i
-  /// A_i times the share of what leaves i that meets nothing, ≥ 0; exactly 0 in a closed system.
+  /// A_i times the share of what leaves i that meets nothing; exactly 0 in a closed system.
   Eigen::ArrayXd lost;
   Enclosures systems;  ///< which elements exchange light with each other
 

@@ -70,7 +70,8 @@ Balance make_balance(const LightSystem& system, const SystemLight& light, double
   for (Eigen::Index k = 0; k < count; ++k) {
     const int e = balance.elements[static_cast<std::size_t>(k)];
     const double area = exchange.area[e], rho = light.rho[e];
-    balance.loss[k] = area * ((1 - rho) / rho) + exchange.lost[e] + to_black[e];
+    // What factors are off must not make light out of nothing.
+    balance.loss[k] = std::max(0., area * ((1 - rho) / rho) + exchange.lost[e] + to_black[e]);
     balance.input[k] = area * (light.direct_irradiance[e] * scale);
   }
   balance.given = exchanged(exchange, balance, Eigen::VectorXd::Ones(count));

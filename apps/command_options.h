@@ -16,6 +16,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common);
 void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common);
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common);
 void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common);
+void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& common);
 
 /// What several of them have.
 void add_common(CLI::App& app, CommonOptions& common);

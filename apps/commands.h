@@ -4,6 +4,7 @@
 #include "io/picture/picture.h"
 #include "io/write/write_result.h"
 #include "meshing/core/progress.h"
+#include "meshing/repair/orientation.h"
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
 
@@ -31,6 +32,7 @@ struct CommonOptions {
   bool verbose = false;
   int threads = 0;             ///< 0: as many as the machine has
   std::filesystem::path json;  ///< machine-readable report; empty: none
+  SceneOptions orientation;    ///< of commands that read a scene
 };
 
 /// Where a subcommand runs.
@@ -82,10 +84,17 @@ struct ProbeCommand {
   SolveOptions options;      ///< of the solution that interreflection is gathered from
 };
 
+struct ExplainCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  SolveOptions options;  ///< of the solution that is explained
+};
+
 /// Each does its job and returns an exit code; errors are thrown as Error.
 int run(const SolveCommand& command, const Context& context);
 int run(const MeshCommand& command, const Context& context);
 int run(const RenderCommand& command, const Context& context);
 int run(const ProbeCommand& command, const Context& context);
+int run(const ExplainCommand& command, const Context& context);
 
 }  // namespace halfshade

@@ -45,10 +45,12 @@ int run_program(int argc, char** argv) {
   MeshCommand mesh_command;
   RenderCommand render_command;
   ProbeCommand probe_command;
+  ExplainCommand explain_command;
   add_solve(program, solve_command, context.common);
   add_mesh(program, mesh_command, context.common);
   add_render(program, render_command, context.common);
   add_probe(program, probe_command, context.common);
+  add_explain(program, explain_command, context.common);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -68,6 +70,7 @@ int run_program(int argc, char** argv) {
   if (program.got_subcommand("solve")) return run(solve_command, context);
   if (program.got_subcommand("mesh")) return run(mesh_command, context);
   if (program.got_subcommand("probe")) return run(probe_command, context);
+  if (program.got_subcommand("explain")) return run(explain_command, context);
   return run(render_command, context);
 }
 

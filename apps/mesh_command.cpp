@@ -1,6 +1,6 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/read/read_scene.h"
+#include "apps/scene_turning.h"
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
 #include "io/write/write_report.h"
@@ -85,15 +85,14 @@ int run(const MeshCommand& given, const Context& context) {
     command.outputs.push_back(command.scene.stem().replace_extension(".vtu"));
   check(command, context.common.json);
   command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
-  const SceneFile file = read_scene(command.scene, command.materials);
+  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
   const PreparedScene prepared(file.scene, context.progress);
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
     picture_surfaces(prepared.scene(), {}, command.picture_of);
   const MeshResult result = mesh_scene(prepared, command.options, context.progress);
   context.progress_ends();
-  if (!context.common.quiet)
-    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!context.common.quiet) print_warnings(file.warnings, result.warnings);
   std::vector<std::filesystem::path> written = command.outputs;
   for (const auto& path : command.outputs) write_mesh(result, context.provenance, path);
   if (!command.curves.empty()) {

@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -51,6 +52,7 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
       ->check(number(false));
   add_events(app, command.options.events, command.options.secondary);
   add_picture(app, command);
+  add_orientation(app, common.orientation);
   add_common(app, common);
   app.footer(footer(
       "Examples:\n"

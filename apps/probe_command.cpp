@@ -1,7 +1,7 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
+#include "apps/scene_turning.h"
 #include "io/read/read_points.h"
-#include "io/read/read_scene.h"
 #include "io/write/write_points.h"
 #include "io/write/write_report.h"
 #include "solver/exchange/gather.h"
@@ -79,7 +79,7 @@ void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
 int run(const ProbeCommand& command, const Context& context) {
   check_output(command.output, point_formats);
   const auto start = std::chrono::steady_clock::now();
-  const SceneFile file = read_scene(command.scene, command.materials);
+  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
   const PreparedScene prepared(file.scene, context.progress);
   const PointTable table =
       command.points.empty()
@@ -90,8 +90,7 @@ int run(const ProbeCommand& command, const Context& context) {
   if (!command.direct_only)
     add_reflected(prepared, command.options, table.points, context.progress, light);
   context.progress_ends();
-  if (!context.common.quiet)
-    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!context.common.quiet) print_warnings(file.warnings, prepared.warnings());
   write_points(table, light, context.provenance, command.output);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   const std::size_t points = table.points.size();

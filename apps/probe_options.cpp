@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -39,6 +40,7 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   add_elements(app, command.options.elements,
                "About how many elements to solve with, without --direct");
   add_materials(app, command.materials, "Materials file, as for solve");
+  add_orientation(app, common.orientation);
   add_common(app, common);
   app.footer(footer(
       "Examples:\n"

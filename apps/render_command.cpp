@@ -1,6 +1,6 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/read/read_scene.h"
+#include "apps/scene_turning.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
 
@@ -11,9 +11,9 @@
 namespace halfshade {
 namespace {
 
-ShadedMesh load(const RenderCommand& command) {
+ShadedMesh load(const RenderCommand& command, const SceneOptions& orientation) {
   if (has_format(command.input, shaded_formats)) return read_shaded(command.input);
-  const SceneFile file = read_scene(command.input, command.materials);
+  const SceneFile file = read_turned(command.input, command.materials, orientation);
   return shaded(make_sound(file.scene), file.scene.cameras);
 }
 
@@ -49,7 +49,7 @@ Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
 
 int run(const RenderCommand& command, const Context& context) {
   check_output(command.output, picture_formats);
-  const ShadedMesh mesh = load(command);
+  const ShadedMesh mesh = load(command, context.common.orientation);
   const Picture picture =
       draw(mesh, choose_camera(mesh, command), command.options, context.progress);
   context.progress_ends();

@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -54,6 +55,7 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
   add_materials(app, command.materials, "Materials file, as for solve (scenes only)");
   add_camera(app, command);
   add_picture(app, command.options);
+  add_orientation(app, common.orientation);
   add_common(app, common);
   app.footer(
       footer("Examples:\n"

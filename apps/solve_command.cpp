@@ -1,6 +1,6 @@
 #include "apps/check_outputs.h"
 #include "apps/commands.h"
-#include "io/read/read_scene.h"
+#include "apps/scene_turning.h"
 #include "io/write/write_report.h"
 #include "meshing/repair/repair_sentence.h"
 
@@ -61,11 +61,10 @@ int run(const SolveCommand& command, const Context& context) {
   if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
   require_folder(context.common.json);
   for (const auto& path : outputs) check_output(path, solve_formats);
-  const SceneFile file = read_scene(command.scene, command.materials);
+  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
   const SolveResult result = solve(file.scene, command.options, context.progress);
   context.progress_ends();
-  if (!context.common.quiet)
-    for (const std::string& warning : file.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!context.common.quiet) print_warnings(file.warnings, result.warnings);
   for (const auto& path : outputs) write(result, context, path);
   if (!context.common.json.empty())
     write_report(result, context.provenance, outputs, context.common.json);

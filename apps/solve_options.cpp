@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -65,6 +66,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   add_size(app, command.options);
   add_light(app, command.options);
   add_curves(app, command.options);
+  add_force(app, command.options.force);
+  add_orientation(app, common.orientation);
   add_common(app, common);
   app.footer(footer(
       "Examples:\n"

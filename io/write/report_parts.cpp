@@ -30,6 +30,13 @@ Json repairs_json(const SoundScene& scene) {
   return json;
 }
 
+Json warnings_json(const std::vector<Warning>& warnings) {
+  Json json = Json::array();
+  for (const Warning& warning : warnings)
+    json.push_back({{"kind", name_of(warning.kind)}, {"sentence", warning.sentence}});
+  return json;
+}
+
 Json area_quality_json(const ElementTable& elements) {
   const AreaQuality quality = summarize_area_quality(elements);
   return {{"histogram", {{"bin_width", 5}, {"shares", quality.histogram}}},
@@ -66,6 +73,8 @@ Json exchange_json(const ExchangeReport& report) {
           {"rays", report.rays},
           {"closed", report.closed},
           {"closure_enforced", report.closure_enforced},
+          {"refined_rows", report.refined_rows},
+          {"unfinished", report.unfinished},
           {"closure_error_max", report.closure_error_max},
           {"closure_error_rms", report.closure_error_rms},
           {"escaping_fraction", report.escaping_fraction},
@@ -77,12 +86,14 @@ Json radiosity_json(const RadiosityReport& report) {
   for (const ChannelReport& channel : report.channel)
     channels.push_back({{"iterations", channel.iterations},
                         {"residual", channel.residual},
+                        {"error", channel.error},
                         {"emitted_power", channel.emitted_power},
                         {"absorbed_power", channel.absorbed_power},
                         {"escaped_power", channel.escaped_power},
                         {"balance", channel.balance}});
   return {{"channels", report.channels},
           {"unknowns", report.unknowns},
+          {"systems", report.systems},
           {"converged", report.converged},
           {"channel", channels}};
 }

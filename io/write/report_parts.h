@@ -4,6 +4,7 @@
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
 #include "solver/pipeline/stages.h"
+#include "solver/pipeline/warnings.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -17,6 +18,7 @@ using Json = nlohmann::ordered_json;
 /// How much there is of everything.
 Json scene_json(const SoundScene& scene, std::size_t cameras);
 Json repairs_json(const SoundScene& scene);
+Json warnings_json(const std::vector<Warning>& warnings);
 Json stages_json(const std::vector<StageReport>& stages);
 
 /// Numbers and angles of the elements.

@@ -121,6 +121,7 @@ void write_report(const SolveResult& result, const Provenance& provenance,
   json["estimated_relative_error"] = result.relative_error;
   json["scene"] = scene_json(result.scene, result.cameras.size());
   json["repairs"] = repairs_json(result.scene);
+  json["warnings"] = warnings_json(result.warnings);
   Json& discontinuities = json["discontinuities"] = search_json(result.discontinuities);
   discontinuities["curves"] = result.curves;
   discontinuities["tolerance"] = result.discontinuity_tolerance;
@@ -141,6 +142,7 @@ void write_report(const MeshResult& result, const Provenance& provenance,
   Json json = scene_head(result, provenance);
   json["scene"] = scene_json(result.scene, result.cameras.size());
   json["repairs"] = repairs_json(result.scene);
+  json["warnings"] = warnings_json(result.warnings);
   json["sources"] = sources_json(result);
   json["curves"] = curves_json(result.found.curves);
   json["search"] = search_json(result.found.report);

@@ -1,17 +1,14 @@
 #include "solver/exchange/exchange.h"
 
 #include "meshing/core/error.h"
-#include "meshing/core/parallel.h"
+#include "solver/exchange/assemble.h"
+#include "solver/exchange/cells.h"
 #include "solver/exchange/enclosures.h"
-#include "solver/exchange/form_factor.h"
-#include "solver/exchange/ray_factor.h"
 #include "solver/exchange/scaled_operator.h"
-#include "solver/exchange/surface_pairs.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <unistd.h>
@@ -20,172 +17,12 @@
 namespace halfshade {
 namespace {
 
-/// Rays for a pair lie between a quarter of the number asked for and four times that.
-constexpr double ray_spread = 4;
-/// Errors below this share of the tolerance times the smaller element's squared size do not matter.
-constexpr double negligible = 0.01;
 /// The part of the machine's memory that a matrix may fill.
 constexpr double memory_share = 0.7;
+/// Rows that are off by more than this are not put right by scaling: light was lost on the way.
+constexpr double far_off = 0.03;
 /// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
 constexpr double bytes_per_factor = 20;
-
-struct Factor {
-  int column;
-  double value;
-};
-
-/// An element as the pair loop sees it.
-struct Shape {
-  PairEnd end;
-  Vec3 centre;
-  double radius, area;
-  Eigen::AlignedBox3d box;
-};
-
-std::vector<Shape> make_shapes(const SoundScene& scene, const ElementTable& elements) {
-  std::vector<Shape> shapes(elements.corners.size());
-  for (int e = 0; e < elements.count(); ++e) {
-    const auto k = static_cast<std::size_t>(e);
-    const auto t = elements.triangle(e);
-    Shape& shape = shapes[k];
-    const int plane = scene.surfaces[static_cast<std::size_t>(elements.surface[k])].plane;
-    shape.end = {t, elements.normal[k], plane};
-    shape.centre = (t[0] + t[1] + t[2]) / 3;
-    shape.radius = 0;
-    shape.area = elements.area[k];
-    for (const Vec3& p : t) {
-      shape.radius = std::max(shape.radius, (p - shape.centre).norm());
-      shape.box.extend(p);
-    }
-  }
-  return shapes;
-}
-
-double lowest(const std::array<Vec3, 3>& triangle, const Vec3& point, const Vec3& normal) {
-  return std::min({normal.dot(triangle[0] - point), normal.dot(triangle[1] - point),
-                   normal.dot(triangle[2] - point)});
-}
-
-double highest(const std::array<Vec3, 3>& triangle, const Vec3& point, const Vec3& normal) {
-  return std::max({normal.dot(triangle[0] - point), normal.dot(triangle[1] - point),
-                   normal.dot(triangle[2] - point)});
-}
-
-/// A F of two elements as if nothing were between them.
-double unobstructed(const Shape& a, const Shape& b, double tolerance, double margin) {
-  const Vec3 &a_point = a.end.triangle[0], &b_point = b.end.triangle[0];
-  if (highest(b.end.triangle, a_point, a.end.normal) <= margin ||
-      highest(a.end.triangle, b_point, b.end.normal) <= margin)
-    return 0;
-  const double distance = (a.centre - b.centre).norm();
-  const bool a_outside = a.radius <= b.radius;
-  const Shape &outer = a_outside ? a : b, &inner = a_outside ? b : a;
-  const int degree = sufficient_degree((distance - inner.radius) / outer.radius, tolerance);
-  if (degree > 0 && lowest(b.end.triangle, a_point, a.end.normal) >= 0 &&
-      lowest(a.end.triangle, b_point, b.end.normal) >= 0)
-    return mutual_area_by_rule(outer.end.triangle, outer.end.normal, inner.end.triangle, degree);
-  FormFactorOptions options;
-  options.tolerance = tolerance;
-  options.floor = negligible * tolerance * outer.radius * outer.radius;
-  return std::max(0., mutual_area(outer.end.triangle, inner.end.triangle, options).value);
-}
-
-class Assembly {
- public:
-  Assembly(const SoundScene& scene, const ElementTable& elements, const VisibilityIndex& visibility,
-           const ExchangeOptions& options, const Progress& progress)
-      : scene_(scene),
-        elements_(elements),
-        visibility_(visibility),
-        options_(options),
-        shapes_(make_shapes(scene, elements)),
-        pairs_(scene, visibility, progress),
-        run_end_(shapes_.size()),
-        upper_(shapes_.size()) {
-    for (std::size_t e = run_end_.size(); e-- > 0;) {
-      const bool last = e + 1 == run_end_.size() || elements.surface[e] != elements.surface[e + 1];
-      run_end_[e] = last ? static_cast<int>(e) + 1 : run_end_[e + 1];
-    }
-  }
-
-  /// False if stopped.
-  bool run(const Progress& progress) {
-    return parallel_for(
-        shapes_.size(), [&](std::size_t i) { fill_row(static_cast<int>(i)); }, progress,
-        "form factors");
-  }
-
-  std::size_t rays() const { return rays_; }
-
-  ExchangeMatrix matrix() const {
-    const auto n = static_cast<Eigen::Index>(upper_.size());
-    Eigen::VectorXi entries = Eigen::VectorXi::Zero(n);
-    for (std::size_t i = 0; i < upper_.size(); ++i) {
-      entries[static_cast<Eigen::Index>(i)] += static_cast<int>(upper_[i].size());
-      for (const Factor& factor : upper_[i]) ++entries[factor.column];
-    }
-    // Rows come in ascending order, so each row receives its left half in order, then its right
-    // half.
-    ExchangeMatrix matrix(n, n);
-    matrix.reserve(entries);
-    for (std::size_t i = 0; i < upper_.size(); ++i)
-      for (const Factor& factor : upper_[i]) {
-        matrix.insert(static_cast<Eigen::Index>(i), factor.column) = factor.value;
-        matrix.insert(factor.column, static_cast<Eigen::Index>(i)) = factor.value;
-      }
-    matrix.makeCompressed();
-    return matrix;
-  }
-
- private:
-  /// More rays where more light is at stake: pairs with the mean form factor 1/n get the number
-  /// asked for.
-  int ray_count(const Shape& a, const Shape& b, double mutual_area) const {
-    const double F = mutual_area / std::min(a.area, b.area);
-    const double stake = std::sqrt(F * static_cast<double>(shapes_.size()));
-    return std::max(1, static_cast<int>(options_.rays_per_pair *
-                                        std::clamp(stake, 1 / ray_spread, ray_spread)));
-  }
-
-  void fill_row(int i) {
-    RayVisibility sampler(visibility_);
-    const Shape& a = shapes_[static_cast<std::size_t>(i)];
-    const int r = elements_.surface[static_cast<std::size_t>(i)];
-    std::size_t rays = 0;
-    auto& row = upper_[static_cast<std::size_t>(i)];
-    for (int j = i + 1; j < elements_.count(); ++j) {
-      const int s = elements_.surface[static_cast<std::size_t>(j)];
-      const Sight sight = r == s ? Sight::none : pairs_.sight(r, s);
-      if (sight == Sight::none) {
-        j = run_end_[static_cast<std::size_t>(j)] - 1;
-        continue;
-      }
-      const Shape& b = shapes_[static_cast<std::size_t>(j)];
-      double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
-      if (!(value > 0)) continue;
-      if (sight == Sight::sampled && a.box.merged(b.box).intersects(pairs_.blockers(r, s))) {
-        const int count = ray_count(a, b, value);
-        const auto seed =
-            static_cast<std::uint64_t>(i) * shapes_.size() + static_cast<std::uint64_t>(j);
-        value *= sampler.visible_fraction(a.end, b.end, count, seed);
-        rays += static_cast<std::size_t>(count);
-      }
-      if (value > 0) row.push_back({j, value});
-    }
-    row.shrink_to_fit();
-    rays_ += rays;
-  }
-
-  const SoundScene& scene_;
-  const ElementTable& elements_;
-  const VisibilityIndex& visibility_;
-  ExchangeOptions options_;
-  std::vector<Shape> shapes_;
-  SurfacePairs pairs_;
-  std::vector<int> run_end_;  ///< element → end of the run of elements of its surface
-  std::vector<std::vector<Factor>> upper_;
-  std::atomic<std::size_t> rays_ = 0;
-};
 
 void require_memory(const ElementTable& elements) {
   // Elements of one surface do not see each other.
@@ -232,13 +69,41 @@ void report_closure(Exchange& exchange) {
   if (lit_area > 0) report.escaping_fraction /= lit_area;
 }
 
-/// Which rows are to sum to one.
-std::vector<bool> closed_rows(const Exchange& exchange, Closure closure) {
-  std::vector<bool> rows(static_cast<std::size_t>(exchange.area.size()));
-  for (std::size_t e = 0; e < rows.size(); ++e)
+/// Which rows are to sum to one. Leaves out what scaling would only hide.
+std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
+  const Enclosures& enclosures = exchange.enclosures;
+  const Eigen::ArrayXd sees =
+      multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
+  std::vector<bool> is_off(enclosures.closed.size());
+  for (std::size_t e = 0; e < enclosures.of_element.size(); ++e) {
+    const auto row = static_cast<Eigen::Index>(e);
+    if (sees[row] > 0 && std::abs(sees[row] / exchange.area[row] - 1) > far_off)
+      is_off[at(enclosures.of_element[e])] = true;
+  }
+  for (std::size_t k = 0; k < is_off.size(); ++k)
+    exchange.report.unfinished += enclosures.closed[k] && enclosures.lit[k] && is_off[k];
+  std::vector<bool> rows(enclosures.of_element.size());
+  for (std::size_t e = 0; e < rows.size(); ++e) {
+    const std::size_t k = at(enclosures.of_element[e]);
     rows[e] = closure == Closure::enforce ||
-              (closure == Closure::automatic && exchange.enclosures.is_closed(static_cast<int>(e)));
+              (closure == Closure::automatic && enclosures.closed[k] && !is_off[k]);
+  }
   return rows;
+}
+
+void close(Exchange& exchange, Closure closure) {
+  const std::vector<bool> rows = closed_rows(exchange, closure);
+  ExchangeReport& report = exchange.report;
+  if (report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
+    report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
+  exchange.lost = exchange.area -
+                  multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
+  if (!report.closure_enforced) return;
+  for (std::size_t e = 0; e < rows.size(); ++e)
+    // What sees nothing cannot be scaled.
+    if (rows[e] && exchange.lost[static_cast<Eigen::Index>(e)] <
+                       far_off * exchange.area[static_cast<Eigen::Index>(e)])
+      exchange.lost[static_cast<Eigen::Index>(e)] = 0;
 }
 
 }  // namespace
@@ -254,18 +119,34 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
   Exchange exchange;
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
                                                    static_cast<Eigen::Index>(elements.area.size()));
-  {
-    Assembly assembly(scene, elements, visibility, options, progress);
-    exchange.report.complete = assembly.run(progress);
-    exchange.report.rays = assembly.rays();
-    exchange.matrix = assembly.matrix();
-  }
+  const SpaceCells cells = find_cells(scene, elements);
+  AssembledFactors factors =
+      assemble_factors(scene, elements, cells, visibility, options, progress);
+  exchange.report.complete = factors.complete;
+  exchange.report.rays = factors.rays;
+  exchange.report.refined_rows = factors.refined_rows;
+  exchange.matrix = std::move(factors.matrix);
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
-  exchange.enclosures = find_enclosures(scene, elements, visibility, exchange.matrix);
+  exchange.enclosures = find_enclosures(scene, elements, cells, exchange.matrix);
   report_closure(exchange);
-  const std::vector<bool> rows = closed_rows(exchange, options.closure);
-  if (exchange.report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
-    exchange.report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
+  close(exchange, options.closure);
+  return exchange;
+}
+
+Exchange enclosures_alone(const SoundScene& scene, const ElementTable& elements) {
+  Exchange exchange;
+  exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
+                                                   static_cast<Eigen::Index>(elements.area.size()));
+  exchange.matrix.resize(exchange.area.size(), exchange.area.size());
+  exchange.enclosures =
+      find_enclosures(scene, elements, find_cells(scene, elements), exchange.matrix);
+  exchange.report.closed = true;
+  exchange.lost = exchange.area;
+  for (int e = 0; e < elements.count(); ++e) {
+    if (exchange.enclosures.is_closed(e)) exchange.lost[e] = 0;
+    if (exchange.enclosures.is_lit(e) && !exchange.enclosures.is_closed(e))
+      exchange.report.closed = false;
+  }
   return exchange;
 }
 

@@ -33,6 +33,10 @@ struct ExchangeReport {
   std::size_t rays = 0;
   bool closed = false;  ///< no light gets out: rows of F should sum to 1 wherever light gets to
   bool closure_enforced = false;
+  std::size_t refined_rows = 0;  ///< rows of closed enclosures that took more rays
+  /// Closed enclosures whose rows are so far off all the same that they stay as they are: what is
+  /// missing there is lost.
+  int unfinished = 0;
   double closure_error_max =
       0;  ///< max |1 − Σ_j F(i,j)| before enforcement, over closed enclosures
   double closure_error_rms = 0;  ///< the same, root of the area-weighted mean square
@@ -59,17 +63,26 @@ struct Enclosures {
 struct Exchange {
   ExchangeMatrix matrix;
   Eigen::ArrayXd area;  ///< A_i
+  /// A_i times the share of what leaves i that meets nothing; exactly 0 where closure is enforced.
+  /// Errors of factors may make it negative.
+  Eigen::ArrayXd lost;
   Enclosures enclosures;
   ExchangeReport report;
 };
 
 /// Computes A_i F(i,j) for all pairs of elements, each pair once, so that reciprocity holds by
-/// construction. Throws Error(too_large) if the matrix would not fit into the machine's memory. If
+/// construction, and none for elements in different cells of space. Rows of closed enclosures that
+/// are off get more rays, and are only scaled once they are near; see enforce_closure. Throws
+/// Error(too_large) if the matrix would not fit into the machine's memory. If
 /// stopped, rows not yet reached stay empty. Cost: n²/2 factors for n elements; 12 bytes a
 /// non-zero.
 Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options = {},
                           const Progress& progress = {});
+
+/// An exchange without any factors, for scenes where nothing reflects: what is left is which
+/// elements are closed in together. What is not closed loses everything.
+Exchange enclosures_alone(const SoundScene& scene, const ElementTable& elements);
 
 /// Scales the matrix from both sides, S M S with S diagonal and positive, until every row i that is
 /// `wanted` sums to area[i]: the symmetric form of Sinkhorn's scaling, found by Newton's method to

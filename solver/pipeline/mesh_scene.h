@@ -4,6 +4,7 @@
 #include "meshing/core/scene.h"
 #include "meshing/patches/discontinuity_mesh.h"
 #include "solver/pipeline/stages.h"
+#include "solver/pipeline/warnings.h"
 
 #include <string>
 #include <vector>
@@ -34,6 +35,7 @@ struct MeshResult {
   DiscontinuityMeshReport mesh;
   double irradiance_tolerance = 0;  ///< W/m², as used
   std::vector<StageReport> stages;
+  std::vector<Warning> warnings;
   bool interrupted = false;  ///< stopped early: curves, elements or labels are missing
 };
 

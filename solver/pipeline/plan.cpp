@@ -2,6 +2,7 @@
 
 #include "meshing/patches/patch_mesh.h"
 #include "solver/direct/direct_light.h"
+#include "solver/pipeline/blockers.h"
 #include "solver/pipeline/sources.h"
 
 #include <algorithm>
@@ -17,17 +18,25 @@ constexpr int places = 2000;
 Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
                Stages& stages) {
   Plan plan;
-  plan.no_exact_direct_light = direct_light_needless(prepared.scene(), options.direct_light);
-  plan.no_discontinuities = discontinuities_needless(prepared.scene(), options);
+  const SoundScene& scene = prepared.scene();
+  plan.no_exact_direct_light = direct_light_needless(
+      scene, options.force.exact_direct_light ? DirectLightBy::exact : options.direct_light);
+  plan.no_factors = factors_needless(scene, plan.no_exact_direct_light.empty(), options);
+  plan.no_channels = channels_needless(scene, options);
+  plan.no_discontinuities = discontinuities_needless(scene, options);
   if (!plan.no_discontinuities.empty()) return plan;
   stages.run("sources", [&] {
-    plan.sources = strong_enough(all_sources(prepared, options.secondary, progress),
-                                 prepared.scene(), options.tolerance);
+    plan.sources = all_sources(prepared, options.secondary, progress);
+    plan.weak_sources = plan.sources.size();
+    if (!options.force.discontinuities)
+      plan.sources = strong_enough(std::move(plan.sources), scene, options.tolerance);
+    plan.weak_sources -= plan.sources.size();
     if (!plan.sources.empty()) plan.mean_irradiance = mean_direct_irradiance(prepared, progress);
     return plan.sources.size();
   });
   if (plan.sources.empty())
     plan.no_discontinuities = "no source gives more than the tolerance of all light";
+  if (plan.no_discontinuities.empty()) plan.no_eee = eee_needless(scene, options);
   return plan;
 }
 
@@ -35,8 +44,37 @@ std::string discontinuities_needless(const SoundScene& scene, const SolveOptions
   const DiscontinuityOptions& events = options.events;
   if (!options.discontinuities || !(events.contact || events.face || events.ev || events.eee))
     return "they were not asked for";
+  if (options.force.discontinuities) return {};
   if (is_convex(scene)) return "no surface can come between two others";
   return most_surfaces_emit(scene);
+}
+
+std::string eee_needless(const SoundScene& scene, const SolveOptions& options) {
+  if (options.force.eee) return {};
+  return is_one_convex_body(scene, blocking_surfaces(scene))
+             ? "what can come between is one convex body"
+             : "";
+}
+
+std::string factors_needless(const SoundScene& scene, bool is_exact, const SolveOptions& options) {
+  if (!is_exact || options.force.factors) return {};
+  if (options.radiosity.bounces == 0) return "no reflected light was asked for";
+  const bool reflects =
+      std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+        return (scene.materials[at(surface.material)].rho > 0).any();
+      });
+  return reflects ? "" : "no surface reflects";
+}
+
+std::string channels_needless(const SoundScene& scene, const SolveOptions& options) {
+  if (options.force.channels) return {};
+  const auto is_grey = [](const Rgb& values) { return (values == values[0]).all(); };
+  const bool grey =
+      std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+        const Material& material = scene.materials[at(surface.material)];
+        return is_grey(material.rho) && is_grey(material.exitance);
+      });
+  return grey ? "every material is grey" : "";
 }
 
 std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice) {

@@ -13,8 +13,12 @@ namespace halfshade {
 /// out.
 struct Plan {
   std::string no_discontinuities;     ///< why none are looked for
+  std::string no_eee;                 ///< why none at three edges are looked for
   std::string no_exact_direct_light;  ///< why direct light comes out of the matrix
+  std::string no_factors;             ///< why no reflected light is solved for
+  std::string no_channels;            ///< why one channel does for all three
   std::vector<LightSource> sources;   ///< to find discontinuities of; empty without
+  std::size_t weak_sources = 0;       ///< left out of them, for they give too little
   double mean_irradiance = 0;  ///< what the tolerance is a share of, W/m²; 0 without sources
 };
 
@@ -25,6 +29,16 @@ Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const
 
 /// Why no discontinuities need be looked for, as far as the scene alone tells; empty if they do.
 std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options);
+
+/// Why no curves at three edges need be looked for, if any are: the edges of one convex body, or of
+/// one convex polygon, are never three in a line of sight.
+std::string eee_needless(const SoundScene& scene, const SolveOptions& options);
+
+/// Why no form factors are needed, with direct light that is exact or not.
+std::string factors_needless(const SoundScene& scene, bool is_exact, const SolveOptions& options);
+
+/// Why all channels are the same.
+std::string channels_needless(const SoundScene& scene, const SolveOptions& options);
 
 /// Why direct light needs no stage of its own; empty if it does.
 std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice);

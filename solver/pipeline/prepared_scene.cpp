@@ -1,8 +1,12 @@
 #include "solver/pipeline/prepared_scene.h"
 
+#include "meshing/core/error.h"
 #include "meshing/rays/visibility.h"
 #include "meshing/repair/repair.h"
+#include "meshing/repair/repair_sentence.h"
 #include "solver/direct/direct_light.h"
+
+#include <fmt/format.h>
 
 #include <mutex>
 
@@ -15,10 +19,41 @@ struct PreparedScene::Indices {
   std::unique_ptr<const VisibilityIndex> visibility;
 };
 
+namespace {
+
+/// Light beyond these exitances, in W/m², would over- or underflow on its way.
+constexpr double weakest = 1e-200, strongest = 1e200;
+
+/// Something that emits must be left of the scene, and as much as doubles can follow.
+void require_light(const Scene& scene, const SoundScene& sound) {
+  bool emits = false;
+  for (const Surface& surface : sound.surfaces)
+    for (const double exitance : sound.materials[at(surface.material)].exitance) {
+      emits = emits || exitance > 0;
+      if (exitance > strongest || (exitance > 0 && exitance < weakest))
+        throw Error(
+            ErrorCode::invalid_input, scene.source,
+            fmt::format("material '{}' emits {} W/m²; numbers hold only what lies between "
+                        "{} and {}, so give the exitances in another unit",
+                        sound.materials[at(surface.material)].name, exitance, weakest, strongest));
+    }
+  if (emits) return;
+  require_emitter(scene);
+  for (const Repair& repair : sound.repairs)
+    for (const int face : repair.faces)
+      if ((scene.materials[at(scene.faces[at(face)].material)].exitance > 0).any())
+        throw Error(ErrorCode::invalid_input, scene.source,
+                    fmt::format("nothing that emits light is left of the scene: {}",
+                                sentence(repair, sound)));
+  throw Error(ErrorCode::invalid_input, scene.source,
+              "nothing that emits light is left of the scene after its repair");
+}
+
+}  // namespace
+
 PreparedScene::PreparedScene(const Scene& scene, const Progress& progress)
     : cameras_(scene.cameras), unit_(scene.unit), indices_(std::make_unique<Indices>()) {
   validate(scene);
-  require_emitter(scene);
   std::vector<StageReport> reports;
   Stages(reports).run("repair", [&] {
     progress("repair", 0);
@@ -26,6 +61,8 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress)
     return scene_.surfaces.size();
   });
   repair_ = reports.front();
+  require_light(scene, scene_);
+  warnings_ = repair_warnings(scene, scene_);
 }
 
 PreparedScene::~PreparedScene() = default;

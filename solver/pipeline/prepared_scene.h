@@ -4,6 +4,7 @@
 #include "meshing/core/scene.h"
 #include "meshing/core/sound_scene.h"
 #include "solver/pipeline/stages.h"
+#include "solver/pipeline/warnings.h"
 
 #include <memory>
 #include <string>
@@ -19,8 +20,8 @@ class VisibilityIndex;
 /// concurrently.
 class PreparedScene {
  public:
-  /// Throws Error(invalid_input) unless the scene is valid and has an emitter; see validate,
-  /// require_emitter and make_sound.
+  /// Throws Error(invalid_input) unless the scene is valid and has an emitter that the repair
+  /// leaves, of an exitance between 1e-200 and 1e200 W/m²; see validate and make_sound.
   explicit PreparedScene(const Scene& scene, const Progress& progress = {});
   ~PreparedScene();
 
@@ -29,6 +30,8 @@ class PreparedScene {
   const std::string& unit() const { return unit_; }
   /// What making it sound took.
   const StageReport& repair() const { return repair_; }
+  /// Of what it changed.
+  const std::vector<Warning>& warnings() const { return warnings_; }
 
   const OpaqueScene& opaque() const;
   const DirectLightIndex& direct_light() const;  ///< on the same opaque scene
@@ -41,6 +44,7 @@ class PreparedScene {
   std::vector<Camera> cameras_;
   std::string unit_;
   StageReport repair_;
+  std::vector<Warning> warnings_;
   std::unique_ptr<Indices> indices_;
 };
 
@@ -52,6 +56,7 @@ Result begin_result(const PreparedScene& prepared) {
   result.cameras = prepared.cameras();
   result.unit = prepared.unit();
   result.stages = {prepared.repair()};
+  result.warnings = prepared.warnings();
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/adapt/recovery_estimate.h"
+#include "solver/linear/system_solver.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_light.h"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -34,12 +36,16 @@ Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
   if (plan.no_discontinuities.empty())
     stages.run("discontinuities", [&] {
       DiscontinuityOptions events = options.events;
+      events.eee = events.eee && plan.no_eee.empty();
       events.irradiance_tolerance = options.tolerance * plan.mean_irradiance;
       events.max_length = longest_edge(prepared.scene(), options);
       found =
           find_discontinuities(prepared.scene(), prepared.opaque(), plan.sources, events, progress);
       return found.curves.size();
     });
+  stages.leave_out_if(plan.weak_sources > 0, "curves of weak sources",
+                      fmt::format("{} of them give too little", plan.weak_sources));
+  stages.leave_out_if(!plan.no_eee.empty(), "curves at three edges", plan.no_eee);
   return found;
 }
 
@@ -58,10 +64,16 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, c
 
 void estimate_error(Stages& stages, SolveResult& result) {
   stages.run("error estimate", [&] {
-    const ChannelArray& irradiance = result.solution.irradiance;
-    result.solution.error_estimate = recovery_estimate(result.elements, irradiance);
-    result.relative_error =
-        relative_error(result.elements, irradiance, result.solution.error_estimate);
+    // Squares of light of any size must not over- or underflow.
+    const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
+    const ChannelArray irradiance = scale * result.solution.irradiance;
+    const Eigen::ArrayXd estimate = recovery_estimate(result.elements, irradiance);
+    result.solution.error_estimate = estimate / scale;
+    result.relative_error = relative_error(result.elements, irradiance, estimate);
+    double of_solver = 0;
+    for (const ChannelReport& channel : result.radiosity.channel)
+      of_solver = std::max(of_solver, channel.error);
+    result.relative_error += of_solver;
     return result.elements.corners.size();
   });
 }
@@ -89,14 +101,17 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   result.discontinuity_tolerance = mesh.tolerance;
   result.elements = std::move(mesh.elements);
 
-  SolvedLight light =
-      solve_light(prepared, result.elements, plan.no_exact_direct_light, options, progress, stages);
+  SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
 
   estimate_error(stages, result);
   result.interrupted = progress.stopped();
+  if (result.interrupted) return result;
+  const std::vector<Warning> warnings = light_warnings(
+      {result.scene, result.elements, result.solution, result.exchange, result.radiosity});
+  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "solver/elements/solution.h"
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
+#include "solver/pipeline/warnings.h"
 
 #include <cstddef>
 #include <string>
@@ -29,10 +30,12 @@ struct SolveResult {
   ElementTable elements;
   Solution solution;
   std::vector<StageReport> stages;
+  std::vector<Warning> warnings;
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  double relative_error = 0;  ///< estimated, of the irradiance in the L2 norm
-  bool interrupted = false;   ///< stopped early: factors not reached count as zero
+  /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
+  double relative_error = 0;
+  bool interrupted = false;  ///< stopped early: factors not reached count as zero
 };
 
 /// The main job: makes the scene sound, meshes it along its discontinuities, computes form factors,

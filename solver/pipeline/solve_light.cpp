@@ -1,23 +1,33 @@
 #include "solver/pipeline/solve_light.h"
 
+#include "meshing/core/error.h"
 #include "solver/direct/direct_light.h"
 #include "solver/elements/material_arrays.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <set>
 
 namespace halfshade {
 namespace {
 
+/// Scenes that absorb less than this share of what arrives need more exact factors, up to this
+/// share of the tolerance.
+constexpr double commonly_absorbed = 0.01;
+constexpr double most_exact = 1e-5;
+
 /// In a closed enclosure everything an emitter sends arrives somewhere. Averaging over elements
 /// loses or gains a little where shadows cut them; one factor for each emitter puts that right.
 void conserve_power(ElementDirectLight& light, const SoundScene& scene,
-                    const ElementTable& elements, const Enclosures& enclosures) {
+                    const ElementTable& elements, const Exchange& exchange) {
   const Eigen::Map<const Eigen::ArrayXd> areas(elements.area.data(), elements.count());
   for (std::size_t k = 0; k < light.emitters.size(); ++k) {
     const auto first =
         std::find(elements.surface.begin(), elements.surface.end(), light.emitters[k]);
-    if (first == elements.surface.end() ||
-        !enclosures.is_closed(static_cast<int>(first - elements.surface.begin())))
+    const auto e = static_cast<int>(first - elements.surface.begin());
+    if (first == elements.surface.end() || !exchange.enclosures.is_closed(e) ||
+        exchange.lost[e] > 0)
       continue;
     auto factors = light.factor.col(static_cast<Eigen::Index>(k));
     const double arriving = (areas * factors).sum();
@@ -37,7 +47,12 @@ ElementDirectLight find_direct_light(const PreparedScene& prepared, const Elemen
 }
 
 Exchange find_exchange(const PreparedScene& prepared, const ElementTable& elements,
-                       const ExchangeOptions& options, const Progress& progress, Stages& stages) {
+                       const ExchangeOptions& options, const std::string& needless,
+                       const Progress& progress, Stages& stages) {
+  if (!needless.empty()) {
+    stages.leave_out_if(true, "form factors", needless);
+    return enclosures_alone(prepared.scene(), elements);
+  }
   Exchange exchange;
   stages.run("form factors", [&] {
     exchange =
@@ -51,36 +66,68 @@ Exchange find_exchange(const PreparedScene& prepared, const ElementTable& elemen
   return exchange;
 }
 
+/// Where nearly nothing is absorbed, light meets so many surfaces that what a factor is off adds
+/// up.
+ExchangeOptions needed_exactness(const SoundScene& scene, ExchangeOptions options) {
+  double absorbed = 1;
+  for (const Surface& surface : scene.surfaces)
+    absorbed = std::min(absorbed, 1 - scene.materials[at(surface.material)].rho.maxCoeff());
+  options.tolerance *= std::clamp(absorbed / commonly_absorbed, most_exact, 1.);
+  return options;
+}
+
+/// Refuses, by name, a closed enclosure that reflects all its light.
+void require_limits(const SoundScene& scene, const ElementTable& elements, const Exchange& exchange,
+                    const MaterialArrays& materials, const RadiosityOptions& options) {
+  if (options.bounces >= 0) return;
+  const auto unlimited =
+      find_unlimited(light_exchange(exchange), materials.rho, materials.exitance);
+  if (!unlimited) return;
+  std::set<std::string> groups;
+  for (int e = 0; e < elements.count(); ++e)
+    if (exchange.enclosures.of_element[at(e)] == unlimited->system)
+      groups.insert(scene.groups[at(elements.group[at(e)])]);
+  throw Error(ErrorCode::invalid_input, "solve",
+              fmt::format("the group{} {} close{} in a space that reflects everything (reflectance "
+                          "1) and emits {} W, so its radiosity has no limit; lower a reflectance",
+                          groups.size() == 1 ? "" : "s", fmt::join(groups, ", "),
+                          groups.size() == 1 ? "s" : "", unlimited->power));
+}
+
 }  // namespace
 
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
-                        const std::string& no_exact_direct_light, const SolveOptions& options,
-                        const Progress& progress, Stages& stages) {
+                        const Plan& plan, const SolveOptions& options, const Progress& progress,
+                        Stages& stages) {
   const SoundScene& scene = prepared.scene();
-  const bool is_exact = no_exact_direct_light.empty();
+  const bool is_exact = plan.no_exact_direct_light.empty();
   ElementDirectLight direct;
-  stages.leave_out_if(!is_exact, "exact direct light", no_exact_direct_light);
+  stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
   if (is_exact)
     direct = find_direct_light(prepared, elements, options.direct_points, progress, stages);
-  const Exchange exchange = find_exchange(prepared, elements, options.exchange, progress, stages);
+  const Exchange exchange =
+      find_exchange(prepared, elements, needed_exactness(scene, options.exchange), plan.no_factors,
+                    progress, stages);
   ChannelArray direct_irradiance;
   if (is_exact) {
-    if (exchange.report.closure_enforced)
-      conserve_power(direct, scene, elements, exchange.enclosures);
+    if (options.exchange.closure != Closure::leave)
+      conserve_power(direct, scene, elements, exchange);
     direct_irradiance = irradiance_of(direct, scene);
   }
   const MaterialArrays materials = material_arrays(scene, elements);
+  require_limits(scene, elements, exchange, materials, options.radiosity);
   SolvedLight light;
   light.exchange = exchange.report;
+  RadiosityOptions radiosity_options = options.radiosity;
+  radiosity_options.all_channels = plan.no_channels.empty();
   stages.run("radiosity", [&] {
     light.solution = solve_radiosity(exchange, materials.rho, materials.exitance, direct_irradiance,
-                                     options.radiosity, light.radiosity, progress);
+                                     radiosity_options, light.radiosity, progress);
     light.solution.region = std::move(direct.region);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });
   stages.leave_out_if(light.radiosity.unknowns == 0, "interreflection", "no surface reflects");
-  stages.leave_out_if(light.radiosity.channels == 1, "second and third channel",
-                      "every material is grey");
+  stages.leave_out_if(!plan.no_channels.empty(), "second and third channel", plan.no_channels);
   return light;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
 
@@ -14,12 +15,11 @@ struct SolvedLight {
   RadiosityReport radiosity;
 };
 
-/// Finds direct light, form factors and radiosity on given elements. `no_exact_direct_light` says
-/// why direct light comes out of the matrix; empty: it is exact. Of the options it reads
-/// `direct_points`, `exchange` and `radiosity`. Adds its stages to `stages`. If stopped, factors
-/// not reached count as zero.
+/// Finds direct light, form factors and radiosity on given elements, as far as the plan does not
+/// leave them out. Of the options it reads `direct_points`, `exchange` and `radiosity`. Adds its
+/// stages to `stages`. If stopped, factors not reached count as zero.
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
-                        const std::string& no_exact_direct_light, const SolveOptions& options,
-                        const Progress& progress, Stages& stages);
+                        const Plan& plan, const SolveOptions& options, const Progress& progress,
+                        Stages& stages);
 
 }  // namespace halfshade

@@ -12,6 +12,15 @@ enum class DirectLightBy {
   matrix      ///< the same form factors as reflected light
 };
 
+/// Stages to run also where the scene does not need them. What the user left out stays so.
+struct ForcedStages {
+  bool discontinuities = false;
+  bool eee = false;  ///< also with one convex occluder
+  bool exact_direct_light = false;
+  bool factors = false;   ///< also where nothing reflects
+  bool channels = false;  ///< all three, also in a grey scene
+};
+
 struct SolveOptions {
   int elements =
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
@@ -26,6 +35,7 @@ struct SolveOptions {
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;
   RadiosityOptions radiosity;
+  ForcedStages force;
 };
 
 }  // namespace halfshade

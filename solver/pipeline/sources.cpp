@@ -1,5 +1,6 @@
 #include "solver/pipeline/sources.h"
 
+#include "solver/pipeline/plan.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 
@@ -28,9 +29,12 @@ CoarseSolution solve_coarsely(const PreparedScene& prepared, const Progress& pro
   Stages stages(ignored);
   CoarseSolution solution;
   solution.elements = make_solve_mesh(prepared.scene(), options, progress).elements;
-  solution.light = solve_light(prepared, solution.elements, most_surfaces_emit(prepared.scene()),
-                               options, progress, stages)
-                       .solution;
+  Plan plan;
+  plan.no_exact_direct_light = most_surfaces_emit(prepared.scene());
+  plan.no_factors = factors_needless(prepared.scene(), plan.no_exact_direct_light.empty(), options);
+  plan.no_channels = channels_needless(prepared.scene(), options);
+  solution.light =
+      solve_light(prepared, solution.elements, plan, options, progress, stages).solution;
   return solution;
 }
 

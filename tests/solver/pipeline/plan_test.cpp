@@ -1,10 +1,16 @@
 #include "solver/pipeline/plan.h"
 
 #include "meshing/repair/repair.h"
+#include "solver/pipeline/blockers.h"
+#include "solver/pipeline/explain.h"
+#include "solver/pipeline/solve.h"
 #include "solver/pipeline/sources.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -79,6 +85,100 @@ TEST(IsConvex, HoldsForEmptyRoomsOnly) {
   EXPECT_TRUE(convex(turned));
   EXPECT_FALSE(convex(test::l_room(false)));
   EXPECT_FALSE(convex(test::table_scene()));
+}
+
+/// The largest difference of two solutions on the same elements, relative to the largest light.
+double difference(const SolveResult& a, const SolveResult& b) {
+  if (a.elements.count() != b.elements.count()) return HUGE_VAL;
+  return std::max((a.solution.radiosity - b.solution.radiosity).abs().maxCoeff(),
+                  (a.solution.irradiance - b.solution.irradiance).abs().maxCoeff()) /
+         a.solution.radiosity.maxCoeff();
+}
+
+bool is_left_out(const SolveResult& result, const std::string& name) {
+  return std::any_of(result.stages.begin(), result.stages.end(), [&](const StageReport& stage) {
+    return stage.name == name && !stage.left_out_because.empty();
+  });
+}
+
+/// Solves with and without forcing; the stage must be left out in the first case only.
+double forced_difference(const Scene& scene, const ForcedStages& force, const std::string& name) {
+  SolveOptions options;
+  options.elements = 300;
+  options.radiosity.tolerance = 1e-13;
+  const SolveResult planned = solve(scene, options);
+  EXPECT_TRUE(is_left_out(planned, name)) << name;
+  options.force = force;
+  const SolveResult forced = solve(scene, options);
+  EXPECT_FALSE(is_left_out(forced, name)) << name;
+  return difference(planned, forced);
+}
+
+TEST(ForcedStages, GiveTheSameAnswer) {
+  EXPECT_LE(forced_difference(test::lit_cube({.5, .5, .5, .5, .5, 0}), {.discontinuities = true},
+                              "discontinuities"),
+            1e-12);
+  EXPECT_LE(forced_difference(test::table_scene(), {.eee = true}, "curves at three edges"), 1e-12);
+  EXPECT_LE(
+      forced_difference(test::lit_cube({0, 0, 0, 0, 0, 0}), {.factors = true}, "form factors"),
+      1e-12);
+  EXPECT_LE(forced_difference(test::lit_cube({.5, .1, .9, .5, .5, 0}), {.channels = true},
+                              "second and third channel"),
+            1e-12);
+}
+
+TEST(ForcedStages, ExactDirectLightAgreesWithTheMatrix) {
+  Scene furnace = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  for (Material& material : furnace.materials) material.exitance = Rgb::Constant(0.5);
+  EXPECT_LE(forced_difference(furnace, {.exact_direct_light = true}, "exact direct light"), 0.02);
+}
+
+TEST(ForcedStages, CurvesOfWeakSourcesAreWithinTheTolerance) {
+  Scene scene = test::table_scene();
+  const int dim = test::add_material(scene, 0, 1e-4);
+  test::add_polygon(scene, {{.7, .7, 2}, {.7, .9, 2}, {.9, .9, 2}, {.9, .7, 2}}, dim);
+  const auto power_on_floor = [&](bool force) {
+    SolveOptions options;
+    options.elements = 600;
+    options.force.discontinuities = force;
+    const SolveResult result = solve(scene, options);
+    EXPECT_EQ(is_left_out(result, "curves of weak sources"), !force);
+    double power = 0;
+    for (int e = 0; e < result.elements.count(); ++e)
+      if (result.elements.surface[at(e)] == 0)
+        power += result.elements.area[at(e)] * result.solution.direct_irradiance(e, 0);
+    return power;
+  };
+  const double planned = power_on_floor(false), forced = power_on_floor(true);
+  EXPECT_NEAR(planned, forced, 0.01 * forced);
+}
+
+TEST(Explain, SaysWhatSolveWillLeaveOutAndWhichPartsThereAre) {
+  Scene scene = test::lit_cube({0, 0, 0, 0, 0, 0});
+  for (const auto& face : test::box_faces({3, 0, 0}, {4, 1, 1}, true))
+    test::add_polygon(scene, face, 0);
+  const Explanation explanation = explain(PreparedScene(scene), {});
+  ASSERT_EQ(explanation.parts.size(), 2u);
+  EXPECT_TRUE(explanation.parts[0].closed && explanation.parts[1].closed);
+  EXPECT_NE(explanation.parts[0].lit, explanation.parts[1].lit);
+  SolveOptions options;
+  options.elements = 300;
+  const SolveResult result = solve(scene, options);
+  for (const PlannedStage& stage : explanation.stages)
+    EXPECT_EQ(!stage.left_out_because.empty(), is_left_out(result, stage.name)) << stage.name;
+}
+
+TEST(IsOneConvexBody, TellsBodiesFromOpenShells) {
+  Scene scene = test::room({4, 4, 4}, {});
+  for (const auto& face : test::box_faces({1, 1, 1}, {2, 2, 2}, false))
+    test::add_polygon(scene, face, 0);
+  SoundScene sound = make_sound(scene);
+  EXPECT_EQ(blocking_surfaces(sound).size(), 6u);
+  EXPECT_TRUE(is_one_convex_body(sound, blocking_surfaces(sound)));
+  scene.faces.pop_back();
+  sound = make_sound(scene);
+  EXPECT_FALSE(is_one_convex_body(sound, blocking_surfaces(sound)));
+  EXPECT_TRUE(is_one_convex_body(sound, {}));
 }
 
 }  // namespace

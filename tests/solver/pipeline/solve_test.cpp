@@ -59,7 +59,7 @@ TEST(WhiteFurnace, ClosedCube) {
 }
 
 TEST(WhiteFurnace, LRoomWithAnInnerObstruction) {
-  for (const double length : {0.4, 0.2, 0.12}) {
+  for (const double length : {0.5, 0.2, 0.12}) {
     Scene scene = test::l_room(true);
     make_furnace(scene, 2);
     const SolveResult result = solve(scene, with_length(length));

@@ -1,0 +1,28 @@
+#include "apps/command_options.h"
+#include "apps/scene_turning.h"
+
+#include <CLI/CLI.hpp>
+
+namespace halfshade {
+
+void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& common) {
+  CLI::App& app = *program.add_subcommand(
+      "explain", "Say what is in a scene, what of it was repaired and what solve would do");
+  add_scene(app, command.scene);
+  add_materials(app, command.materials, "Materials file, as for solve");
+  add_elements(app, command.options.elements, "About how many elements to reckon with");
+  app.add_option("--tolerance", command.options.tolerance, "As for solve")
+      ->capture_default_str()
+      ->check(number(true));
+  app.add_option("--bounces", command.options.radiosity.bounces, "As for solve")
+      ->check(CLI::Range(0, 100000));
+  add_force(app, command.options.force);
+  add_orientation(app, common.orientation);
+  add_common(app, common);
+  app.footer(
+      footer("Examples:\n"
+             "  halfshade explain data/dining_room.obj\n"
+             "  halfshade explain data/s1.obj --force eee --json plan.json\n\n"));
+}
+
+}  // namespace halfshade

@@ -1,0 +1,155 @@
+#include "solver/exchange/cells.h"
+
+#include "meshing/core/parallel.h"
+#include "solver/exchange/shells.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace halfshade {
+namespace {
+
+/// From the outermost point of a shell in this direction, a ray meets nothing of the shell itself.
+/// No scene has edges in planes with it but by chance.
+const Vec3 outwards = Vec3(0.5346127, 0.2803411, 0.7972053).normalized();
+/// Barycentric coordinates this little below zero count as inside, so that no ray slips through an
+/// edge.
+constexpr double edge_margin = 1e-12;
+/// What rounding may put a corner off, relative to its largest coordinate: shells thinner than this
+/// are sheets.
+constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+struct RayHit {
+  double distance = HUGE_VAL;
+  int element = -1;
+  bool is_front = false;
+};
+
+/// Distance along the ray to where it meets the element's triangle.
+std::optional<double> meet(const std::array<Vec3, 3>& t, const Vec3& origin) {
+  const Vec3 u = t[1] - t[0], v = t[2] - t[0], w = origin - t[0];
+  const Vec3 p = outwards.cross(v), q = w.cross(u);
+  const double determinant = u.dot(p);
+  if (determinant == 0) return std::nullopt;
+  const double b = w.dot(p) / determinant, c = outwards.dot(q) / determinant;
+  if (!(b >= -edge_margin && c >= -edge_margin && b + c <= 1 + edge_margin)) return std::nullopt;
+  return v.dot(q) / determinant;
+}
+
+/// The volume that a shell bounds: positive for the outside of a bounded cell, negative for a body
+/// in a cell, zero for a sheet with both its sides.
+std::vector<double> volumes(const ElementTable& elements, const Shells& shells) {
+  const std::size_t count = static_cast<std::size_t>(shells.count);
+  std::vector<double> volume(count), doubt(count);
+  std::vector<int> origin(count, -1);
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto [front, back] = shells.of_side[at(e)];
+    if (front == back) continue;
+    const auto [a, b, c] = elements.triangle(e);
+    for (const auto& [shell, sign] : {std::pair(front, -1.), std::pair(back, 1.)}) {
+      int& first = origin[at(shell)];
+      if (first < 0) first = elements.corners[at(e)][0];
+      const Vec3& o = elements.points[at(first)];
+      volume[at(shell)] += sign * (a - o).dot((b - o).cross(c - o)) / 6;
+      doubt[at(shell)] +=
+          rounding * elements.area[at(e)] * (a.lpNorm<1>() + b.lpNorm<1>() + c.lpNorm<1>());
+    }
+  }
+  for (std::size_t k = 0; k < count; ++k)
+    if (std::abs(volume[k]) <= doubt[k]) volume[k] = 0;
+  return volume;
+}
+
+/// The outermost point of every shell.
+std::vector<Vec3> outermost_points(const ElementTable& elements, const Shells& shells) {
+  std::vector<Vec3> points(static_cast<std::size_t>(shells.count));
+  std::vector<double> highest(points.size(), -HUGE_VAL);
+  for (int e = 0; e < elements.count(); ++e)
+    for (const int shell : shells.of_side[at(e)])
+      for (const Vec3& p : elements.triangle(e))
+        if (const double height = outwards.dot(p); height > highest[at(shell)]) {
+          highest[at(shell)] = height;
+          points[at(shell)] = p;
+        }
+  return points;
+}
+
+/// The first thing that a ray from the outermost point of a shell meets.
+RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const Shells& shells,
+                    int shell, const Vec3& origin) {
+  // A point that touches another surface may lie beyond it by rounding.
+  const double slack =
+      tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.tolerance.scene_size}).length;
+  RayHit hit;
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto& sides = shells.of_side[at(e)];
+    if (sides[0] == shell || sides[1] == shell) continue;
+    const std::optional<double> distance = meet(elements.triangle(e), origin);
+    if (!distance || *distance < -slack) continue;
+    const bool is_front = outwards.dot(elements.normal[at(e)]) < 0;
+    // Of two that cover each other, the ray comes to the one first that looks at it.
+    const auto plane = [&](int element) {
+      return scene.surfaces[at(elements.surface[at(element)])].plane;
+    };
+    const bool covers = hit.element >= 0 && plane(e) == plane(hit.element);
+    if (covers ? is_front && !hit.is_front : *distance < hit.distance)
+      hit = {*distance, e, is_front};
+  }
+  return hit;
+}
+
+/// Shell → whether fronts look into it.
+std::vector<bool> with_fronts(const Shells& shells) {
+  std::vector<bool> has_fronts(at(shells.count));
+  for (const auto& [front, back] : shells.of_side) has_fronts[at(front)] = true;
+  return has_fronts;
+}
+
+/// Shell → shell in the same cell that is further out; itself for the outside of a bounded cell,
+/// −1 if there is none.
+std::vector<int> find_surroundings(const SoundScene& scene, const ElementTable& elements,
+                                   const Shells& shells) {
+  const std::vector<double> volume = volumes(elements, shells);
+  const std::vector<bool> has_fronts = with_fronts(shells);
+  const std::vector<Vec3> points = outermost_points(elements, shells);
+  std::vector<int> around(volume.size());
+  parallel_for(volume.size(), [&](std::size_t k) {
+    const int shell = static_cast<int>(k);
+    around[k] = shell;
+    // Backs without any volume are those of elements that cover each other.
+    if (volume[k] > 0 || (volume[k] == 0 && !has_fronts[k])) return;
+    const RayHit hit = first_beyond(scene, elements, shells, shell, points[k]);
+    around[k] = hit.element < 0 ? -1 : shells.of_side[at(hit.element)][hit.is_front ? 0 : 1];
+  });
+  return around;
+}
+
+}  // namespace
+
+SpaceCells find_cells(const SoundScene& scene, const ElementTable& elements) {
+  const Shells shells = find_shells(scene, elements);
+  const std::vector<int> around = find_surroundings(scene, elements, shells);
+  // The last set is what extends to infinity.
+  JoinedSets sets(shells.count + 1);
+  for (int k = 0; k < shells.count; ++k)
+    sets.join(k, around[at(k)] < 0 ? shells.count : around[at(k)]);
+  SpaceCells cells;
+  const std::vector<int> cell_of = sets.numbered();
+  const auto count =
+      static_cast<std::size_t>(*std::max_element(cell_of.begin(), cell_of.end())) + 1;
+  cells.closed.assign(count, true);
+  cells.swallowing.assign(count, -1);
+  cells.closed[at(cell_of.back())] = false;
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto [front, back] = shells.of_side[at(e)];
+    cells.of_side.push_back({cell_of[at(front)], cell_of[at(back)]});
+    const std::size_t behind = at(cells.of_side.back()[1]);
+    cells.closed[behind] = false;
+    if (cells.swallowing[behind] < 0) cells.swallowing[behind] = elements.surface[at(e)];
+  }
+  return cells;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,76 @@
+#include "solver/pipeline/blockers.h"
+
+#include "meshing/core/planar.h"
+
+#include <algorithm>
+
+namespace halfshade {
+namespace {
+
+std::vector<Vec3> outline(const Surface& surface) {
+  std::vector<Vec3> corners;
+  for (const Vec2& p : surface.rings.front()) corners.push_back(surface.frame.to_space(p));
+  return corners;
+}
+
+bool is_convex_polygon(const Surface& surface, double margin) {
+  if (surface.rings.size() > 1) return false;
+  const Ring& ring = surface.rings.front();
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 ahead = (ring[(k + 1) % ring.size()] - ring[k]).normalized();
+    for (const Vec2& p : ring)
+      if (cross_2d(ahead, p - ring[k]) < -margin) return false;
+  }
+  return true;
+}
+
+/// Whether another surface has an edge with the same ends.
+bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int own, const Vec3& a,
+               const Vec3& b) {
+  const double margin = scene.tolerance.length;
+  const auto same = [&](const Vec3& p, const Vec3& q) { return (p - q).norm() <= margin; };
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](int s) {
+    const std::vector<Vec3> corners = outline(scene.surfaces[at(s)]);
+    for (std::size_t k = 0; s != own && k < corners.size(); ++k)
+      if (same(corners[k], b) && same(corners[(k + 1) % corners.size()], a)) return true;
+    return false;
+  });
+}
+
+}  // namespace
+
+std::vector<int> blocking_surfaces(const SoundScene& scene) {
+  std::vector<int> blocking;
+  const double margin = scene.tolerance.length;
+  for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
+    if (scene.surfaces[r].back) continue;
+    bool has_before = false, has_behind = false;
+    for (const Surface& other : scene.surfaces)
+      for (const Vec3& p : outline(other)) {
+        const double height = scene.surfaces[r].frame.height(p);
+        has_before = has_before || height > margin;
+        has_behind = has_behind || height < -margin;
+      }
+    if (has_before && has_behind) blocking.push_back(static_cast<int>(r));
+  }
+  return blocking;
+}
+
+bool is_one_convex_body(const SoundScene& scene, const std::vector<int>& surfaces) {
+  const double margin = scene.tolerance.length;
+  for (const int r : surfaces)
+    if (!is_convex_polygon(scene.surfaces[at(r)], margin)) return false;
+  if (surfaces.size() <= 1) return true;
+  for (const int r : surfaces) {
+    const std::vector<Vec3> corners = outline(scene.surfaces[at(r)]);
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      if (!is_shared(scene, surfaces, r, corners[k], corners[(k + 1) % corners.size()]))
+        return false;
+    for (const int s : surfaces)
+      for (const Vec3& p : outline(scene.surfaces[at(s)]))
+        if (scene.surfaces[at(r)].frame.height(p) > margin) return false;
+  }
+  return true;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,107 @@
+#include "solver/pipeline/explain.h"
+
+#include "meshing/patches/patch_mesh.h"
+#include "solver/exchange/cells.h"
+#include "solver/pipeline/blockers.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+namespace halfshade {
+namespace {
+
+/// About how many elements tell which parts of space there are.
+constexpr int coarse_elements = 2000;
+/// Measured on two cores: points with exact direct light a second from an emitter in penumbra, form
+/// factors a second, rays a second.
+constexpr double points_rate = 2e5, factors_rate = 8e5, rays_rate = 6e6;
+
+std::vector<SpacePart> find_parts(const SoundScene& scene, const Progress& progress) {
+  PlanarMeshOptions coarse;
+  coarse.max_length = length_for_count(scene, coarse_elements);
+  const ElementTable elements = PatchMesh(scene, coarse, progress).elements();
+  const SpaceCells cells = find_cells(scene, elements);
+  std::vector<std::set<std::string>> groups(at(cells.count()));
+  std::vector<SpacePart> all(groups.size());
+  for (int e = 0; e < elements.count(); ++e) {
+    const std::size_t cell = at(cells.before(e));
+    groups[cell].insert(scene.groups[at(elements.group[at(e)])]);
+    all[cell].area += elements.area[at(e)];
+    const Material& material = scene.materials[at(elements.material[at(e)])];
+    all[cell].lit = all[cell].lit || (material.exitance > 0).any();
+  }
+  std::vector<SpacePart> parts;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (groups[k].empty()) continue;
+    all[k].groups.assign(groups[k].begin(), groups[k].end());
+    all[k].closed = cells.closed[k];
+    if (const int surface = cells.swallowing[k]; surface >= 0)
+      all[k].swallowing = scene.groups[at(scene.surfaces[at(surface)].group)];
+    parts.push_back(std::move(all[k]));
+  }
+  return parts;
+}
+
+/// Pairs of elements that face each other, if all surfaces are meshed alike.
+double count_factors(const SoundScene& scene, int elements) {
+  double all = 0, squares = 0;
+  for (const Surface& surface : scene.surfaces) {
+    all += area(surface);
+    squares += std::pow(area(surface), 2);
+  }
+  return std::pow(elements, 2) * (1 - squares / (all * all)) / 2;
+}
+
+std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
+                                      const SolveOptions& options, bool any_closed) {
+  const double n = options.elements, factors = count_factors(scene, options.elements);
+  const bool is_clear = blocking_surfaces(scene).empty();
+  double emitters = 0;
+  for (const Surface& surface : scene.surfaces)
+    emitters += (scene.materials[at(surface.material)].exitance > 0).any();
+  const double points = n * emitters * options.direct_points;
+  std::vector<PlannedStage> stages;
+  stages.push_back({"discontinuities", plan.no_discontinuities, "discontinuities",
+                    static_cast<double>(plan.sources.size()), "sources", 0});
+  if (plan.weak_sources > 0)
+    stages.push_back({"curves of weak sources",
+                      fmt::format("{} of them give too little", plan.weak_sources),
+                      "discontinuities", static_cast<double>(plan.weak_sources), "sources", 0});
+  if (plan.no_discontinuities.empty())
+    stages.push_back({"curves at three edges", plan.no_eee, "eee", 0, "", 0});
+  stages.push_back({"mesh", "", "", n, "elements", 0});
+  stages.push_back({"exact direct light", plan.no_exact_direct_light, "direct-light", points,
+                    "points", points / points_rate});
+  stages.push_back(
+      {"form factors", plan.no_factors, "factors", factors, "pairs", factors / factors_rate});
+  if (plan.no_factors.empty()) {
+    const double rays = factors * options.exchange.rays_per_pair;
+    stages.push_back({"visibility rays", is_clear ? "no surface can come between two others" : "",
+                      "", is_clear ? 0 : rays, "rays at most", is_clear ? 0 : rays / rays_rate});
+    stages.push_back({"closure", any_closed ? "" : "light can leave the scene", "", 0, "", 0});
+  }
+  stages.push_back({"second and third channel", plan.no_channels, "channels", 0, "", 0});
+  return stages;
+}
+
+}  // namespace
+
+Explanation explain(const PreparedScene& prepared, const SolveOptions& options,
+                    const Progress& progress) {
+  Explanation explanation;
+  explanation.scene = prepared.scene();
+  explanation.unit = prepared.unit();
+  explanation.warnings = prepared.warnings();
+  std::vector<StageReport> reports;
+  Stages stages(reports);
+  explanation.plan = make_plan(prepared, options, progress, stages);
+  explanation.parts = find_parts(prepared.scene(), progress);
+  bool any_closed = false;
+  for (const SpacePart& part : explanation.parts) any_closed = any_closed || part.closed;
+  explanation.stages = plan_stages(prepared.scene(), explanation.plan, options, any_closed);
+  return explanation;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,136 @@
+#include "solver/pipeline/warnings.h"
+
+#include "meshing/core/plane_frame.h"
+#include "meshing/repair/repair_sentence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// Of the emitted power; beyond it nearly all is lost.
+constexpr double nearly_all = 0.99;
+/// Relative to a face's size or area: what moved by less counts as rounding.
+constexpr double noticeable = 1e-3;
+
+const char* const way_out =
+    "surfaces take part on the side where their corners run counter-clockwise; if they look the "
+    "wrong way, --flip turns all of them and --orient those of closed shells";
+
+/// Whether what was put right may have changed the light.
+bool matters(const Scene& scene, const Repair& repair) {
+  const auto material = [&](int face) -> const Material& {
+    return scene.materials[at(scene.faces[at(face)].material)];
+  };
+  const auto area_of = [&](int face) { return area_vector(face_corners(scene, face)).norm(); };
+  switch (repair.kind) {
+    case Repair::Kind::coplanar_merged:
+      return false;
+    case Repair::Kind::degenerate_dropped: {
+      const int face = repair.faces.front();
+      const LocalScale scale = scale_of(face_corners(scene, face));
+      return (material(face).exitance > 0).any() ||
+             area_of(face) > noticeable * scale.size * scale.size;
+    }
+    case Repair::Kind::duplicate_dropped:
+      return scene.faces[at(repair.faces.front())].material !=
+             scene.faces[at(repair.faces.back())].material;
+    case Repair::Kind::non_planar_triangulated:
+      return repair.size > noticeable * scale_of(face_corners(scene, repair.faces.front())).size;
+    case Repair::Kind::overlap_removed: {
+      // A lamp set into a ceiling, or a rug on a floor, is what its maker wanted.
+      const auto [keeper, loser] = std::pair(repair.faces.front(), repair.faces.back());
+      return (material(loser).exitance > 0).any() ||
+             (repair.size > noticeable * area_of(loser) &&
+              repair.size < (1 - noticeable) * std::min(area_of(keeper), area_of(loser)));
+    }
+  }
+  return false;
+}
+
+bool is_unlit(const LightOutcome& outcome) { return (outcome.solution.irradiance == 0).all(); }
+
+/// Groups without any light on them, those that are nothing but lamps left out.
+std::vector<std::string> dark_groups(const LightOutcome& outcome) {
+  const SoundScene& scene = outcome.scene;
+  std::vector<char> is_lit(scene.groups.size()), receives(scene.groups.size());
+  for (int e = 0; e < outcome.elements.count(); ++e) {
+    const std::size_t group = at(outcome.elements.group[at(e)]);
+    const Material& material = scene.materials[at(outcome.elements.material[at(e)])];
+    if ((material.exitance == 0).all()) receives[group] = 1;
+    if ((outcome.solution.irradiance.row(e) > 0).any()) is_lit[group] = 1;
+  }
+  std::vector<std::string> names;
+  for (std::size_t g = 0; g < is_lit.size(); ++g)
+    if (receives[g] && !is_lit[g]) names.push_back(scene.groups[g]);
+  return names;
+}
+
+double escaping_share(const RadiosityReport& report) {
+  double emitted = 0, escaped = 0;
+  for (const ChannelReport& channel : report.channel) {
+    emitted += channel.emitted_power;
+    escaped += channel.escaped_power;
+  }
+  return emitted > 0 ? escaped / emitted : 0;
+}
+
+}  // namespace
+
+const char* name_of(Warning::Kind kind) {
+  switch (kind) {
+    case Warning::Kind::nothing_lit:
+      return "nothing_lit";
+    case Warning::Kind::light_escapes:
+      return "light_escapes";
+    case Warning::Kind::dark_groups:
+      return "dark_groups";
+    case Warning::Kind::faces_changed:
+      return "faces_changed";
+    case Warning::Kind::lost_by_factors:
+      return "lost_by_factors";
+  }
+  return "";
+}
+
+std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound) {
+  std::vector<const Repair*> found;
+  for (const Repair& repair : sound.repairs)
+    if (matters(scene, repair)) found.push_back(&repair);
+  if (found.empty()) return {};
+  std::string text = fmt::format("making the scene sound may have changed its light: {}",
+                                 sentence(*found.front(), sound));
+  if (found.size() > 1)
+    text += fmt::format("; and {} more like it (--verbose lists them)", found.size() - 1);
+  return {{Warning::Kind::faces_changed, text}};
+}
+
+std::vector<Warning> light_warnings(const LightOutcome& outcome) {
+  std::vector<Warning> warnings;
+  const double escaping = escaping_share(outcome.radiosity);
+  const std::vector<std::string> dark = dark_groups(outcome);
+  if (is_unlit(outcome))
+    warnings.push_back(
+        {Warning::Kind::nothing_lit, fmt::format("no light reaches any surface; {}", way_out)});
+  else if (escaping > nearly_all)
+    warnings.push_back(
+        {Warning::Kind::light_escapes,
+         fmt::format("{:.4g} % of the light leaves the scene; {}", 100 * escaping, way_out)});
+  if (!is_unlit(outcome) && !dark.empty())
+    warnings.push_back({Warning::Kind::dark_groups,
+                        fmt::format("no light reaches the group{} {}; {}",
+                                    dark.size() == 1 ? "" : "s", fmt::join(dark, ", "), way_out)});
+  if (outcome.exchange.unfinished > 0)
+    warnings.push_back(
+        {Warning::Kind::lost_by_factors,
+         fmt::format("in {} closed space{} form factors of an element are off by {:.2g} in all, so "
+                     "light gets lost there; more --rays or --elements help",
+                     outcome.exchange.unfinished, outcome.exchange.unfinished == 1 ? "" : "s",
+                     outcome.exchange.closure_error_max)});
+  return warnings;
+}
+
+}  // namespace halfshade

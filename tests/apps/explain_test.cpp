@@ -1,0 +1,78 @@
+#include "tests/support/files.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+namespace fs = std::filesystem;
+
+test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder) {
+  arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+  return test::run_program(std::move(arguments), folder);
+}
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A cube whose faces look outwards, with a lamp inside.
+void write_inside_out(const fs::path& folder) {
+  std::ofstream(folder / "s.mtl") << "newmtl grey\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n";
+  std::ofstream(folder / "s.obj")
+      << "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nv 1 1 1\n"
+         "v .3 .3 .5\nv .6 .3 .5\nv .6 .6 .5\nv .3 .6 .5\nusemtl grey\ng body\nf 1 5 7 3\n"
+         "f 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\nusemtl lamp\ng lamp\n"
+         "f 9 12 11 10\n";
+}
+
+TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
+  const test::TempDir folder;
+  const std::string s1 = (fs::path(HALFSHADE_DATA) / "s1.obj").string();
+  const test::Outcome outcome = halfshade({"explain", s1, "--json", "p.json"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "left out     curves at three edges")) << outcome.out;
+  EXPECT_TRUE(has(outcome.out, "--force eee"));
+  EXPECT_TRUE(has(outcome.out, "runs         exact direct light"));
+  nlohmann::json report;
+  std::ifstream(folder.path() / "p.json") >> report;
+  EXPECT_EQ(report["channels"], 1);
+  EXPECT_EQ(report["sources"].size(), 1u);
+  EXPECT_FALSE(report["parts"][0]["closed"]);
+  const test::Outcome forced = halfshade({"explain", s1, "--force", "eee,channels"}, folder.path());
+  EXPECT_TRUE(has(forced.out, "runs         curves at three edges"));
+  EXPECT_TRUE(has(forced.out, "runs         second and third channel"));
+  EXPECT_EQ(halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code, 2);
+}
+
+TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
+  const test::TempDir folder;
+  write_inside_out(folder.path());
+  const auto solve = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"solve", "s.obj", "--elements", "200",
+                                          "-o",    "o.vtu", "--json",     "r.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return halfshade(arguments, folder.path());
+  };
+  const test::Outcome outcome = solve({});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(has(outcome.err, "warning: no light reaches any surface")) << outcome.err;
+  nlohmann::json report;
+  std::ifstream(folder.path() / "r.json") >> report;
+  EXPECT_EQ(report["warnings"][0]["kind"], "nothing_lit");
+  for (const char* way : {"--flip", "--orient"}) {
+    EXPECT_FALSE(has(solve({way}).err, "warning")) << way;
+    std::ifstream(folder.path() / "r.json") >> report;
+    EXPECT_TRUE(report["warnings"].empty());
+    EXPECT_GT(report["groups"][0]["mean_irradiance"][0], 0.01) << way;
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,142 @@
+#include "solver/pipeline/warnings.h"
+
+#include "solver/pipeline/solve.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+SolveOptions coarse() {
+  SolveOptions options;
+  options.elements = 200;
+  return options;
+}
+
+std::string sentence_of(const SolveResult& result, Warning::Kind kind) {
+  for (const Warning& warning : result.warnings)
+    if (warning.kind == kind) return warning.sentence;
+  return "";
+}
+
+TEST(Warnings, NoneInARoomInOrder) {
+  EXPECT_TRUE(solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse()).warnings.empty());
+}
+
+TEST(Warnings, SurfacesThatLookAwayFromEveryLight) {
+  Scene scene;
+  const int grey = test::add_material(scene, .5, 0), light = test::add_material(scene, 0, 1);
+  for (const auto& face : test::box_faces({0, 0, 0}, {1, 1, 1}, false))
+    test::add_polygon(scene, face, grey);
+  test::add_polygon(scene, {{.3, .3, .5}, {.3, .6, .5}, {.6, .6, .5}, {.6, .3, .5}}, light);
+  EXPECT_NE(sentence_of(solve(scene, coarse()), Warning::Kind::nothing_lit).find("--orient"),
+            std::string::npos);
+}
+
+TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
+  Scene scene;
+  const int grey = test::add_material(scene, .5, 0), light = test::add_material(scene, 0, 1);
+  scene.groups = {"lamp", "near", "turned"};
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
+  test::add_polygon(scene, {{0, .1, 1}, {.1, .1, 1}, {.1, 0, 1}, {0, 0, 1}}, grey);
+  test::add_polygon(scene, {{.5, .5, 1}, {.6, .5, 1}, {.6, .6, 1}, {.5, .6, 1}}, grey);
+  for (int f = 0; f < 3; ++f) scene.faces[at(f)].group = f;
+  const SolveResult result = solve(scene, coarse());
+  EXPECT_NE(sentence_of(result, Warning::Kind::light_escapes).find("99"), std::string::npos);
+  const std::string dark = sentence_of(result, Warning::Kind::dark_groups);
+  EXPECT_NE(dark.find("turned"), std::string::npos);
+  EXPECT_EQ(dark.find("near"), std::string::npos);
+  EXPECT_EQ(dark.find("lamp"), std::string::npos);
+}
+
+TEST(Warnings, ARepairThatChangesTheLight) {
+  Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  test::add_polygon(scene, face_corners(scene, 4), test::add_material(scene, .9, 0));
+  EXPECT_NE(sentence_of(solve(scene, coarse()), Warning::Kind::faces_changed), "");
+}
+
+TEST(Solve, AsksForAnEmitterAfterTheRepair) {
+  Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  scene.materials[5].exitance.setZero();
+  test::add_polygon(scene, {{.1, .1, .5}, {.2, .1, .5}, {.3, .1, .5}},
+                    test::add_material(scene, 0, 1));
+  test::expect_error([&] { solve(scene, coarse()); }, ErrorCode::invalid_input, {"light", "left"});
+}
+
+TEST(Solve, RefusesLightThatNumbersDoNotHold) {
+  for (const double exitance : {1e300, 1e-300}) {
+    Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+    scene.materials[5].exitance = Rgb::Constant(exitance);
+    test::expect_error([&] { solve(scene, coarse()); }, ErrorCode::invalid_input, {"emits"});
+  }
+}
+
+TEST(Solve, ScalesWithTheLight) {
+  Scene scene = test::lit_cube({.5, .3, .7, .5, .9, .2});
+  const SolveResult one = solve(scene, coarse());
+  for (const int exponent : {-500, 500}) {
+    scene.materials[5].exitance = Rgb::Constant(std::ldexp(1., exponent));
+    const SolveResult result = solve(scene, coarse());
+    EXPECT_LE((result.solution.radiosity * std::ldexp(1., -exponent) - one.solution.radiosity)
+                  .abs()
+                  .maxCoeff(),
+              1e-12);
+    EXPECT_NEAR(result.relative_error, one.relative_error, 1e-9);
+  }
+}
+
+TEST(Solve, ARoomThatAbsorbsNextToNothing) {
+  const double rho = 1 - 1e-12;
+  const SolveResult result = solve(test::lit_cube({rho, rho, rho, rho, rho, rho}), coarse());
+  // Φ/(A (1 − ρ)) everywhere, but for some W/m².
+  const double expected = 1 / (6 * (1 - rho));
+  EXPECT_LE((result.solution.irradiance / expected - 1).abs().maxCoeff(), 1e-9);
+  test::expect_error(
+      [&] {
+        solve(test::lit_cube({1, 1, 1, 1, 1, 1}), coarse());
+      },
+      ErrorCode::invalid_input, {"group all", "reflectance"});
+}
+
+TEST(Solve, RoomsSideBySideAreSystemsOfTheirOwn) {
+  Scene scene = test::lit_cube({.7, .7, .7, .7, .7, .7});
+  scene.materials[5].exitance = Rgb::Constant(1e-30);
+  const int bright = test::add_material(scene, .7, 1e30);
+  const auto faces = test::box_faces({1, 0, 0}, {2, 1, 1}, true);  // they share a wall
+  for (std::size_t f = 0; f < 6; ++f) test::add_polygon(scene, faces[f], f == 5 ? bright : 0);
+  const SolveResult result = solve(scene, coarse());
+  EXPECT_EQ(result.radiosity.systems, 2);
+  Eigen::Array2d power = Eigen::Array2d::Zero();
+  for (int e = 0; e < result.elements.count(); ++e)
+    power[result.elements.face[at(e)] < 6 ? 0 : 1] +=
+        result.elements.area[at(e)] * result.solution.irradiance(e, 0);
+  // The mean irradiance is Φ/(A (1 − ρ)).
+  EXPECT_NEAR(power[0] * 1e30, 1 / .3, 1e-9);
+  EXPECT_NEAR(power[1] * 1e-30, 1 / .3, 1e-9);
+}
+
+TEST(Solve, PlatesWithANarrowGapLoseLight) {
+  for (const double rho : {.999, 1.}) {
+    Scene scene;
+    const int light = test::add_material(scene, rho, 1), dark = test::add_material(scene, rho, 0);
+    test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
+    test::add_polygon(scene, {{0, 1, 1e-3}, {1, 1, 1e-3}, {1, 0, 1e-3}, {0, 0, 1e-3}}, dark);
+    const SolveResult result = solve(scene, coarse());
+    EXPECT_FALSE(result.exchange.closed);
+    // 1 − F of parallel unit squares at a distance of 1e-3, by the closed form.
+    EXPECT_NEAR(result.exchange.escaping_fraction, 1.99437e-3, 1e-6);
+    const ChannelReport& channel = result.radiosity.channel[0];
+    EXPECT_GT(channel.escaped_power, 0.1);
+    EXPECT_LE(channel.balance, 1e-6);
+    if (rho == 1) {
+      EXPECT_NEAR(channel.escaped_power, 1, 1e-6);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -18,7 +18,7 @@ Json scene_json(const SoundScene& scene, std::size_t cameras) {
           {"materials", scene.materials.size()},
           {"groups", scene.groups.size()},
           {"cameras", cameras},
-          {"diagonal", scene.tolerance.scene_size}};
+          {"diagonal", scene.diagonal}};
 }
 
 Json repairs_json(const SoundScene& scene) {

@@ -111,6 +111,16 @@ std::vector<Vec3> face_corners(const Scene& scene, int face) {
   return corners;
 }
 
+double diagonal(const Scene& scene) {
+  Vec3 low = Vec3::Constant(HUGE_VAL), high = -low;
+  for (const Face& face : scene.faces)
+    for (const int v : face.vertices) {
+      low = low.cwiseMin(scene.vertices[at(v)]);
+      high = high.cwiseMax(scene.vertices[at(v)]);
+    }
+  return (high - low).stableNorm();
+}
+
 void validate(const Scene& scene) {
   if (scene.faces.empty()) reject(scene, "there are no faces");
   for (const Material& material : scene.materials) check_material(scene, material);

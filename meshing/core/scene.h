@@ -52,6 +52,9 @@ std::string face_label(const Scene& scene, int face);
 /// The corners of a face, in order. `face` must be valid.
 std::vector<Vec3> face_corners(const Scene& scene, int face);
 
+/// Diagonal of the bounding box of all faces, scene units. The faces must be valid.
+double diagonal(const Scene& scene);
+
 /// Checks that everything the rest of halfshade relies on holds: indices in range, ≥ 3 vertices per
 /// face, finite coordinates whose size and spread double precision can carry, 0 ≤ rho ≤ 1,
 /// finite exitance ≥ 0, at least one face, usable cameras. Throws Error(invalid_input) with the

@@ -50,7 +50,7 @@ struct SoundScene {
   std::vector<Material> materials;  ///< as in the scene
   std::vector<std::string> groups;  ///< as in the scene
   std::vector<int> face_lines;      ///< Face::line of every input face
-  Tolerance tolerance;
+  double diagonal = 0;              ///< of the bounding box of all input faces, scene units
   std::vector<Repair> repairs;
 };
 

@@ -22,7 +22,8 @@ LocalScale scale_of(std::span<const Vec3> points);
 /// Of two things together.
 LocalScale joint_scale(const LocalScale& a, const LocalScale& b);
 
-/// Lengths below which parts of things of one scale count as one.
+/// Lengths below which parts of things of one scale count as one. Topological decisions (which
+/// side, do they cross) are made by exact predicates, not by these.
 struct LocalTolerance {
   double length = 0;     ///< points closer than this are the same point
   double planarity = 0;  ///< a polygon deviating less than this from its plane is planar; ≥ length
@@ -33,16 +34,5 @@ struct LocalTolerance {
 /// noticeable part of its own size, however large its coordinates are, nor is anything asked of
 /// doubles that they do not hold.
 LocalTolerance tolerance_of(const LocalScale& scale);
-
-/// Every length below which two things count as one, derived from the scene's size in one place.
-/// Topological decisions (which side, do they cross) are made by exact predicates, not by these.
-struct Tolerance {
-  double scene_size = 1;  ///< diagonal of the bounding box of all faces
-  double length = 0;      ///< points closer than this are the same point
-  double planarity = 0;   ///< a polygon deviating less than this from its plane is planar
-};
-
-/// Precondition: `scene` is valid.
-Tolerance make_tolerance(const Scene& scene);
 
 }  // namespace halfshade

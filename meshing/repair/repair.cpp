@@ -144,7 +144,7 @@ SoundScene make_sound(const Scene& scene) {
   sound.materials = scene.materials;
   sound.groups = scene.groups;
   for (const Face& face : scene.faces) sound.face_lines.push_back(face.line);
-  sound.tolerance = make_tolerance(scene);
+  sound.diagonal = diagonal(scene);
   WeldedVertices vertices = weld(scene);
   const std::vector<FacePiece> pieces = clean_faces(scene, vertices, sound.repairs);
   std::vector<SurfaceDraft> drafts = make_drafts(scene, pieces, vertices.points, sound.repairs);

@@ -207,7 +207,8 @@ class Assembly {
       }
       if (cells_.before(j) != cell || (only && !(*only)[at(i)] && !(*only)[at(j)])) continue;
       const Shape& b = shapes_[static_cast<std::size_t>(j)];
-      double value = unobstructed(a, b, options_.tolerance, scene_.tolerance.length);
+      const double margin = tolerance_of(scene_.surfaces[at(r)], scene_.surfaces[at(s)]).length;
+      double value = unobstructed(a, b, options_.tolerance, margin);
       if (!(value > 0)) continue;
       if (sight == Sight::sampled && a.box.merged(b.box).intersects(pairs_.blockers(r, s))) {
         const int count = ray_count(i, j, value);

@@ -80,8 +80,7 @@ std::vector<Vec3> outermost_points(const ElementTable& elements, const Shells& s
 RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const Shells& shells,
                     int shell, const Vec3& origin) {
   // A point that touches another surface may lie beyond it by rounding.
-  const double slack =
-      tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.tolerance.scene_size}).length;
+  const double slack = tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.diagonal}).length;
   RayHit hit;
   for (int e = 0; e < elements.count(); ++e) {
     const auto& sides = shells.of_side[at(e)];

@@ -27,10 +27,10 @@ bool is_convex_polygon(const Surface& surface, double margin) {
 /// Whether another surface has an edge with the same ends.
 bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int own, const Vec3& a,
                const Vec3& b) {
-  const double margin = scene.tolerance.length;
-  const auto same = [&](const Vec3& p, const Vec3& q) { return (p - q).norm() <= margin; };
   return std::any_of(surfaces.begin(), surfaces.end(), [&](int s) {
     const std::vector<Vec3> corners = outline(scene.surfaces[at(s)]);
+    const double margin = tolerance_of(scene.surfaces[at(own)], scene.surfaces[at(s)]).length;
+    const auto same = [&](const Vec3& p, const Vec3& q) { return (p - q).norm() <= margin; };
     for (std::size_t k = 0; s != own && k < corners.size(); ++k)
       if (same(corners[k], b) && same(corners[(k + 1) % corners.size()], a)) return true;
     return false;
@@ -41,12 +41,12 @@ bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int ow
 
 std::vector<int> blocking_surfaces(const SoundScene& scene) {
   std::vector<int> blocking;
-  const double margin = scene.tolerance.length;
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     if (scene.surfaces[r].back) continue;
     bool has_before = false, has_behind = false;
     for (const Surface& other : scene.surfaces)
       for (const Vec3& p : outline(other)) {
+        const double margin = tolerance_of(scene.surfaces[r], other).length;
         const double height = scene.surfaces[r].frame.height(p);
         has_before = has_before || height > margin;
         has_behind = has_behind || height < -margin;
@@ -57,18 +57,22 @@ std::vector<int> blocking_surfaces(const SoundScene& scene) {
 }
 
 bool is_one_convex_body(const SoundScene& scene, const std::vector<int>& surfaces) {
-  const double margin = scene.tolerance.length;
-  for (const int r : surfaces)
-    if (!is_convex_polygon(scene.surfaces[at(r)], margin)) return false;
+  const auto is_convex = [&](int r) {
+    const Surface& surface = scene.surfaces[at(r)];
+    return is_convex_polygon(surface, tolerance_of(surface).length);
+  };
+  if (!std::all_of(surfaces.begin(), surfaces.end(), is_convex)) return false;
   if (surfaces.size() <= 1) return true;
   for (const int r : surfaces) {
     const std::vector<Vec3> corners = outline(scene.surfaces[at(r)]);
     for (std::size_t k = 0; k < corners.size(); ++k)
       if (!is_shared(scene, surfaces, r, corners[k], corners[(k + 1) % corners.size()]))
         return false;
-    for (const int s : surfaces)
+    for (const int s : surfaces) {
+      const double margin = tolerance_of(scene.surfaces[at(r)], scene.surfaces[at(s)]).length;
       for (const Vec3& p : outline(scene.surfaces[at(s)]))
         if (scene.surfaces[at(r)].frame.height(p) > margin) return false;
+    }
   }
   return true;
 }

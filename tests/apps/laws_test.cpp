@@ -35,8 +35,6 @@ Scene with_exitance(Scene scene, double factor) {
   return scene;
 }
 
-double diagonal(const Scene& scene) { return scale_of(scene.vertices).size; }
-
 /// Receiving points spread over the scene, and a little inside their surfaces.
 std::vector<SurfacePoint> places(const Scene& scene) {
   MeshOptions coarse;

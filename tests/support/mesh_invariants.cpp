@@ -116,7 +116,7 @@ int expect_alike_across_surfaces(const ElementTable& table, const SoundScene& sc
     int surface;
     Vec3 low, high, a, b;
   };
-  if (near == 0) near = scene.tolerance.length;
+  if (near == 0) near = 1e-9 * scene.diagonal;
   std::vector<Wall> walls;
   for (int e = 0; e < table.count(); ++e)
     for (std::size_t k = 0; k < 3; ++k) {

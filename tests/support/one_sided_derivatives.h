@@ -30,7 +30,7 @@ class JumpMeter {
     const PlaneFrame& frame = scene_.surfaces[static_cast<std::size_t>(surface)].frame;
     const Line line{frame.to_space(at), across.x() * frame.e1 + across.y() * frame.e2, frame.normal,
                     emitter};
-    const double size = scene_.tolerance.scene_size;
+    const double size = scene_.diagonal;
     for (double reach = std::min(share * clear, longest * size); reach > shortest * size;
          reach *= 0.5) {
       const auto left = sample(line, reach), right = sample(line, -reach);

@@ -18,7 +18,7 @@ inline SolveResult sample_result(int n) {
   result.scene.surfaces[0].faces = {0, 1};
   result.scene.repairs = {{Repair::Kind::coplanar_merged, {0, 1}}};
   result.scene.face_lines = {0, 7};
-  result.scene.tolerance.scene_size = std::sqrt(2.0);
+  result.scene.diagonal = std::sqrt(2.0);
   Camera camera;
   camera.name = "above";
   camera.position = {0.5, 0.5, 3};

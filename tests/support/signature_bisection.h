@@ -73,7 +73,7 @@ class SegmentAuditor {
         signer_(scene, opaque),
         finder_(opaque),
         curves_(curves),
-        size_(scene.tolerance.scene_size),
+        size_(scene.diagonal),
         limit_(accepted * size_ + rounding * opaque.topology().magnitude) {}
 
   /// `count` segments on surfaces chosen at random among those where something can be seen.

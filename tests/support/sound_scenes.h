@@ -28,7 +28,7 @@ inline void add_surface(SoundScene& scene, const std::vector<std::vector<Vec3>>&
   surface.plane = static_cast<int>(scene.surfaces.size());
   for (const Surface& other : scene.surfaces)
     if (std::abs(std::abs(other.frame.normal.dot(surface.frame.normal)) - 1) < 1e-13 &&
-        std::abs(other.frame.height(surface.frame.origin)) < 1e-12 * scene.tolerance.scene_size) {
+        std::abs(other.frame.height(surface.frame.origin)) < 1e-12 * scene.diagonal) {
       surface.plane = other.plane;
       break;
     }
@@ -43,8 +43,7 @@ inline SoundScene empty_sound_scene(double size) {
   scene.materials[1].name = "light";
   scene.materials[1].exitance = Rgb::Ones();
   scene.groups = {"all"};
-  scene.tolerance.scene_size = size;
-  scene.tolerance.length = scene.tolerance.planarity = 1e-9 * size;
+  scene.diagonal = size;
   return scene;
 }
 
@@ -53,7 +52,7 @@ inline SoundScene as_it_is(const Scene& scene) {
   SoundScene sound;
   sound.materials = scene.materials;
   sound.groups = scene.groups;
-  sound.tolerance = make_tolerance(scene);
+  sound.diagonal = diagonal(scene);
   for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f)
     add_surface(sound, {face_corners(scene, f)}, scene.faces[static_cast<std::size_t>(f)].material);
   return sound;

@@ -57,9 +57,7 @@ inline void finish(SoundScene& scene) {
         high = high.cwiseMax(surface.frame.to_space(q));
       }
   scene.groups = {"all"};
-  scene.tolerance.scene_size = (high - low).norm();
-  scene.tolerance.length = 1e-9 * scene.tolerance.scene_size;
-  scene.tolerance.planarity = 1e-6 * scene.tolerance.scene_size;
+  scene.diagonal = (high - low).norm();
 }
 
 /// Rectangle x0…x1 × y0…y1 at height z that faces down.

@@ -115,7 +115,7 @@ class VisibilityOracle {
       if (surface.plane == source.plane || surface.back) continue;
       const Real height =
           surface.frame.normal.cast<Real>().dot(x - surface.frame.origin.cast<Real>());
-      if (std::abs(height) < 1e-14L * static_cast<Real>(scene_.tolerance.scene_size)) continue;
+      if (std::abs(height) < 1e-14L * static_cast<Real>(scene_.diagonal)) continue;
       RealPolygon polygon;
       for (const Vec2& p : surface.rings[0]) polygon.push_back(corner(surface, p) - x);
       polygon = clip(clip(polygon, towards), -towards, -distance);

@@ -36,7 +36,7 @@ class Signer {
       : scene_(scene),
         opaque_(opaque),
         line_of_edge_(join_lines(opaque)),
-        rounding_(1e-12 * scene.tolerance.scene_size + 0x1p-46 * opaque.topology().magnitude) {}
+        rounding_(1e-12 * scene.diagonal + 0x1p-46 * opaque.topology().magnitude) {}
 
   /// `normal`: of the surface that the point lies on.
   Signature operator()(const VisiblePart& part, const Vec3& point, const Vec3& normal,

@@ -1,6 +1,5 @@
 #include "meshing/core/scene.h"
 
-#include "meshing/core/tolerance.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
 
@@ -158,19 +157,11 @@ TEST(FaceCorners, KeepTheOrderOfTheFace) {
   EXPECT_EQ(corners[2], Vec3(0, 1, 0));
 }
 
-TEST(Tolerance, GrowsWithTheSceneAndIgnoresUnusedVertices) {
+TEST(Diagonal, IgnoresUnusedVertices) {
   Scene scene = square();
-  const double size = make_tolerance(scene).scene_size;
-  EXPECT_DOUBLE_EQ(size, std::sqrt(2.0));
+  EXPECT_DOUBLE_EQ(diagonal(scene), std::sqrt(2.0));
   scene.vertices.emplace_back(100, 100, 100);
-  EXPECT_EQ(make_tolerance(scene).scene_size, size);
-  const Tolerance small = make_tolerance(scene);
-  for (Vec3& p : scene.vertices) p *= 8;  // a power of two scales exactly
-  const Tolerance large = make_tolerance(scene);
-  EXPECT_EQ(large.length, 8 * small.length);
-  EXPECT_EQ(large.planarity, 8 * small.planarity);
-  EXPECT_LT(small.length, small.planarity);
-  EXPECT_GT(small.length, 0);
+  EXPECT_DOUBLE_EQ(diagonal(scene), std::sqrt(2.0));
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST(DiscontinuityMesh, EdgesRunAlongCurvesOverSharedEdges) {
 
 TEST(DiscontinuityMesh, CurvesThatMeetAtASharedEdgeButForRoundingMakeOneVertex) {
   const SoundScene scene = corner();
-  const double size = scene.tolerance.scene_size;
+  const double size = scene.diagonal;
   for (const double off : {0., 1e-12, 1e-9, 3e-8}) {
     Discontinuities found;
     found.curves.push_back(

@@ -97,7 +97,7 @@ TEST(DiscontinuityCompleteness, EventsAtTheHorizonAreSmoothToTheSecondOrder) {
     for (const SignatureChange& change : audit.at_horizon) {
       const Vec2 across = (change.after - change.before).normalized();
       // Near the edges of occluders the irradiance varies fast.
-      const double clear = std::min(change.miss, 2e-4 * scene.tolerance.scene_size);
+      const double clear = std::min(change.miss, 2e-4 * scene.diagonal);
       const auto jump = test::JumpMeter(scene, index)
                             .measure(change.receiver, change.emitter,
                                      0.5 * (change.before + change.after), across, clear);

@@ -101,7 +101,7 @@ void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m
   VisiblePartFinder finder(opaque);
   VisiblePart part;
   test::Random random(8);
-  const double allowed = 1.01 * m.mesh.report.deviation + 1e-9 * scene.tolerance.scene_size;
+  const double allowed = 1.01 * m.mesh.report.deviation + 1e-9 * scene.diagonal;
   HorizonJudge judge(scene, opaque);
   const DirectLightIndex index(scene);
   int wrong = 0;

@@ -14,8 +14,9 @@ namespace halfshade::detail {
 
 using Json = nlohmann::ordered_json;
 
-/// How much there is of everything.
-Json scene_json(const SoundScene& scene, std::size_t cameras);
+/// How much there is of everything, and the names that go with the numbers in result files.
+Json scene_json(const SoundScene& scene, const std::vector<Camera>& cameras);
+/// Faces count from 1 here, as in the sentences.
 Json repairs_json(const SoundScene& scene);
 Json stages_json(const std::vector<StageReport>& stages);
 
@@ -29,6 +30,7 @@ Json search_json(const DiscontinuityReport& report);
 Json along_curves_json(const DiscontinuityMeshReport& report);
 
 Json exchange_json(const ExchangeReport& report);
+/// One channel where all are equal.
 Json radiosity_json(const RadiosityReport& report);
 
 }  // namespace halfshade::detail

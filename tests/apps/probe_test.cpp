@@ -34,7 +34,9 @@ class Probe : public testing::Test {
     std::istringstream lines(file(name));
     std::vector<std::vector<double>> rows;
     std::string line;
-    std::getline(lines, line);
+    do {
+      std::getline(lines, line);
+    } while (line.starts_with('#'));
     while (std::getline(lines, line)) {
       std::istringstream cells(line);
       rows.emplace_back();
@@ -134,7 +136,9 @@ TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
   EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
   const auto report = nlohmann::json::parse(file("r.json"));
   EXPECT_EQ(report.at("interrupted"), true);
+  EXPECT_EQ(report.at("status"), "interrupted");
   EXPECT_EQ(report.at("points_done"), numbers("o.csv").size());
+  EXPECT_EQ(file("o.csv").substr(0, 15), "# interrupted: ");
 }
 
 TEST_F(Probe, ExamplesOfTheHelpRun) {

@@ -182,6 +182,7 @@ class NotingFiles : public Assimp::DefaultIOSystem {
 
 SceneDraft read_with_assimp(const std::filesystem::path& path) {
   require_readable(path);
+  if (is_gltf(path)) require_whole_glb(path);
   std::vector<std::filesystem::path> files;
   Assimp::Importer importer;
   importer.SetIOHandler(new NotingFiles(files));  // which the importer deletes

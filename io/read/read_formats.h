@@ -52,6 +52,10 @@ void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
 /// True for .gltf and .glb files.
 bool is_gltf(const std::filesystem::path& path);
 
+/// Fails if the chunks of a binary glTF file are longer than the file: assimp would ask for memory
+/// for them.
+void require_whole_glb(const std::filesystem::path& path);
+
 /// The factors of KHR_materials_emissive_strength, which assimp leaves out, by material name.
 std::map<std::string, double> gltf_emissive_strengths(const std::filesystem::path& path);
 

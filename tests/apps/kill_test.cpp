@@ -121,19 +121,21 @@ TEST_P(KilledAtAnyMoment, LeavesOldWholeOrMarkedFiles) {
 
 INSTANTIATE_TEST_SUITE_P(
     Commands, KilledAtAnyMoment,
-    testing::Values(Command{"solve",
-                            {"DATA/cornell_box.obj", "--elements", "400", "-q", "-o", "a.vtu", "-o",
-                             "a.ply", "-o", "a.png"},
-                            {"a.vtu", "a.ply", "a.png"}},
-                    Command{"mesh",
-                            {"DATA/skew_bars.obj", "-q", "-o", "a.vtu", "-o", "a.ply", "--curves",
-                             "c.vtp", "--picture", "a.png", "--pixels", "150"},
-                            {"a.vtu", "a.ply", "c.vtp", "a.png"}},
-                    Command{"probe",
-                            {"DATA/bars.obj", "--grid", "floor", "--spacing", "0.015", "--direct",
-                             "-q", "-o", "a.csv"},
-                            {"a.csv"}},
-                    Command{"render", {"DATA/dining_room.obj", "-q", "-o", "a.png"}, {"a.png"}}),
+    testing::Values(
+        Command{"solve",
+                {"DATA/l_room.obj", "--elements", "600", "-q", "-o", "a.vtu", "-o", "a.ply"},
+                {"a.vtu", "a.ply"}},
+        Command{"mesh",
+                {"DATA/skew_bars.obj", "-q", "-o", "a.vtu", "-o", "a.ply", "--curves", "c.vtp",
+                 "--picture", "a.png", "--pixels", "150"},
+                {"a.vtu", "a.ply", "c.vtp", "a.png"}},
+        Command{"probe",
+                {"DATA/bars.obj", "--grid", "floor", "--spacing", "0.03", "--direct", "-q", "-o",
+                 "a.csv"},
+                {"a.csv"}},
+        Command{"render",
+                {"DATA/dining_room.obj", "-q", "-o", "a.png", "--width", "200", "--height", "150"},
+                {"a.png"}}),
     [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -33,6 +33,16 @@ int face_in_group(const Scene& scene, const std::string& group) {
   return 0;
 }
 
+TEST(ReadGltf, RefusesChunksLongerThanTheFile) {
+  const TempDir folder;
+  for (const std::size_t at : {12U, 14U, 15U}) {  // the length of the first chunk
+    std::string bytes = as_glb(gltf_triangle());
+    bytes[at] = '\x7f';
+    expect_error([&] { read_scene(folder.write("a.glb", bytes)); }, ErrorCode::invalid_input,
+                 {"a.glb", at == 12 ? "" : "bytes is announced"});
+  }
+}
+
 TEST(ReadGltf, AppliesTransformsNamesAndMaterials) {
   const TempDir folder;
   for (const auto& path : {folder.write("a.gltf", gltf_triangle().dump()),

@@ -9,20 +9,27 @@
 #include <vtkIdList.h>
 #include <vtkPointData.h>
 
-#include <regex>
 #include <set>
 #include <string>
 
 /// What programs other than ours ask of a VTK file.
 namespace halfshade::test {
 
-/// Attributes of the tags named DataArray or Array, one string each.
+/// Tags named DataArray or Array, one string each.
 inline std::vector<std::string> array_tags(const std::string& xml) {
-  static const std::regex tag("<(Data)?Array [^>]*>");
   std::vector<std::string> tags;
-  for (std::sregex_iterator it(xml.begin(), xml.end(), tag), end; it != end; ++it)
-    tags.push_back(it->str());
+  for (std::size_t at = xml.find("Array "); at != std::string::npos;
+       at = xml.find("Array ", at + 1))
+    tags.push_back(xml.substr(at, xml.find('>', at) - at));
   return tags;
+}
+
+/// type="Float64" and the like: numbers of a size that every reader knows.
+inline bool has_numbers(const std::string& tag) {
+  for (const char* kind : {"Float", "Int", "UInt"})
+    for (const char* bits : {"8", "32", "64"})
+      if (tag.find(std::string("type=\"") + kind + bits + '"') != std::string::npos) return true;
+  return false;
 }
 
 inline void expect_colours_are_named(vtkFieldData* data) {
@@ -45,7 +52,7 @@ inline void expect_sound_vtk(const std::filesystem::path& path) {
   for (const std::string& tag : array_tags(xml)) {
     EXPECT_EQ(tag.find("String"), std::string::npos) << path << ": " << tag;
     EXPECT_NE(tag.find("format=\"binary\""), std::string::npos) << path << ": " << tag;
-    EXPECT_TRUE(std::regex_search(tag, std::regex("type=\"(Float|U?Int)(8|32|64)\""))) << tag;
+    EXPECT_TRUE(has_numbers(tag)) << tag;
   }
   EXPECT_GT(array_tags(xml).size(), 3U) << path;
   const auto grid = read_vtk(path);

@@ -2,9 +2,11 @@
 
 #include "meshing/core/error.h"
 
+#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace halfshade {
@@ -32,6 +34,47 @@ struct TriangleRules {
   }
 };
 
+/// Places in [−1, 1] and weights that sum to 1.
+struct LineRule {
+  Eigen::VectorXd places, weights;
+};
+
+/// Gauss's rule with `count` places for the weight (1 − x)^alpha, alpha 0 or 1.
+LineRule line_rule(int count, int alpha) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(count, count);
+  for (int k = 0; k < count; ++k) {
+    const double sum = 2. * k + alpha;
+    jacobi(k, k) = alpha == 0 ? 0 : -1 / (sum * (sum + 2));
+    if (k == 0) continue;
+    const double square =
+        4. * k * (k + alpha) * k * (k + alpha) / (sum * sum * (sum + 1) * (sum - 1));
+    jacobi(k, k - 1) = jacobi(k - 1, k) = std::sqrt(square);
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(jacobi);
+  return {solver.eigenvalues(), solver.eigenvectors().row(0).cwiseAbs2()};
+}
+
+TriangleRule product_rule(int count) {
+  const LineRule along = line_rule(count, 0), across = line_rule(count, 1);
+  TriangleRule rule;
+  rule.weights.resize(count * count);
+  for (int i = 0; i < count; ++i)
+    for (int j = 0; j < count; ++j) {
+      const double t = (1 + across.places[j]) / 2, s = (1 - t) * (1 + along.places[i]) / 2;
+      rule.places.emplace_back(s, t);
+      rule.weights[i * count + j] = along.weights[i] * across.weights[j];
+    }
+  return rule;
+}
+
+struct GaussRules {
+  std::array<TriangleRule, highest_gauss_degree / 2 + 1> rules;
+
+  GaussRules() {
+    for (std::size_t k = 0; k < rules.size(); ++k) rules[k] = product_rule(static_cast<int>(k) + 1);
+  }
+};
+
 }  // namespace
 
 std::span<const TriangleNode> triangle_rule(int degree) {
@@ -42,6 +85,14 @@ std::span<const TriangleNode> triangle_rule(int degree) {
   if (degree <= 6) return all.rules[3];
   throw Error(ErrorCode::contract, "triangle_rule",
               fmt::format("there is no rule of degree {}", degree));
+}
+
+const TriangleRule& gauss_rule(int degree) {
+  static const GaussRules all;
+  if (degree < 0 || degree > highest_gauss_degree)
+    throw Error(ErrorCode::contract, "gauss_rule",
+                fmt::format("there is no rule of degree {}", degree));
+  return all.rules[static_cast<std::size_t>(degree) / 2];
 }
 
 }  // namespace halfshade

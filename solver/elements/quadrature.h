@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/elements/polynomial.h"
+
 #include <span>
 
 namespace halfshade {
@@ -13,5 +15,18 @@ struct TriangleNode {
 /// `degree` ≤ 1, 2, 4 and 6 (Dunavant 1985). All nodes lie inside the triangle. Throws
 /// Error(contract) for a higher degree.
 std::span<const TriangleNode> triangle_rule(int degree);
+
+/// A rule of any degree: places inside the triangle, and weights > 0 that sum to 1.
+struct TriangleRule {
+  std::vector<TrianglePlace> places;
+  Eigen::VectorXd weights;
+};
+
+inline constexpr int highest_gauss_degree = 2 * max_order + 6;
+
+/// Exact for polynomials of `degree` ≤ highest_gauss_degree: products of Gauss's rules on an
+/// edge and, with the weight of a triangle, across it (Stroud 1971), (degree / 2 + 1)² places.
+/// Computed once, from the eigenvalues of Jacobi matrices (Golub and Welsch 1969).
+const TriangleRule& gauss_rule(int degree);
 
 }  // namespace halfshade

@@ -1,6 +1,7 @@
 #include "solver/linear/system_solver.h"
 
 #include "meshing/core/error.h"
+#include "solver/elements/balancing_scale.h"
 #include "solver/linear/conjugate_gradients.h"
 
 #include <fmt/format.h>
@@ -112,14 +113,6 @@ double largest_light(const LightSystem& system, const SystemLight& light) {
 }
 
 }  // namespace
-
-double balancing_scale(double largest) {
-  if (!(largest > 0)) return 1;
-  int exponent = 0;
-  std::frexp(largest, &exponent);
-  // The inverse must be a double, too.
-  return std::ldexp(1., -std::clamp(exponent, -1022, 1022));
-}
 
 SystemReport solve_system(const LightSystem& system, const SystemLight& light,
                           const RadiosityOptions& options, Eigen::VectorXd& reflected) {

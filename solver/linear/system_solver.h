@@ -44,7 +44,4 @@ struct SystemReport {
 SystemReport solve_system(const LightSystem& system, const SystemLight& light,
                           const RadiosityOptions& options, Eigen::VectorXd& reflected);
 
-/// Power of two that brings the largest size to between one half and one; 1 if all are zero.
-double balancing_scale(double largest);
-
 }  // namespace halfshade

@@ -2,7 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/adapt/recovery_estimate.h"
-#include "solver/linear/system_solver.h"
+#include "solver/elements/balancing_scale.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_light.h"

@@ -1,0 +1,353 @@
+#include "solver/adapt/adaptive_field.h"
+
+#include "meshing/core/error.h"
+#include "solver/adapt/element_fit.h"
+#include "solver/elements/balancing_scale.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+
+namespace halfshade {
+namespace {
+
+constexpr int most_rounds = 60;
+/// Coefficients that shrink faster from degree to degree are worth more of them: with this decay,
+/// one more order and four smaller elements gain alike per unknown.
+constexpr double smooth = 0.45;
+constexpr int most_orders_at_once = 3;
+/// Of the square of the error allowed: what may come of elements left alone, and of dropping
+/// orders.
+constexpr double share_left_alone = 0.25, share_after_dropping = 0.8;
+/// Places of an element at which its estimate is checked, and by how much it may be off there.
+constexpr int checks = 4;
+constexpr double noticeably = 2;
+/// New elements for one that is split, with what it takes to stay conforming.
+constexpr double growth = 2.5;
+
+struct Element {
+  std::array<Vec3, 3> triangle;
+  Vec3 normal;
+  double area = 0;
+  ElementFit fit;
+  bool is_fitted = false, is_checked = false;
+
+  double square_error() const { return area * fit.error * fit.error; }
+};
+
+void check(const AdaptiveFieldOptions& options) {
+  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.order < -1 ||
+      options.order > max_order || options.max_elements < 1 || options.max_unknowns < 1)
+    throw Error(
+        ErrorCode::contract, "fit_adaptively",
+        fmt::format("tolerance ({}), order ({}), max_elements ({}) or max_unknowns ({}) is "
+                    "out of range",
+                    options.tolerance, options.order, options.max_elements, options.max_unknowns));
+}
+
+/// Low orders where they will do; what is too high is dropped in the end.
+int first_order(const AdaptiveFieldOptions& options) {
+  if (options.order >= 0) return options.order;
+  return std::clamp(static_cast<int>(std::lround(-0.75 * std::log10(options.tolerance))), 2, 5);
+}
+
+/// Evenly spread over the triangle, different for each index (Roberts' sequence).
+TrianglePlace spread_place(std::size_t index) {
+  constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
+  double s = std::fmod(0.5 + static_cast<double>(index + 1) / root, 1.);
+  double t = std::fmod(0.5 + static_cast<double>(index + 1) / (root * root), 1.);
+  if (s + t > 1) s = 1 - s, t = 1 - t;
+  return {s, t};
+}
+
+class Adaptation {
+ public:
+  Adaptation(PatchMesh& mesh, const FieldAt& field, const AdaptiveFieldOptions& options,
+             const Progress& progress)
+      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+    take_elements();
+    for (Element& element : elements_) {
+      element.fit.order = first_order(options);
+      element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
+    }
+  }
+
+  AdaptiveField run() {
+    fit_new();
+    while (report_.limit == FieldLimit::none) {
+      if (progress_.stopped()) {
+        report_.limit = FieldLimit::stopped;
+        break;
+      }
+      sum_up();
+      if (square_error_ <= allowed() && check_new()) break;
+      if (square_error_ <= allowed()) continue;
+      if (!options_.refine || !improve()) break;
+      fit_new();
+    }
+    if (options_.order < 0 && report_.limit == FieldLimit::none) drop_orders();
+    return result();
+  }
+
+ private:
+  double allowed() const { return options_.tolerance * options_.tolerance * square_; }
+
+  void sum_up() {
+    square_error_ = square_ = 0;
+    unknowns_ = 0;
+    for (const Element& element : elements_) {
+      square_error_ += element.square_error();
+      square_ += element.area * element.fit.coefficients.matrix().squaredNorm();
+      unknowns_ += static_cast<std::size_t>(basis_size(element.fit.order));
+    }
+  }
+
+  /// Reads the mesh; elements that are parts of others begin with what those knew.
+  void take_elements() {
+    table_ = mesh_.elements();
+    const PatchHierarchy hierarchy = mesh_.hierarchy();
+    std::vector<Element> before = std::move(elements_);
+    const std::unordered_map<int, int> index_before = std::move(index_of_node_);
+    elements_.assign(table_.corners.size(), {});
+    index_of_node_.clear();
+    for (int node = 0; node < static_cast<int>(hierarchy.element.size()); ++node) {
+      const int e = hierarchy.element[at(node)];
+      if (e < 0) continue;
+      index_of_node_[node] = e;
+      int known = node;
+      while (known >= 0 && !index_before.contains(known)) known = hierarchy.parent[at(known)];
+      Element& element = elements_[at(e)];
+      element.triangle = table_.triangle(e);
+      element.normal = table_.normal[at(e)];
+      element.area = table_.area[at(e)];
+      if (known < 0) continue;
+      const Element& whole = before[at(index_before.at(known))];
+      if (known == node) {
+        element.fit = whole.fit;
+        element.is_fitted = whole.is_fitted;
+        element.is_checked = whole.is_checked;
+        continue;
+      }
+      std::array<TrianglePlace, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k)
+        corners[k] = place_of(whole.triangle, element.triangle[k]);
+      element.fit = restrict_fit(whole.fit, corners);
+    }
+  }
+
+  /// Values of the field at places of some elements, scaled; empty if it was stopped on the way.
+  std::vector<Rgb> sample(const std::vector<SurfacePoint>& points) {
+    std::vector<Rgb> values = field_(points, progress_);
+    report_.samples += points.size();
+    if (progress_.stopped()) return {};
+    if (scale_ == 0) {
+      double largest = 0;
+      for (const Rgb& value : values) largest = std::max(largest, value.maxCoeff());
+      scale_ = balancing_scale(largest);
+    }
+    for (Rgb& value : values) value *= scale_;
+    return values;
+  }
+
+  SurfacePoint point_at(const Element& element, const TrianglePlace& place) const {
+    return {position(element.triangle, place), element.normal};
+  }
+
+  void fit_new() {
+    std::vector<SurfacePoint> points;
+    for (const Element& element : elements_)
+      if (!element.is_fitted)
+        for (const TrianglePlace& place : sampling_rule(element.fit.order).places)
+          points.push_back(point_at(element, place));
+    const std::vector<Rgb> values = sample(points);
+    if (values.empty()) return;
+    ++report_.rounds;
+    std::size_t next = 0;
+    for (Element& element : elements_) {
+      if (element.is_fitted) continue;
+      ChannelArray samples(sampling_rule(element.fit.order).weights.size(), 3);
+      for (Eigen::Index k = 0; k < samples.rows(); ++k) samples.row(k) = values[next++];
+      element.fit = fit_element(element.fit.order, samples);
+      element.is_fitted = true;
+      element.is_checked = false;
+    }
+  }
+
+  /// Looks at places that the fits do not know. True if the estimates stand.
+  bool check_new() {
+    std::vector<SurfacePoint> points;
+    std::vector<TrianglePlace> places;
+    for (const Element& element : elements_)
+      for (int k = 0; !element.is_checked && k < checks; ++k) {
+        places.push_back(spread_place(next_check_++));
+        points.push_back(point_at(element, places.back()));
+      }
+    const std::vector<Rgb> values = sample(points);
+    if (values.empty()) return points.empty();
+    const double before = square_error_;
+    Eigen::VectorXd basis(basis_size(max_order));
+    std::size_t next = 0;
+    for (Element& element : elements_) {
+      if (element.is_checked) continue;
+      double square = 0;
+      for (int k = 0; k < checks; ++k, ++next) {
+        auto phi = basis.head(element.fit.coefficients.rows());
+        basis_at(element.fit.order, places[next], phi);
+        const Rgb off =
+            values[next] - (element.fit.coefficients.matrix().transpose() * phi).array();
+        square += off.matrix().squaredNorm() / checks;
+      }
+      element.is_checked = true;
+      if (square > noticeably * noticeably * element.fit.error * element.fit.error)
+        element.fit.error = std::sqrt(square);
+    }
+    sum_up();
+    return square_error_ <= std::max(before, allowed());
+  }
+
+  /// The elements that matter most, the worst first.
+  std::vector<int> worst_elements() const {
+    std::vector<int> order(elements_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+      return elements_[at(a)].square_error() > elements_[at(b)].square_error();
+    });
+    double left = square_error_;
+    std::size_t count = 0;
+    while (count < order.size() && left > share_left_alone * allowed())
+      left -= elements_[at(order[count++])].square_error();
+    order.resize(count);
+    return order;
+  }
+
+  /// The order that an element should have; its own if it should be split.
+  int better_order(const Element& element) const {
+    const double shrinks = decay(element.fit);
+    if (options_.order >= 0 || element.fit.order == max_order || shrinks > smooth)
+      return element.fit.order;
+    const double target =
+        std::sqrt(share_left_alone * allowed() / static_cast<double>(elements_.size()));
+    const double missing =
+        std::log(std::sqrt(element.square_error()) / target) / -std::log(std::max(shrinks, 1e-3));
+    const int more = std::clamp(static_cast<int>(std::ceil(missing)), 1, most_orders_at_once);
+    return std::min(element.fit.order + more, max_order);
+  }
+
+  /// False, with a limit set, if nothing can be done.
+  bool improve() {
+    if (report_.rounds >= most_rounds) {
+      report_.limit = FieldLimit::rounds;
+      return false;
+    }
+    std::vector<int> to_split;
+    auto unknowns = static_cast<double>(unknowns_);
+    auto count = static_cast<double>(elements_.size());
+    bool is_changed = false;
+    FieldLimit limit = FieldLimit::none;
+    for (const int e : worst_elements()) {
+      Element& element = elements_[at(e)];
+      const int order = better_order(element), size = basis_size(element.fit.order);
+      const bool split = order == element.fit.order;
+      const double more = split ? (growth - 1) * size : basis_size(order) - size;
+      if (unknowns + more > options_.max_unknowns) {
+        limit = FieldLimit::unknowns;
+        break;
+      }
+      if (split && count + growth - 1 > options_.max_elements) {
+        limit = FieldLimit::elements;
+        continue;
+      }
+      unknowns += more;
+      is_changed = true;
+      if (split) {
+        count += growth - 1;
+        to_split.push_back(e);
+      } else {
+        element.fit.order = order;
+        element.fit.coefficients.conservativeResizeLike(ChannelArray::Zero(basis_size(order), 3));
+        element.is_fitted = false;
+      }
+    }
+    if (!is_changed) {
+      report_.limit = limit;
+      return false;
+    }
+    if (!to_split.empty()) {
+      mesh_.bisect(to_split);
+      take_elements();
+    }
+    progress_(fmt::format("direct light, round {}: {} elements, {} unknowns, error {:.2g}",
+                          report_.rounds + 1, elements_.size(), static_cast<long>(unknowns),
+                          std::sqrt(square_error_ / square_)),
+              0);
+    return true;
+  }
+
+  /// Top degrees go where the error allows it, those first that matter least for an unknown.
+  void drop_orders() {
+    using Candidate = std::pair<double, int>;  // square of the layer for an unknown, element
+    const auto candidate = [&](int e) {
+      const Element& element = elements_[at(e)];
+      const double layer = element.fit.layer[at(element.fit.order)];
+      return Candidate(element.area * layer * layer / (element.fit.order + 1), e);
+    };
+    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
+    for (int e = 0; e < static_cast<int>(elements_.size()); ++e)
+      if (elements_[at(e)].fit.order > 0) queue.push(candidate(e));
+    while (!queue.empty()) {
+      const auto [gain, e] = queue.top();
+      queue.pop();
+      Element& element = elements_[at(e)];
+      const double more = gain * (element.fit.order + 1);
+      if (square_error_ + more > share_after_dropping * allowed()) break;
+      square_error_ += more;
+      lower_order(element.fit);
+      if (element.fit.order > 0) queue.push(candidate(e));
+    }
+  }
+
+  AdaptiveField result() {
+    sum_up();
+    AdaptiveField out;
+    std::vector<int> order;
+    for (const Element& element : elements_) order.push_back(element.fit.order);
+    out.field = zero_field(std::move(order));
+    out.error.resize(static_cast<Eigen::Index>(elements_.size()));
+    const double scale = scale_ > 0 ? scale_ : 1;
+    for (int e = 0; e < out.field.count(); ++e) {
+      out.field.of(e) = elements_[at(e)].fit.coefficients / scale;
+      out.error[e] = elements_[at(e)].fit.error / scale;
+    }
+    out.elements = std::move(table_);
+    report_.unknowns = unknowns_;
+    report_.relative_error = square_ > 0 ? std::sqrt(square_error_ / square_) : 0;
+    out.report = report_;
+    return out;
+  }
+
+  PatchMesh& mesh_;
+  const FieldAt& field_;
+  const AdaptiveFieldOptions& options_;
+  const Progress& progress_;
+  ElementTable table_;
+  std::vector<Element> elements_;
+  std::unordered_map<int, int> index_of_node_;
+  double scale_ = 0;  ///< of all values; 0: not known yet
+  double square_error_ = 0, square_ = 0;
+  std::size_t unknowns_ = 0, next_check_ = 0;
+  AdaptiveFieldReport report_;
+};
+
+}  // namespace
+
+AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
+                             const AdaptiveFieldOptions& options, const Progress& progress) {
+  check(options);
+  return Adaptation(mesh, field, options, progress).run();
+}
+
+}  // namespace halfshade

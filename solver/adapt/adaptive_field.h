@@ -1,0 +1,56 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/patches/patch_mesh.h"
+#include "solver/direct/direct_light.h"
+#include "solver/elements/element_field.h"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// A field on surfaces, W/m²: its values at points. It must be the same for the same points.
+using FieldAt = std::function<std::vector<Rgb>(std::span<const SurfacePoint>, const Progress&)>;
+
+/// What limits an adaptive field.
+enum class FieldLimit { none, elements, unknowns, rounds, stopped };
+
+struct AdaptiveFieldOptions {
+  double tolerance = 0.01;  ///< of the error's L2 norm, relative to the field's; > 0
+  int order = -1;           ///< of all elements, 0…max_order; −1: chosen for each
+  bool refine = true;       ///< false: neither elements nor orders are changed
+  int max_elements = 40000;
+  int max_unknowns = 1000000;  ///< per channel
+};
+
+struct AdaptiveFieldReport {
+  int rounds = 0;
+  std::size_t samples = 0;
+  std::size_t unknowns = 0;   ///< coefficients per channel
+  double relative_error = 0;  ///< estimated, in the L2 norm over all surfaces and channels
+  FieldLimit limit = FieldLimit::none;  ///< what kept it above the tolerance
+};
+
+/// A field on the elements of a mesh.
+struct AdaptiveField {
+  ElementTable elements;
+  ElementField field;
+  Eigen::ArrayXd error;  ///< root mean square over each element, the channels' squares summed; W/m²
+  AdaptiveFieldReport report;
+};
+
+/// Fits polynomials to a field on the elements of a mesh, until the estimated error is within the
+/// tolerance: raises the order of elements where the coefficients decay, splits the others (hp
+/// adaptivity; Babuška and Suri 1994), and lowers orders again where that costs nothing noticeable.
+/// The estimate comes of samples within each element, at Gauss's places, and is checked at others
+/// before it is believed. Breaks that elements do not follow are met by splitting. The mesh is left
+/// as the elements are.
+///
+/// If stopped, the elements keep what the last whole round gave. Throws Error(contract) for options
+/// out of range. The same for any number of threads.
+AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
+                             const AdaptiveFieldOptions& options, const Progress& progress = {});
+
+}  // namespace halfshade

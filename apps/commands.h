@@ -53,6 +53,7 @@ struct SolveCommand {
   std::vector<std::filesystem::path>
       outputs;  ///< empty: the scene's name with .vtu, in the current folder
   SolveOptions options;
+  ResultOptions result_options;
 };
 
 struct MeshCommand {

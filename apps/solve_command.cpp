@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace halfshade {
@@ -12,8 +13,10 @@ namespace {
 
 constexpr FileFormats solve_formats = {"results", {".vtu", ".vtp", ".ply", ".png"}};
 
-void write(const SolveResult& result, const Context& context, const std::filesystem::path& path) {
-  if (!has_format(path, picture_formats)) return write_result(result, context.provenance, path);
+void write(const SolveResult& result, const SolveCommand& command, const Context& context,
+           const std::filesystem::path& path) {
+  if (!has_format(path, picture_formats))
+    return write_result(result, context.provenance, path, command.result_options);
   const ShadedMesh mesh = shaded(result);
   Picture picture = draw(mesh, default_camera(mesh));
   if (result.interrupted) picture.comment = "interrupted: the solution is not complete";
@@ -26,6 +29,24 @@ std::string closure_line(const ExchangeReport& exchange) {
   return fmt::format("closed scene, closure error {:.2g} (largest {:.2g}){}",
                      exchange.closure_error_rms, exchange.closure_error_max,
                      exchange.closure_enforced ? ", put right" : ", left as it is");
+}
+
+void print_matrix(const SolveResult& result, std::FILE* out) {
+  fmt::print(out, "factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
+             closure_line(result.exchange));
+  const ChannelReport& channel = result.radiosity.channel[0];
+  fmt::print(out,
+             "radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
+             result.radiosity.channels, result.radiosity.channels == 1 ? "" : "s",
+             channel.iterations, channel.residual, channel.balance);
+}
+
+void print_fields(const SolveResult& result, std::FILE* out) {
+  const auto [low, high] =
+      std::minmax_element(result.direct.order.begin(), result.direct.order.end());
+  fmt::print(out, "direct light {} unknowns, orders {} to {}, {} samples in {} rounds\n",
+             result.refinement.unknowns, *low, *high, result.refinement.samples,
+             result.refinement.rounds);
 }
 
 void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {
@@ -41,13 +62,10 @@ void print_summary(const SolveResult& result, double asked_tolerance, const Cont
                result.discontinuity_tolerance > asked_tolerance
                    ? "; more would take more elements than asked for"
                    : "");
-  fmt::print(out, "factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
-             closure_line(result.exchange));
-  const ChannelReport& channel = result.radiosity.channel[0];
-  fmt::print(out,
-             "radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
-             result.radiosity.channels, result.radiosity.channels == 1 ? "" : "s",
-             channel.iterations, channel.residual, channel.balance);
+  if (result.direct.count() > 0)
+    print_fields(result, out);
+  else
+    print_matrix(result, out);
   fmt::print(out, "error        {:.2g} relative to the irradiance (estimated, L2)\n",
              result.relative_error);
   for (const StageReport& stage : result.stages)
@@ -63,15 +81,17 @@ bool is_worth_writing(const SolveResult& result) {
 }
 
 ExitCode exit_code(const SolveResult& result) {
-  return result.interrupted           ? exit_interrupted
-         : result.radiosity.converged ? exit_done
-                                      : exit_not_accurate;
+  if (result.interrupted) return exit_interrupted;
+  return result.radiosity.converged && result.not_reached.empty() ? exit_done : exit_not_accurate;
 }
 
-void print_ending(ExitCode code) {
+void print_ending(ExitCode code, const SolveResult& result) {
   if (code == exit_interrupted)
     complain("interrupted: the results written are incomplete and marked so\n");
-  if (code == exit_not_accurate)
+  if (code != exit_not_accurate) return;
+  if (!result.not_reached.empty())
+    complain("{}; the results written are marked so\n", result.not_reached);
+  else
     complain(
         "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
 }
@@ -92,7 +112,7 @@ ExitCode run(const SolveCommand& command, const Context& context) {
   context.progress_ends();
   print_warnings(file, result.warnings, context);
   if (!is_worth_writing(result)) return end_without_results();
-  for (const auto& path : outputs) write(result, context, path);
+  for (const auto& path : outputs) write(result, command, context, path);
   const ExitCode code = exit_code(result);
   if (!context.common.json.empty())
     write_report(result, run_info(context, code, outputs), context.common.json);
@@ -100,7 +120,7 @@ ExitCode run(const SolveCommand& command, const Context& context) {
     print_summary(result, command.options.tolerance, context);
     print_outputs(context, outputs);
   }
-  print_ending(code);
+  print_ending(code, result);
   return code;
 }
 

@@ -7,12 +7,38 @@
 namespace halfshade {
 namespace {
 
+void add_accuracy(CLI::App& app, SolveOptions& options) {
+  add_not_negative(
+      app, "--tolerance", options.tolerance,
+      "Error allowed, of the irradiance in the L2 norm, relative to it (with --method\n"
+      "matrix: curves that change the mean by less are left out)")
+      ->capture_default_str();
+  add_whole(app, "--order", options.order, {0, max_order},
+            "Order of all elements (default: chosen for each)");
+  add_choice(
+      app, "--refine", {"adaptive", "uniform"},
+      [&options](std::size_t k) {
+        options.refine = std::array{Refinement::adaptive, Refinement::uniform}.at(k);
+      },
+      "Elements as the tolerance takes them, or all of the size of --elements or --max-length");
+  add_choice(
+      app, "--method", {"fields", "matrix"},
+      [&options](std::size_t k) {
+        options.method = std::array{SolveMethod::fields, SolveMethod::matrix}.at(k);
+      },
+      "Light as polynomials, or constant elements and a matrix of form factors");
+}
+
 void add_size(CLI::App& app, SolveOptions& options) {
-  add_elements(app, options.elements, "About how many elements to make");
+  add_elements(app, options.elements,
+               "About how many elements to make, with --refine uniform or --method matrix");
   add_positive(app, "--max-length", options.max_length,
                "Longest element edge in scene units (instead of --elements)");
-  add_whole(app, "--max-elements", options.max_elements, {1, 1000000},
-            "Refuse to make more elements than this")
+  add_whole(app, "--max-elements", options.max_elements, {1, 10000000},
+            "Make no more elements than this")
+      ->capture_default_str();
+  add_whole(app, "--max-unknowns", options.max_unknowns, {1, 100000000},
+            "Make no more coefficients than this, for each channel")
       ->capture_default_str();
 }
 
@@ -45,10 +71,6 @@ void add_curves(CLI::App& app, SolveOptions& options) {
   app.add_flag_callback(
       "--no-discontinuity", [&options] { options.discontinuities = false; },
       "Do not mesh along the curves where the light breaks");
-  add_not_negative(
-      app, "--tolerance", options.tolerance,
-      "Leave out curves that change the irradiance by less than this share of its mean")
-      ->capture_default_str();
   add_events(app, options.events, options.secondary);
 }
 
@@ -62,18 +84,27 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
               "Result: .vtu, .vtp, .ply or .png; may repeat (default: SCENE.vtu in this folder)");
   add_materials(app, command.materials,
                 "JSON: object, group or material name -> reflectance, exitance, two_sided");
+  app.add_flag("--linear", command.result_options.linear,
+               "Straight triangles in .vtu, for readers that know no polynomials");
+  add_accuracy(app, command.options);
   add_size(app, command.options);
   add_light(app, command.options);
   add_curves(app, command.options);
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
   add_common(app, common);
+  app.parse_complete_callback([&app, &options = command.options] {
+    const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
+    if ((given("--elements") || given("--max-length")) && !given("--refine"))
+      options.refine = Refinement::uniform;
+  });
   app.footer(footer(
       "Examples:\n"
       "  halfshade solve data/cornell_box.obj -o cornell.vtu -o cornell.ply -o cornell.png\n"
       "  halfshade solve data/l_room.obj --elements 3000 --bounces 1 -o l_room.vtu\n"
-      "  halfshade solve data/s1.obj --elements 500 --tolerance 0.05 --events face,ev -o s1.vtu\n"
-      "  halfshade solve data/furnace_cube.obj --elements 600 --json report.json -q\n\n"));
+      "  halfshade solve data/s1.obj --tolerance 1e-6 -o s1.vtu\n"
+      "  halfshade solve data/furnace_cube.obj --method matrix --elements 600 --json report.json "
+      "-q\n\n"));
 }
 
 }  // namespace halfshade

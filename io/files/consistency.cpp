@@ -30,6 +30,9 @@ void require_consistent(const SolveResult& result, const char* caller) {
     throw Error(ErrorCode::contract, caller,
                 fmt::format("{} elements and {} emitters have {} regions", n,
                             result.emitters.size(), result.regions.size()));
+  if (result.irradiance.count() != 0 && result.irradiance.count() != result.elements.count())
+    throw Error(ErrorCode::contract, caller,
+                fmt::format("{} elements have {} polynomials", n, result.irradiance.count()));
   const Solution& s = result.solution;
   for (const ChannelArray* array :
        {&s.rho, &s.exitance, &s.radiosity, &s.irradiance, &s.direct_irradiance})

@@ -4,7 +4,9 @@
 #include "io/files/vtk_messages.h"
 #include "io/picture/picture.h"
 #include "meshing/core/error.h"
+#include "solver/elements/linear_pieces.h"
 
+#include <Eigen/LU>
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCellData.h>
@@ -55,20 +57,60 @@ std::vector<Rgb> channels(vtkFieldData* data, const char* name, vtkIdType count,
   return values;
 }
 
-std::array<int, 3> triangle(vtkPointSet* grid, vtkIdType cell, const path& file) {
-  vtkNew<vtkIdList> corners;
-  if (grid->GetCellType(cell) != VTK_TRIANGLE)
-    reject(file, fmt::format("cell {} is not a triangle", cell));
-  grid->GetCellPoints(cell, corners);
-  std::array<int, 3> result{};
-  for (int k = 0; k < 3; ++k) {
-    const vtkIdType p = k < corners->GetNumberOfIds() ? corners->GetId(k) : -1;
+/// The order of a cell that write_result has written.
+int order_of(vtkPointSet* grid, vtkIdType cell, vtkIdType nodes, const path& file) {
+  const int type = grid->GetCellType(cell);
+  for (int order = 1; order <= max_order; ++order)
+    if (nodes == basis_size(order) && type == (order == 1   ? VTK_TRIANGLE
+                                               : order == 2 ? VTK_QUADRATIC_TRIANGLE
+                                                            : VTK_LAGRANGE_TRIANGLE))
+      return order;
+  reject(file, fmt::format("cell {} is not a triangle", cell));
+}
+
+/// The points that a cell names.
+std::vector<int> nodes_of(vtkPointSet* grid, vtkIdType cell, const path& file) {
+  vtkNew<vtkIdList> ids;
+  grid->GetCellPoints(cell, ids);
+  std::vector<int> nodes;
+  for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k) {
+    const vtkIdType p = ids->GetId(k);
     if (p < 0 || p >= grid->GetNumberOfPoints())
       reject(file, fmt::format("cell {} names point {}, but there are {}", cell, p,
                                grid->GetNumberOfPoints()));
-    result[static_cast<std::size_t>(k)] = static_cast<int>(p);
+    nodes.push_back(static_cast<int>(p));
   }
-  return result;
+  return nodes;
+}
+
+/// Cells of higher order become as many triangles as it takes to look like them.
+void cut_curved(const std::vector<std::vector<int>>& cells, const std::vector<int>& order,
+                ShadedMesh& mesh) {
+  ElementField field = zero_field(order);
+  std::vector<std::array<Vec3, 3>> triangles;
+  double largest = 0;
+  for (std::size_t e = 0; e < cells.size(); ++e) {
+    const int element = static_cast<int>(e);
+    Eigen::MatrixXd values(cells[e].size(), 3);
+    for (std::size_t k = 0; k < cells[e].size(); ++k)
+      values.row(static_cast<Eigen::Index>(k)) = mesh.point_radiosity[at(cells[e][k])].matrix();
+    field.of(element) = element_node_basis(order[e]).partialPivLu().solve(values).array();
+    if (mesh.emits[e] == 0) largest = std::max(largest, values.cwiseAbs().maxCoeff());
+    triangles.push_back(
+        {mesh.points[at(cells[e][0])], mesh.points[at(cells[e][1])], mesh.points[at(cells[e][2])]});
+  }
+  LinearPieces pieces = linear_pieces(triangles, field, invisible_share * largest);
+  const std::vector<Rgb> radiosity = std::move(mesh.triangle_radiosity);
+  const std::vector<std::uint8_t> emits = std::move(mesh.emits);
+  mesh.triangle_radiosity.clear();
+  mesh.emits.clear();
+  for (const int e : pieces.element) {
+    mesh.triangle_radiosity.push_back(radiosity[at(e)]);
+    mesh.emits.push_back(emits[at(e)]);
+  }
+  mesh.points = std::move(pieces.points);
+  mesh.point_radiosity = std::move(pieces.value);
+  mesh.triangles = std::move(pieces.corners);
 }
 
 std::vector<double> field_numbers(vtkFieldData* data, const char* name, int components) {
@@ -100,11 +142,19 @@ ShadedMesh to_mesh(vtkPointSet* grid, const path& file) {
     if (!p.allFinite()) reject(file, fmt::format("the coordinates of point {} are not finite", i));
     mesh.points.push_back(p);
   }
-  for (vtkIdType i = 0; i < cells; ++i) mesh.triangles.push_back(triangle(grid, i, file));
+  std::vector<std::vector<int>> nodes;
+  std::vector<int> order;
+  for (vtkIdType i = 0; i < cells; ++i) {
+    nodes.push_back(nodes_of(grid, i, file));
+    order.push_back(order_of(grid, i, static_cast<vtkIdType>(nodes.back().size()), file));
+    mesh.triangles.push_back({nodes.back()[0], nodes.back()[1], nodes.back()[2]});
+  }
   mesh.point_radiosity = channels(grid->GetPointData(), "radiosity", points, file);
   mesh.triangle_radiosity = channels(grid->GetCellData(), "radiosity", cells, file);
   for (const Rgb& exitance : channels(grid->GetCellData(), "exitance", cells, file))
     mesh.emits.push_back((exitance > 0).any());
+  if (std::any_of(order.begin(), order.end(), [](int p) { return p > 1; }))
+    cut_curved(nodes, order, mesh);
   mesh.cameras = cameras(grid->GetFieldData(), file);
   return mesh;
 }

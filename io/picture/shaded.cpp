@@ -1,7 +1,7 @@
 #include "io/files/consistency.h"
 #include "io/picture/picture.h"
 #include "meshing/triangulation/planar_mesh.h"
-#include "solver/elements/vertex_values.h"
+#include "solver/pipeline/linear_result.h"
 
 namespace halfshade {
 namespace {
@@ -19,15 +19,15 @@ Rgb scene_colour(const Material& material) {
 ShadedMesh shaded(const SolveResult& result) {
   detail::require_consistent(result, "shaded");
   ShadedMesh mesh;
-  mesh.points = result.elements.points;
-  mesh.triangles = result.elements.corners;
+  const LinearResult linear = linear_result(result);
+  mesh.points = linear.elements.points;
+  mesh.triangles = linear.elements.corners;
   mesh.cameras = result.cameras;
-  const ChannelArray at_points = values_at_points(result.elements, result.solution.radiosity);
-  for (Eigen::Index i = 0; i < at_points.rows(); ++i)
-    mesh.point_radiosity.emplace_back(at_points.row(i));
-  for (Eigen::Index e = 0; e < result.elements.count(); ++e) {
-    mesh.triangle_radiosity.emplace_back(result.solution.radiosity.row(e));
-    mesh.emits.push_back((result.solution.exitance.row(e) > 0).any());
+  for (Eigen::Index i = 0; i < linear.radiosity.rows(); ++i)
+    mesh.point_radiosity.emplace_back(linear.radiosity.row(i));
+  for (Eigen::Index e = 0; e < linear.elements.count(); ++e) {
+    mesh.triangle_radiosity.emplace_back(linear.solution.radiosity.row(e));
+    mesh.emits.push_back((linear.solution.exitance.row(e) > 0).any());
   }
   return mesh;
 }

@@ -8,7 +8,8 @@
 namespace halfshade::detail {
 
 /// The bytes of the files that write_result writes.
-std::string vtk_bytes(const SolveResult& result, std::string_view extension);
+std::string vtk_bytes(const SolveResult& result, std::string_view extension,
+                      const ResultOptions& options);
 std::string ply_bytes(const SolveResult& result, const Provenance& provenance);
 
 }  // namespace halfshade::detail

@@ -5,6 +5,7 @@
 #include "io/files/vtk_messages.h"
 #include "meshing/core/error.h"
 #include "meshing/patches/quality.h"
+#include "solver/elements/polynomial.h"
 
 #include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
@@ -125,6 +126,24 @@ vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements,
     grid = polygons;
   }
   set_points(grid, elements.points);
+  return grid;
+}
+
+vtkSmartPointer<vtkPointSet> polynomial_grid(std::span<const Vec3> nodes,
+                                             std::span<const int> order) {
+  vtkNew<vtkCellArray> cells;
+  std::vector<int> types;
+  vtkIdType next = 0;
+  for (const int p : order) {
+    cells->InsertNextCell(basis_size(p));
+    for (int k = 0; k < basis_size(p); ++k) cells->InsertCellPoint(next++);
+    types.push_back(p == 1   ? VTK_TRIANGLE
+                    : p == 2 ? VTK_QUADRATIC_TRIANGLE
+                             : VTK_LAGRANGE_TRIANGLE);
+  }
+  vtkNew<vtkUnstructuredGrid> grid;
+  set_points(grid, nodes);
+  grid->SetCells(types.data(), cells);
   return grid;
 }
 

@@ -2,7 +2,7 @@
 #include "io/write/ply_file.h"
 #include "io/write/result_bytes.h"
 #include "meshing/core/error.h"
-#include "solver/elements/vertex_values.h"
+#include "solver/pipeline/linear_result.h"
 
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@ float to_float(double value) {
   return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
-double exposure_for(const SolveResult& result) {
+double exposure_for(const LinearResult& result) {
   std::vector<Rgb> values;
   std::vector<std::uint8_t> emits;
   for (int e = 0; e < result.elements.count(); ++e) {
@@ -29,7 +29,8 @@ double exposure_for(const SolveResult& result) {
   return choose_exposure(values, result.elements.area, emits);
 }
 
-std::string header(const SolveResult& result, const Provenance& provenance, double exposure) {
+std::string header(const SolveResult& result, const ElementTable& elements,
+                   const Provenance& provenance, double exposure) {
   return fmt::format(
       "{}"
       "comment exposure: {} (colours are the tone-mapped radiosity_r, _g, _b times this)\n"
@@ -43,28 +44,29 @@ std::string header(const SolveResult& result, const Provenance& provenance, doub
       "end_header\n",
       ply_head(provenance, result.unit), exposure,
       result.interrupted ? "comment interrupted: the solution is not complete\n" : "",
-      result.elements.points.size(), result.elements.count());
+      elements.points.size(), elements.count());
 }
 
 }  // namespace
 
 std::string ply_bytes(const SolveResult& result, const Provenance& provenance) {
-  const double exposure = exposure_for(result);
-  const ChannelArray radiosity = values_at_points(result.elements, result.solution.radiosity);
-  std::string bytes = header(result, provenance, exposure);
-  for (std::size_t i = 0; i < result.elements.points.size(); ++i) {
-    const Vec3& p = result.elements.points[i];
+  const LinearResult linear = linear_result(result);
+  const ElementTable& elements = linear.elements;
+  const double exposure = exposure_for(linear);
+  std::string bytes = header(result, elements, provenance, exposure);
+  for (std::size_t i = 0; i < elements.points.size(); ++i) {
+    const Vec3& p = elements.points[i];
     if (p.cwiseAbs().maxCoeff() > std::numeric_limits<float>::max())
       throw Error(ErrorCode::unwritable, "write_result",
                   fmt::format("point {} at ({}, {}, {}) is too far out for the single precision of "
                               "PLY; write .vtu instead",
                               i, p.x(), p.y(), p.z()));
     for (const double x : p) put(bytes, to_float(x));
-    const Rgb value = radiosity.row(static_cast<Eigen::Index>(i));
+    const Rgb value = linear.radiosity.row(static_cast<Eigen::Index>(i));
     for (const std::uint8_t c : encode_srgb(tone_map(value, exposure))) put(bytes, c);
     for (const double v : value) put(bytes, to_float(v));
   }
-  for (const auto& corners : result.elements.corners) put_triangle(bytes, corners);
+  for (const auto& corners : elements.corners) put_triangle(bytes, corners);
   return bytes;
 }
 

@@ -7,12 +7,12 @@
 namespace halfshade {
 
 void write_result(const SolveResult& result, const Provenance& provenance,
-                  const std::filesystem::path& path) {
+                  const std::filesystem::path& path, const ResultOptions& options) {
   require_format(path, result_formats);
   detail::require_consistent(result, "write_result");
   const std::string extension = extension_of(path);
   write_atomically(path, extension == ".ply" ? detail::ply_bytes(result, provenance)
-                                             : detail::vtk_bytes(result, extension));
+                                             : detail::vtk_bytes(result, extension, options));
 }
 
 }  // namespace halfshade

@@ -15,9 +15,16 @@ struct Provenance {
   std::string command_line;
 };
 
+struct ResultOptions {
+  bool linear = false;  ///< straight triangles also where .vtu could hold polynomials
+};
+
 inline constexpr FileFormats result_formats = {"results", {".vtu", ".vtp", ".ply"}};
 
 /// Writes a solved scene by extension: .vtu, .vtp (VTK XML, inline binary, compressed) or .ply.
+/// Elements of order 2 and more are VTK's quadratic and Lagrange triangles in .vtu, with points of
+/// their own, so that readers draw the polynomials themselves; in other files they are cut into
+/// straight triangles (linear_result).
 /// VTK cell data: radiosity, irradiance, direct_irradiance, exitance, reflectance (3 components);
 /// error_estimate, order, region (0 lit, 1 penumbra, 2 umbra, 3 no emitter above the horizon; left
 /// out where direct light was not exact), regions (the same for each emitter, if asked for, in the
@@ -30,6 +37,6 @@ inline constexpr FileFormats result_formats = {"results", {".vtu", ".vtp", ".ply
 /// and float radiosity_r/g/b; the exposure is in a comment. Throws Error(usage) for another
 /// extension, Error(unwritable) if it cannot be written.
 void write_result(const SolveResult& result, const Provenance& provenance,
-                  const std::filesystem::path& path);
+                  const std::filesystem::path& path, const ResultOptions& options = {});
 
 }  // namespace halfshade

@@ -1,6 +1,6 @@
 #include "io/write/detail/vtk_file.h"
 #include "io/write/result_bytes.h"
-#include "solver/elements/vertex_values.h"
+#include "solver/pipeline/linear_result.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -10,9 +10,15 @@
 namespace halfshade::detail {
 namespace {
 
-void add_cell_data(const SolveResult& result, vtkFieldData* data) {
-  const ElementTable& elements = result.elements;
-  const Solution& solution = result.solution;
+struct CellData {
+  const ElementTable& elements;
+  const Solution& solution;
+  const std::vector<Region>& regions;
+  std::vector<int> order;
+};
+
+void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* data) {
+  const Solution& solution = cells.solution;
   add_channels(data, "radiosity", solution.radiosity);
   add_channels(data, "irradiance", solution.irradiance);
   add_channels(data, "direct_irradiance", solution.direct_irradiance);
@@ -21,11 +27,10 @@ void add_cell_data(const SolveResult& result, vtkFieldData* data) {
   const Eigen::ArrayXd& error = solution.error_estimate;
   add_numbers(data, "error_estimate", {error.data(), error.data() + error.size()});
   if (!solution.region.empty()) add_integers(data, "region", region_codes(solution.region));
-  if (!result.regions.empty())
-    add_integers(data, "regions", region_codes(result.regions),
-                 static_cast<int>(result.emitters.size()));
-  add_integers(data, "order", std::vector<int>(elements.corners.size(), 0));
-  add_element_data(elements, data);
+  if (!cells.regions.empty())
+    add_integers(data, "regions", region_codes(cells.regions), static_cast<int>(emitters));
+  add_integers(data, "order", cells.order);
+  add_element_data(cells.elements, data);
 }
 
 void add_field_data(const SolveResult& result, vtkFieldData* data) {
@@ -36,17 +41,38 @@ void add_field_data(const SolveResult& result, vtkFieldData* data) {
   add_numbers(data, "achieved_error", {result.relative_error});
 }
 
-}  // namespace
-
-std::string vtk_bytes(const SolveResult& result, std::string_view extension) {
-  const auto grid = element_grid(result.elements, extension);
-  add_cell_data(result, grid->GetCellData());
-  const Solution& solution = result.solution;
-  vtkFieldData* points = grid->GetPointData();
-  add_channels(points, "radiosity", values_at_points(result.elements, solution.radiosity));
-  add_channels(points, "irradiance", values_at_points(result.elements, solution.irradiance));
+std::string linear_bytes(const SolveResult& result, std::string_view extension) {
+  const LinearResult linear = linear_result(result);
+  const auto grid = element_grid(linear.elements, extension);
+  const bool is_constant = result.irradiance.count() == 0;
+  add_cell_data({linear.elements, linear.solution, linear.regions,
+                 std::vector<int>(linear.elements.corners.size(), is_constant ? 0 : 1)},
+                result.emitters.size(), grid->GetCellData());
+  add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
+  add_channels(grid->GetPointData(), "irradiance", linear.irradiance);
   add_field_data(result, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
+}
+
+/// The polynomials themselves, by their values at the nodes of each element.
+std::string polynomial_bytes(const SolveResult& result) {
+  const NodeValues nodes = node_values(result);
+  const auto grid = polynomial_grid(nodes.points, nodes.order);
+  add_cell_data({result.elements, result.solution, result.regions, result.irradiance.order},
+                result.emitters.size(), grid->GetCellData());
+  add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
+  add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
+  add_field_data(result, grid->GetFieldData());
+  return vtk_bytes(grid, "write_result");
+}
+
+}  // namespace
+
+std::string vtk_bytes(const SolveResult& result, std::string_view extension,
+                      const ResultOptions& options) {
+  const bool has_polynomials = result.irradiance.count() > 0 && !options.linear;
+  return has_polynomials && extension == ".vtu" ? polynomial_bytes(result)
+                                                : linear_bytes(result, extension);
 }
 
 }  // namespace halfshade::detail

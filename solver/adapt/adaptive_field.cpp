@@ -86,7 +86,7 @@ class Adaptation {
       sum_up();
       if (square_error_ <= allowed() && check_new()) break;
       if (square_error_ <= allowed()) continue;
-      if (!options_.refine || !improve()) break;
+      if (!improve()) break;
       fit_new();
     }
     if (options_.order < 0 && report_.limit == FieldLimit::none) drop_orders();
@@ -239,6 +239,10 @@ class Adaptation {
 
   /// False, with a limit set, if nothing can be done.
   bool improve() {
+    if (options_.max_samples > 0 && static_cast<double>(report_.samples) > options_.max_samples) {
+      report_.limit = FieldLimit::samples;
+      return false;
+    }
     if (report_.rounds >= most_rounds) {
       report_.limit = FieldLimit::rounds;
       return false;
@@ -247,11 +251,12 @@ class Adaptation {
     auto unknowns = static_cast<double>(unknowns_);
     auto count = static_cast<double>(elements_.size());
     bool is_changed = false;
-    FieldLimit limit = FieldLimit::none;
+    FieldLimit limit = FieldLimit::fixed;
     for (const int e : worst_elements()) {
       Element& element = elements_[at(e)];
       const int order = better_order(element), size = basis_size(element.fit.order);
       const bool split = order == element.fit.order;
+      if (split && !options_.split) continue;
       const double more = split ? (growth - 1) * size : basis_size(order) - size;
       if (unknowns + more > options_.max_unknowns) {
         limit = FieldLimit::unknowns;

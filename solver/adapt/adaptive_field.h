@@ -15,14 +15,15 @@ namespace halfshade {
 using FieldAt = std::function<std::vector<Rgb>(std::span<const SurfacePoint>, const Progress&)>;
 
 /// What limits an adaptive field.
-enum class FieldLimit { none, elements, unknowns, rounds, stopped };
+enum class FieldLimit { none, elements, unknowns, samples, rounds, fixed, stopped };
 
 struct AdaptiveFieldOptions {
   double tolerance = 0.01;  ///< of the error's L2 norm, relative to the field's; > 0
   int order = -1;           ///< of all elements, 0…max_order; −1: chosen for each
-  bool refine = true;       ///< false: neither elements nor orders are changed
+  bool split = true;        ///< false: elements stay as they are
   int max_elements = 40000;
   int max_unknowns = 1000000;  ///< per channel
+  double max_samples = 0;      ///< gives up rather than take more; 0: no limit
 };
 
 struct AdaptiveFieldReport {

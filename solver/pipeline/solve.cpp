@@ -5,6 +5,7 @@
 #include "solver/elements/balancing_scale.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/solve_fields.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 
@@ -23,6 +24,9 @@ void check(const SolveOptions& options) {
         fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
                     "not negative",
                     options.elements, options.max_elements, options.max_length));
+  if (options.method == SolveMethod::fields && options.tolerance == 0)
+    throw Error(ErrorCode::usage, "solve",
+                "no error at all cannot be reached; give a tolerance above 0");
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)
     throw Error(ErrorCode::contract, "solve",
                 fmt::format("tolerance ({}) and secondary ({}) must be finite and not negative",
@@ -88,20 +92,9 @@ void estimate_error(Stages& stages, SolveResult& result) {
   });
 }
 
-}  // namespace
-
-SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
-  check(options);
-  return solve(PreparedScene(scene, progress), options, progress);
-}
-
-SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
-                  const Progress& progress) {
-  check(options);
-  auto result = begin_result<SolveResult>(prepared);
-  Stages stages(result.stages);
-
-  const Plan plan = make_plan(prepared, options, progress, stages);
+/// By constant elements and the matrix.
+void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+                  const Progress& progress, Stages& stages, SolveResult& result) {
   const Discontinuities found = find_curves(prepared, plan, options, progress, stages);
   result.discontinuities = found.report;
   result.curves = found.curves.size();
@@ -115,9 +108,26 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
-
-  if (options.regions) find_regions(prepared, progress, stages, result);
   estimate_error(stages, result);
+}
+
+}  // namespace
+
+SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
+  check(options);
+  return solve(PreparedScene(scene, progress), options, progress);
+}
+
+SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
+                  const Progress& progress) {
+  check(options);
+  auto result = begin_result<SolveResult>(prepared);
+  Stages stages(result.stages);
+  const Plan plan = make_plan(prepared, options, progress, stages);
+  const bool by_fields = options.method == SolveMethod::fields &&
+                         plan.no_exact_direct_light.empty() && !plan.no_factors.empty();
+  (by_fields ? solve_fields : solve_matrix)(prepared, plan, options, progress, stages, result);
+  if (options.regions) find_regions(prepared, progress, stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;
   const std::vector<Warning> warnings = light_warnings(

@@ -6,6 +6,8 @@
 #include "meshing/core/sound_scene.h"
 #include "meshing/patches/discontinuity_mesh.h"
 #include "meshing/patches/element_table.h"
+#include "solver/adapt/adaptive_field.h"
+#include "solver/elements/element_field.h"
 #include "solver/elements/solution.h"
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
@@ -29,7 +31,10 @@ struct SolveResult {
   DiscontinuityMeshReport mesh;        ///< how many of them the mesh has edges along
   double discontinuity_tolerance = 0;  ///< share of the mean irradiance, as used
   ElementTable elements;
-  Solution solution;
+  Solution solution;  ///< means over the elements
+  /// Polynomials on the elements, if they are not constant: direct and all irradiance, W/m².
+  ElementField direct, irradiance;
+  AdaptiveFieldReport refinement;
   /// What each element sees of each emitter, if asked for: row-major, one row an element, one
   /// column an emitter.
   std::vector<Region> regions;
@@ -40,6 +45,7 @@ struct SolveResult {
   RadiosityReport radiosity;
   /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
   double relative_error = 0;
+  std::string not_reached;   ///< why the accuracy asked for was not; empty if it was
   bool interrupted = false;  ///< stopped early: factors not reached count as zero
 };
 

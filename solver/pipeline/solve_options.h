@@ -12,6 +12,16 @@ enum class DirectLightBy {
   matrix      ///< the same form factors as reflected light
 };
 
+enum class SolveMethod {
+  fields,  ///< direct light as polynomials on elements made for it, to the tolerance asked
+  matrix   ///< constant elements and a dense matrix of form factors
+};
+
+enum class Refinement {
+  adaptive,  ///< elements and orders follow the error
+  uniform    ///< elements of `elements` or `max_length` are kept
+};
+
 /// Stages to run also where the scene does not need them. What the user left out stays so.
 struct ForcedStages {
   bool discontinuities = false;
@@ -22,15 +32,20 @@ struct ForcedStages {
 };
 
 struct SolveOptions {
+  SolveMethod method = SolveMethod::fields;
+  Refinement refine = Refinement::adaptive;
+  /// Of the irradiance's error, in the L2 norm, relative to the irradiance's; > 0 unless the method
+  /// is the matrix, where curves whose effect is below this share of the mean are left out.
+  double tolerance = 0.01;
+  int order = -1;              ///< of all elements, 0…max_order; −1: chosen for each
+  int max_unknowns = 1000000;  ///< per channel
   int elements =
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
   double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
   int max_elements = 40000;     ///< refuse to make more; memory grows with the square
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
   DiscontinuityOptions events;  ///< which curves to look for
-  int secondary = 0;  ///< look for those of this many of the brightest reflecting surfaces, too
-  /// Curves whose effect on the irradiance is below this share of its mean are left out.
-  double tolerance = 0.01;
+  int secondary = 0;     ///< look for those of this many of the brightest reflecting surfaces, too
   bool regions = false;  ///< say what each element sees of each emitter
   DirectLightBy direct_light = DirectLightBy::automatic;
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12

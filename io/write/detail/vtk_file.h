@@ -33,6 +33,11 @@ void add_element_data(const ElementTable& elements, vtkFieldData* data);
 /// Points and triangles, without data: an unstructured grid for ".vtu", poly data for ".vtp".
 vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements, std::string_view extension);
 
+/// Elements of order ≥ 1, each with nodes of its own, one element's after the other's: triangles of
+/// VTK's that are straight, quadratic or Lagrange's.
+vtkSmartPointer<vtkPointSet> polynomial_grid(std::span<const Vec3> nodes,
+                                             std::span<const int> order);
+
 /// Field data interrupted (0 or 1): what every file says. Field data hold numbers only, since some
 /// readers fail on strings, and nothing that differs from run to run.
 void add_interrupted(vtkFieldData* data, bool interrupted);

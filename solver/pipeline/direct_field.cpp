@@ -1,0 +1,185 @@
+#include "solver/pipeline/direct_field.h"
+
+#include "meshing/core/parallel.h"
+#include "solver/elements/quadrature.h"
+#include "solver/pipeline/blockers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace halfshade {
+namespace {
+
+/// Samples of direct light that take as long as finding the curves of an edge, about.
+constexpr double samples_for_edge = 125;
+/// Of the tolerance: what curves may do that are left out.
+constexpr double share_of_curves = 0.5;
+/// Degrees. Polynomials do well on elements that are too narrow for constants.
+constexpr double least_angle = 10;
+
+FieldAt direct_light_at(const DirectLightIndex& index) {
+  return [&index](std::span<const SurfacePoint> points, const Progress& progress) {
+    std::vector<Rgb> values;
+    values.reserve(points.size());
+    for (const DirectLight& light : index.irradiance(points, progress))
+      values.push_back(light.irradiance);
+    return values;
+  };
+}
+
+AdaptiveFieldOptions field_options(const SolveOptions& options) {
+  AdaptiveFieldOptions result;
+  result.tolerance = options.tolerance;
+  result.order = options.order;
+  result.split = options.refine == Refinement::adaptive;
+  result.max_elements = options.max_elements;
+  result.max_unknowns = options.max_unknowns;
+  return result;
+}
+
+double length_of(const SoundScene& scene, const SolveOptions& options) {
+  if (options.refine == Refinement::adaptive) return 0;
+  return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
+}
+
+/// What finding curves takes, in samples of direct light.
+double samples_for_curves(const SoundScene& scene, const Plan& plan) {
+  double edges = 0;
+  for (const int s : blocking_surfaces(scene))
+    for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
+  return samples_for_edge * edges * static_cast<double>(plan.sources.size());
+}
+
+class DirectFieldSearch {
+ public:
+  DirectFieldSearch(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+                    const Progress& progress, Stages& stages)
+      : prepared_(prepared),
+        plan_(plan),
+        options_(options),
+        progress_(progress),
+        stages_(stages),
+        direct_light_(direct_light_at(prepared.direct_light())) {}
+
+  DirectField run() {
+    const bool no_curves = !plan_.no_discontinuities.empty();
+    if (no_curves) {
+      stages_.leave_out_if(true, "discontinuities", plan_.no_discontinuities);
+      fit_without_curves(0);
+    } else if (!try_without_curves()) {
+      fit_along_curves();
+    }
+    stages_.leave_out_if(plan_.weak_sources > 0, "curves of weak sources",
+                         fmt::format("{} of them give too little", plan_.weak_sources));
+    find_regions();
+    return std::move(found_);
+  }
+
+ private:
+  const SoundScene& scene() const { return prepared_.scene(); }
+
+  bool try_without_curves() {
+    if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
+    const double samples = samples_for_curves(scene(), plan_);
+    fit_without_curves(std::max(samples, 1.));
+    if (found_.light.report.limit == FieldLimit::samples) return false;
+    stages_.leave_out_if(true, "discontinuities",
+                         "the tolerance takes less work than finding them");
+    return true;
+  }
+
+  void fit_without_curves(double most_samples) {
+    PlanarMeshOptions mesh_options;
+    mesh_options.max_length = length_of(scene(), options_);
+    mesh_options.min_angle = least_angle;
+    mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
+    std::optional<PatchMesh> patches;
+    stages_.run("mesh", [&] {
+      patches.emplace(scene(), mesh_options, progress_);
+      return static_cast<std::size_t>(patches->element_count());
+    });
+    AdaptiveFieldOptions fit = field_options(options_);
+    fit.max_samples = most_samples;
+    fit_on(*patches, fit);
+  }
+
+  void fit_along_curves() {
+    DiscontinuityOptions events = options_.events;
+    events.eee = events.eee && plan_.no_eee.empty();
+    events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
+    events.max_length = length_of(scene(), options_);
+    Discontinuities curves;
+    stages_.run("discontinuities", [&] {
+      curves = find_discontinuities(scene(), prepared_.opaque(), plan_.sources, events, progress_);
+      return curves.curves.size();
+    });
+    stages_.leave_out_if(!plan_.no_eee.empty(), "curves at three edges", plan_.no_eee);
+    DiscontinuityMeshOptions mesh_options;
+    mesh_options.max_length = events.max_length;
+    mesh_options.min_angle = least_angle;
+    mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
+    mesh_options.irradiance_tolerance = events.irradiance_tolerance;
+    std::optional<DiscontinuityMesh> mesh;
+    stages_.run("mesh along curves", [&] {
+      mesh.emplace(mesh_discontinuities(scene(), curves, mesh_options, progress_));
+      return static_cast<std::size_t>(mesh->patches.element_count());
+    });
+    found_.discontinuities = curves.report;
+    found_.curves = curves.curves.size();
+    found_.mesh = mesh->report;
+    found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
+    fit_on(mesh->patches, field_options(options_));
+  }
+
+  void fit_on(PatchMesh& patches, const AdaptiveFieldOptions& fit) {
+    stages_.run("direct light", [&] {
+      found_.light = fit_adaptively(patches, direct_light_, fit, progress_);
+      return found_.light.report.unknowns;
+    });
+  }
+
+  /// In penumbra are elements whose places do not agree.
+  void find_regions() {
+    const ElementTable& elements = found_.light.elements;
+    found_.region.assign(elements.corners.size(), Region::away);
+    std::vector<TrianglePlace> places = gauss_rule(2).places;
+    places.emplace_back(1. / 3, 1. / 3);
+    stages_.run("regions", [&] {
+      parallel_for(
+          elements.corners.size(),
+          [&](std::size_t e) {
+            const auto triangle = elements.triangle(static_cast<int>(e));
+            Region& region = found_.region[e];
+            for (std::size_t k = 0; k < places.size(); ++k) {
+              const Region here =
+                  prepared_.direct_light()
+                      .irradiance({position(triangle, places[k]), elements.normal[e]})
+                      .region;
+              region = k == 0 || here == region ? here : Region::penumbra;
+            }
+          },
+          progress_, "regions");
+      return elements.corners.size();
+    });
+  }
+
+  const PreparedScene& prepared_;
+  const Plan& plan_;
+  const SolveOptions& options_;
+  const Progress& progress_;
+  Stages& stages_;
+  FieldAt direct_light_;
+  DirectField found_;
+};
+
+}  // namespace
+
+DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
+                              const SolveOptions& options, const Progress& progress,
+                              Stages& stages) {
+  return DirectFieldSearch(prepared, plan, options, progress, stages).run();
+}
+
+}  // namespace halfshade

@@ -1,0 +1,106 @@
+#include "solver/pipeline/linear_result.h"
+
+#include "solver/elements/linear_pieces.h"
+#include "solver/elements/vertex_values.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// What lines may be off: no more than the result is, or than anybody sees.
+double allowed_error(const SolveResult& result) {
+  double area = 0;
+  for (const double a : result.elements.area) area += a;
+  const double square = square_integral(result.irradiance, result.elements);
+  return area > 0 ? std::max(result.relative_error, invisible_share) * std::sqrt(square / area) : 0;
+}
+
+/// The elements that pieces are of, one a piece.
+ElementTable piece_table(const ElementTable& whole, LinearPieces& pieces) {
+  ElementTable table;
+  table.points = std::move(pieces.points);
+  table.corners = std::move(pieces.corners);
+  table.neighbours.assign(table.corners.size(), {-1, -1, -1});
+  table.edge_order.assign(table.corners.size(), {-1, -1, -1});
+  for (const int e : pieces.element) {
+    table.normal.push_back(whole.normal[at(e)]);
+    table.area.push_back(whole.area[at(e)] / pieces.pieces[at(e)]);
+    table.surface.push_back(whole.surface[at(e)]);
+    table.face.push_back(whole.face[at(e)]);
+    table.group.push_back(whole.group[at(e)]);
+    table.material.push_back(whole.material[at(e)]);
+    table.level.push_back(whole.level[at(e)]);
+  }
+  return table;
+}
+
+Solution piece_solution(const Solution& whole, const std::vector<int>& element) {
+  Solution solution;
+  solution.rho = whole.rho(element, Eigen::all);
+  solution.exitance = whole.exitance(element, Eigen::all);
+  solution.radiosity = whole.radiosity(element, Eigen::all);
+  solution.irradiance = whole.irradiance(element, Eigen::all);
+  solution.direct_irradiance = whole.direct_irradiance(element, Eigen::all);
+  solution.error_estimate = whole.error_estimate(element);
+  for (const int e : element)
+    if (!whole.region.empty()) solution.region.push_back(whole.region[at(e)]);
+  return solution;
+}
+
+LinearResult cut(const SolveResult& result) {
+  std::vector<std::array<Vec3, 3>> triangles;
+  for (int e = 0; e < result.elements.count(); ++e)
+    triangles.push_back(result.elements.triangle(e));
+  LinearPieces pieces = linear_pieces(triangles, result.irradiance, allowed_error(result));
+  LinearResult out;
+  out.elements = piece_table(result.elements, pieces);
+  out.solution = piece_solution(result.solution, pieces.element);
+  const std::size_t emitters = result.emitters.size();
+  for (const int e : pieces.element)
+    if (!result.regions.empty())
+      for (std::size_t k = 0; k < emitters; ++k)
+        out.regions.push_back(result.regions[at(e) * emitters + k]);
+  const auto points = static_cast<Eigen::Index>(pieces.value.size());
+  out.irradiance.resize(points, 3);
+  for (Eigen::Index i = 0; i < points; ++i)
+    out.irradiance.row(i) = pieces.value[static_cast<std::size_t>(i)];
+  out.radiosity = result.solution.exitance(pieces.element_of_point, Eigen::all) +
+                  result.solution.rho(pieces.element_of_point, Eigen::all) * out.irradiance;
+  return out;
+}
+
+}  // namespace
+
+NodeValues node_values(const SolveResult& result) {
+  NodeValues nodes;
+  int count = 0;
+  for (const int order : result.irradiance.order) {
+    nodes.order.push_back(std::max(order, 1));
+    count += basis_size(nodes.order.back());
+  }
+  nodes.irradiance.resize(count, 3);
+  nodes.radiosity.resize(count, 3);
+  Eigen::Index row = 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const auto triangle = result.elements.triangle(e);
+    for (const TrianglePlace& place : element_nodes(nodes.order[at(e)])) {
+      nodes.points.push_back(position(triangle, place));
+      nodes.irradiance.row(row) = value_at(result.irradiance, e, place);
+      nodes.radiosity.row(row) =
+          result.solution.exitance.row(e) + result.solution.rho.row(e) * nodes.irradiance.row(row);
+      ++row;
+    }
+  }
+  return nodes;
+}
+
+LinearResult linear_result(const SolveResult& result) {
+  if (result.irradiance.count() > 0) return cut(result);
+  return {result.elements, result.solution,
+          values_at_points(result.elements, result.solution.irradiance),
+          values_at_points(result.elements, result.solution.radiosity), result.regions};
+}
+
+}  // namespace halfshade

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "solver/pipeline/solve.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// A result for those who know triangles with values at corners only.
+struct LinearResult {
+  ElementTable elements;
+  Solution solution;                   ///< of each triangle
+  ChannelArray irradiance, radiosity;  ///< at points, W/m²
+  std::vector<Region> regions;         ///< as those of SolveResult
+};
+
+/// A result with the polynomials of its elements, by their values at nodes.
+struct NodeValues {
+  std::vector<int> order;              ///< of each element; 1 also where it is constant
+  std::vector<Vec3> points;            ///< one element's after the other's, see element_nodes
+  ChannelArray irradiance, radiosity;  ///< there, W/m²
+};
+
+/// Precondition: the result has polynomials.
+NodeValues node_values(const SolveResult& result);
+
+/// Cuts elements of higher order into triangles, so many that straight lines between their corners
+/// stay within the result's error or a thousandth of its light. Constant elements stay as they are;
+/// values at points are then means of the elements around them.
+LinearResult linear_result(const SolveResult& result);
+
+}  // namespace halfshade

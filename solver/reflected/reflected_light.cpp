@@ -165,7 +165,7 @@ class Rounds {
              const std::vector<double>& noise) {
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
-    const ReflectionProbes probes{std::clamp(nodes / 3, 500, 3000), rays_, use_};
+    const ReflectionProbes probes{std::clamp(nodes / 3, 800, 4000), rays_, use_};
     const ReflectionEstimate estimate =
         estimate_error(state_.reflecting, system, irradiance, probes, progress_);
     if (!estimate.complete) return false;

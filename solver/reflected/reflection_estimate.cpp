@@ -11,19 +11,22 @@ namespace {
 
 struct Probe {
   int element;
-  int number;  ///< in its element
+  int number;    ///< in its element
+  double share;  ///< of the area that it stands for
   double product = 0, square = 0;
 };
 
-/// As many points of each element as its share of the area, in the mean over `use`.
-std::vector<Probe> spread_probes(const ReflectedMesh& mesh, const ReflectionProbes& options,
-                                 double area) {
+/// The largest errors are those of small elements beside contacts: points as the square root of the
+/// area, in the mean over `use`.
+std::vector<Probe> spread_probes(const ReflectedMesh& mesh, const ReflectionProbes& options) {
+  double roots = 0;
+  for (int e = 0; e < mesh.count(); ++e) roots += std::sqrt(mesh.area(e));
   std::vector<Probe> probes;
   for (int e = 0; e < mesh.count(); ++e) {
-    const double wanted = options.points * mesh.area(e) / area;
+    const double wanted = options.points * std::sqrt(mesh.area(e)) / roots;
     const std::uint64_t seed = ray_seed(mesh.triangle[at(e)], 63, 2 * options.use);
     const int count = static_cast<int>(std::floor(wanted + random_number(seed, 0)));
-    for (int k = 0; k < count; ++k) probes.push_back({e, k});
+    for (int k = 0; k < count; ++k) probes.push_back({e, k, mesh.area(e) / wanted});
   }
   return probes;
 }
@@ -41,9 +44,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
   const auto& [mesh, light, exchange, systems] = system;
   const QuickField leaving(leaving_rest(mesh, light, systems, irradiance));
   const QuickField rest(irradiance.rest);
-  double area = 0;
-  for (int e = 0; e < mesh.count(); ++e) area += mesh.area(e);
-  std::vector<Probe> probes = spread_probes(mesh, options, area);
+  std::vector<Probe> probes = spread_probes(mesh, options);
   const int strata = std::max(3, static_cast<int>(std::lround(std::sqrt(options.rays / 2.))));
   ReflectionEstimate estimate;
   estimate.complete = parallel_for(
@@ -73,12 +74,11 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
       },
       progress, "error of reflected light");
   estimate.square_error.assign(at(mesh.count()), 0);
-  const double share = area / options.points;
   for (const Probe& probe : probes) {
-    estimate.square_error[at(probe.element)] += share * probe.product;
-    estimate.sum += share * probe.product;
-    estimate.deviation += share * share * probe.product * probe.product;
-    estimate.square_total += share * probe.square;
+    estimate.square_error[at(probe.element)] += probe.share * probe.product;
+    estimate.sum += probe.share * probe.product;
+    estimate.deviation += probe.share * probe.share * probe.product * probe.product;
+    estimate.square_total += probe.share * probe.square;
   }
   estimate.deviation = std::sqrt(estimate.deviation);
   estimate.rays = probes.size() * 2 * at(strata) * at(strata);

@@ -51,7 +51,8 @@ struct Query {
   RTCIntersectContext context;
   const TriangleSoup* soup;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
-  Vec3 origin, direction;             // nearest hit
+  Vec3 origin;                        // nearest hit
+  const Vec3* directions = nullptr;   // nearest hit: the packet's
   bool front_only = false;
 };
 static_assert(std::is_standard_layout_v<Query>, "a pointer to the context must lead to the query");
@@ -65,12 +66,12 @@ bool is_between(const Query& query, const Segment& segment, std::size_t id) {
   return triangle.contains(segment.from + from / (from - to) * (segment.to - segment.from));
 }
 
-bool is_ahead(const Query& query, std::size_t id) {
+bool is_ahead(const Query& query, const Vec3& direction, std::size_t id) {
   const SoupTriangle triangle(*query.soup, id);
-  const double height = triangle.height(query.origin), rise = triangle.normal.dot(query.direction);
+  const double height = triangle.height(query.origin), rise = triangle.normal.dot(direction);
   if (query.front_only && rise >= 0) return false;
   if (!(triangle.side(query.origin) * rise < 0)) return false;
-  return triangle.contains(query.origin - height / rise * query.direction);
+  return triangle.contains(query.origin - height / rise * direction);
 }
 
 void filter_occlusion(const RTCFilterFunctionNArguments* args) {
@@ -85,9 +86,11 @@ void filter_occlusion(const RTCFilterFunctionNArguments* args) {
 
 void filter_hit(const RTCFilterFunctionNArguments* args) {
   const auto& query = *reinterpret_cast<const Query*>(args->context);
-  for (unsigned i = 0; i < args->N; ++i)
-    if (args->valid[i] != 0 && !is_ahead(query, RTCHitN_primID(args->hit, args->N, i)))
-      args->valid[i] = 0;
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const Vec3& direction = query.directions[RTCRayN_id(args->ray, args->N, i)];
+    if (!is_ahead(query, direction, RTCHitN_primID(args->hit, args->N, i))) args->valid[i] = 0;
+  }
 }
 
 float narrow(double x) { return static_cast<float>(x); }
@@ -103,6 +106,18 @@ RTCRay to_embree(const Ray& ray) {
   out.tfar = narrow(ray.length);
   out.mask = ~0u;
   return out;
+}
+
+void put(const Ray& ray, std::size_t i, RTCRay16& packet) {
+  packet.org_x[i] = narrow(ray.origin.x());
+  packet.org_y[i] = narrow(ray.origin.y());
+  packet.org_z[i] = narrow(ray.origin.z());
+  packet.dir_x[i] = narrow(ray.direction.x());
+  packet.dir_y[i] = narrow(ray.direction.y());
+  packet.dir_z[i] = narrow(ray.direction.z());
+  packet.tfar[i] = narrow(ray.length);
+  packet.mask[i] = ~0u;
+  packet.id[i] = static_cast<unsigned>(i);
 }
 
 Query query_of(const TriangleSoup& soup, bool coherent) {
@@ -176,15 +191,7 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
     bundle = bundle && (r->origin - first->origin).squaredNorm() < bundle_spread * bundle_spread &&
              (r->end() - first->end()).squaredNorm() < bundle_spread * bundle_spread;
     valid[i] = -1;
-    rays.org_x[i] = narrow(r->origin.x());
-    rays.org_y[i] = narrow(r->origin.y());
-    rays.org_z[i] = narrow(r->origin.z());
-    rays.dir_x[i] = narrow(r->direction.x());
-    rays.dir_y[i] = narrow(r->direction.y());
-    rays.dir_z[i] = narrow(r->direction.z());
-    rays.tfar[i] = narrow(r->length);
-    rays.mask[i] = ~0u;
-    rays.id[i] = static_cast<unsigned>(i);
+    put(*r, i, rays);
   }
   Query query = query_of(soup_, bundle);
   query.segments = segments.data();
@@ -198,7 +205,7 @@ int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides side
   if (!ray) return -1;
   Query query = query_of(soup_, false);
   query.origin = origin;
-  query.direction = direction;
+  query.directions = &direction;
   query.front_only = sides == Sides::front_only;
   RTCRayHit found{};
   found.ray = to_embree(*ray);
@@ -206,6 +213,27 @@ int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides side
   rtcIntersect1(handles_->scene.get(), &query.context, &found);
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return -1;
   return static_cast<int>(found.hit.primID);
+}
+
+void EmbreeScene::first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+                             std::span<int> triangles) const {
+  alignas(64) RTCRayHit16 found{};
+  alignas(64) int valid[packet_size] = {};
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    found.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    const std::optional<Ray> r = space_.ray_ahead(origin, directions[i]);
+    if (!r) continue;
+    valid[i] = -1;
+    put(*r, i, found.ray);
+  }
+  Query query = query_of(soup_, true);
+  query.origin = origin;
+  query.directions = directions.data();
+  query.front_only = sides == Sides::front_only;
+  rtcIntersect16(valid, handles_->scene.get(), &query.context, &found);
+  for (std::size_t i = 0; i < directions.size(); ++i)
+    triangles[i] =
+        found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(found.hit.primID[i]);
 }
 
 }  // namespace halfshade

@@ -28,6 +28,10 @@ class EmbreeScene {
   /// finite.
   int first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const;
 
+  /// The same for up to packet_size directions from one origin.
+  void first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+                  std::span<int> triangles) const;
+
  private:
   struct Handles;
 

@@ -49,6 +49,17 @@ struct VisibilityIndex::Impl {
     space = make_ray_space(soup);
     if (!soup.triangles.empty()) scene.emplace(soup, space);
   }
+
+  /// Where a ray that meets a triangle does so.
+  Hit hit(const Vec3& origin, const Vec3& direction, int triangle) const {
+    const SoupTriangle corners(soup, at(triangle));
+    Hit hit;
+    hit.owner = soup.owner[at(triangle)];
+    hit.triangle = triangle;
+    hit.distance = -corners.height(origin) / corners.normal.dot(direction);
+    hit.weights = corners.weights(origin + hit.distance * direction);
+    return hit;
+  }
 };
 
 VisibilityIndex::VisibilityIndex(TriangleSoup soup)
@@ -91,13 +102,25 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   if (unit.isZero()) return std::nullopt;
   const int triangle = impl_->scene->first_hit(origin, unit, sides);
   if (triangle < 0) return std::nullopt;
-  const SoupTriangle corners(impl_->soup, at(triangle));
-  Hit hit;
-  hit.owner = impl_->soup.owner[at(triangle)];
-  hit.triangle = triangle;
-  hit.distance = -corners.height(origin) / corners.normal.dot(unit);
-  hit.weights = corners.weights(origin + hit.distance * unit);
-  return hit;
+  return impl_->hit(origin, unit, triangle);
+}
+
+void VisibilityIndex::first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+                                 std::span<Hit> hits) const {
+  if (directions.size() != hits.size())
+    throw Error(ErrorCode::contract, "VisibilityIndex::first_hits",
+                fmt::format("{} directions and room for {} hits", directions.size(), hits.size()));
+  std::array<int, packet_size> triangles;
+  for (std::size_t i = 0; i < directions.size(); i += packet_size) {
+    const std::size_t count = std::min(packet_size, directions.size() - i);
+    triangles.fill(-1);
+    if (impl_->scene)
+      impl_->scene->first_hits(origin, directions.subspan(i, count), sides,
+                               std::span(triangles).first(count));
+    for (std::size_t k = 0; k < count; ++k)
+      hits[i + k] = triangles[k] < 0 ? Hit{-1, -1, 0, {}}
+                                     : impl_->hit(origin, directions[i + k], triangles[k]);
+  }
 }
 
 std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,

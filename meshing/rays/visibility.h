@@ -56,6 +56,12 @@ class VisibilityIndex {
   std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction,
                                Sides sides = Sides::both) const;
 
+  /// The same for directions of unit length from one finite origin; `hits[k].triangle` is −1 where
+  /// nothing is met. Spans must be equally long. On the calling thread, in packets: directions that
+  /// are close together should be close together in the batch.
+  void first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+                  std::span<Hit> hits) const;
+
   /// Owners of all triangles that can lie between a point of polygon `a` and a point of polygon
   /// `b`: those that reach into the interior of their convex hull (shaft; Haines and Wallace 1991).
   /// Sorted. Conservative except that triangles reaching in by less than 1e-12 of the hull's size

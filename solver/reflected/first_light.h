@@ -1,0 +1,34 @@
+#pragma once
+
+#include "solver/reflected/reflected_light.h"
+#include "solver/reflected/reflecting_scene.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// What the roots of a scene reflect, and the light that leaves them for the first time.
+struct FirstLight {
+  std::vector<int> surface;        ///< of each root
+  std::vector<Rgb> rho, exitance;  ///< of each root
+  DirectIrradiance direct;         ///< H_d
+  bool through_operator = false;
+
+  /// H_d at a point of a root; 0 if direct light is found like reflected light.
+  Rgb direct_at(int root, const Vec3& position) const {
+    return through_operator ? Rgb(Rgb::Zero()) : direct(surface[at(root)], position);
+  }
+
+  /// S at a point of a root.
+  Rgb leaving(int root, const Vec3& position) const {
+    if (through_operator) return exitance[at(root)];
+    const Rgb& reflected = rho[at(root)];
+    return (reflected == 0).all() ? Rgb(Rgb::Zero())
+                                  : Rgb(reflected * direct(surface[at(root)], position));
+  }
+};
+
+FirstLight first_light(const SoundScene& scene, const ElementTable& roots, DirectIrradiance direct,
+                       bool through_operator);
+
+}  // namespace halfshade

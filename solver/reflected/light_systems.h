@@ -1,0 +1,66 @@
+#pragma once
+
+#include "solver/reflected/lockstep_gmres.h"
+#include "solver/reflected/ray_exchange.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace halfshade {
+
+/// Parts of a mesh that exchange no light with each other. One row a system below.
+struct LightSystems {
+  std::vector<int> of_element;
+  std::vector<bool> closed;  ///< no light leaves it
+  Eigen::ArrayXd area;
+  ChannelArray absorption;  ///< ∫ (1 − ρ)
+  ChannelArray power;       ///< ∫ S, of closed systems
+
+  int count() const { return static_cast<int>(closed.size()); }
+};
+
+/// A closed cell of space is one; in an open one it is what rays connect. Without power.
+LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
+                          const ReflectedMesh& mesh, const RayExchange& exchange);
+
+/// Means of direct light over the elements, by a fixed number of random points over all surfaces,
+/// stratified: what power is put into a system. Kept for elements that do not change.
+class DirectMeans {
+ public:
+  /// Asks for the light on new elements.
+  void update(const ReflectedMesh& mesh, const FirstLight& light);
+
+  /// ∫ S over each closed system. Direct light is scaled so that all that is emitted arrives.
+  ChannelArray power(const ReflectedMesh& mesh, const FirstLight& light,
+                     const LightSystems& systems) const;
+
+ private:
+  std::vector<std::unique_ptr<Rgb>> of_triangle_;
+};
+
+/// ∫ of a field over each system; with `weight` of each root, if given.
+ChannelArray integrals(const ReflectedMesh& mesh, const LightSystems& systems,
+                       const ElementField& field, const std::vector<Rgb>* weight = nullptr);
+
+/// Adds `value` of its system to an element's field everywhere, times `weight` of its root.
+void add_constants(const ReflectedMesh& mesh, const LightSystems& systems,
+                   const ChannelArray& value, const std::vector<Rgb>* weight, ElementField& field);
+
+/// Irradiance as a constant of each closed system, and the rest. What a system that absorbs next to
+/// nothing holds is nearly all in the constant, which the balance of power gives exactly.
+struct SplitIrradiance {
+  ChannelArray constant;  ///< of each system
+  ElementField rest;
+
+  ElementField whole(const ReflectedMesh& mesh, const LightSystems& systems) const;
+};
+
+/// What leaves where that irradiance arrives, less the constant: ρ rest − (1 − ρ) constant.
+ElementField leaving_rest(const ReflectedMesh& mesh, const FirstLight& light,
+                          const LightSystems& systems, const SplitIrradiance& irradiance);
+
+/// 1 − ρ of each root.
+std::vector<Rgb> absorptances(const FirstLight& light);
+
+}  // namespace halfshade

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/elements/element_field.h"
+#include "solver/reflected/reflected_mesh.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// A field of order ≤ max_reflected_order as sums of powers, for the many places that rays ask for.
+class QuickField {
+ public:
+  explicit QuickField(const ElementField& field);
+
+  Rgb value(int element, const TrianglePlace& place) const {
+    const double s = place.x(), t = place.y();
+    const Rgb* c = powers_.data() + first_[at(element)];
+    switch (order_[at(element)]) {
+      case 0:
+        return c[0];
+      case 1:
+        return c[0] + s * c[1] + t * c[2];
+      case 2:
+        return c[0] + s * (c[1] + s * c[3] + t * c[4]) + t * (c[2] + t * c[5]);
+      default:
+        return c[0] + s * (c[1] + s * (c[3] + s * c[6] + t * c[7]) + t * c[4]) +
+               t * (c[2] + t * (c[5] + t * c[9] + s * c[8]));
+    }
+  }
+
+ private:
+  std::vector<int> order_, first_;
+  std::vector<Rgb> powers_;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,143 @@
+#include "solver/reflected/ray_exchange.h"
+
+#include "meshing/core/parallel.h"
+#include "meshing/geometry/mix_bits.h"
+
+namespace halfshade {
+namespace {
+
+std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& light,
+                                const ReflectedMesh& mesh, int element, int strata) {
+  thread_local std::vector<RayEnd> ends;
+  HemisphereRays caster(scene);
+  auto rays = std::make_unique<NodeRays>();
+  const int triangle = mesh.triangle[at(element)];
+  const ElementNodes& nodes = element_nodes_of(mesh.order[at(triangle)]);
+  rays->source = ChannelArray::Zero(static_cast<Eigen::Index>(nodes.places.size()), 3);
+  for (std::size_t k = 0; k < nodes.places.size(); ++k) {
+    const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[k]);
+    ends.clear();
+    const int count = caster.cast(from, strata, ray_seed(triangle, static_cast<int>(k), 0), ends);
+    rays->first.push_back(static_cast<int>(rays->ends.size()));
+    rays->rays.push_back(count);
+    Rgb sum = Rgb::Zero();
+    for (const RayEnd& end : ends) {
+      const Vec3 position = halfshade::position(mesh.forest.corners(end.triangle), end.place());
+      sum += light.leaving(end.triangle, position);
+    }
+    rays->source.row(static_cast<Eigen::Index>(k)) = (sum / count).transpose();
+    rays->ends.insert(rays->ends.end(), ends.begin(), ends.end());
+  }
+  rays->first.push_back(static_cast<int>(rays->ends.size()));
+  rays->ends.shrink_to_fit();
+  return rays;
+}
+
+void settle(const TriangleForest& forest, NodeRays& rays) {
+  for (RayEnd& end : rays.ends) {
+    if (forest.is_leaf(end.triangle)) continue;
+    const ForestPlace leaf = forest.leaf_at({end.triangle, end.place()});
+    end = {leaf.triangle, static_cast<float>(leaf.place.x()), static_cast<float>(leaf.place.y())};
+  }
+}
+
+}  // namespace
+
+std::uint64_t ray_seed(int triangle, int node, int use) {
+  constexpr std::uint64_t most_nodes = 64, most_uses = 1024;
+  return mix_bits(
+      (static_cast<std::uint64_t>(triangle) * most_nodes + static_cast<std::uint64_t>(node)) *
+          most_uses +
+      static_cast<std::uint64_t>(use));
+}
+
+RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, int element,
+                     const TrianglePlace& place) {
+  const int root = mesh.root(element), cell = scene.cells.before(root);
+  return {mesh.position(element, place), scene.roots.normal[at(root)], cell,
+          static_cast<bool>(scene.cells.closed[at(cell)])};
+}
+
+Rgb gathered(const FirstLight& light, const ReflectedMesh& mesh, const QuickField& leaving,
+             std::span<const RayEnd> ends, int rays) {
+  Rgb sum = Rgb::Zero();
+  for (const RayEnd& end : ends) {
+    const auto& corners = mesh.forest.corners(end.triangle);
+    sum += light.leaving(end.triangle, halfshade::position(corners, end.place()));
+    const ForestPlace leaf = mesh.forest.leaf_at({end.triangle, end.place()});
+    sum += leaving.value(mesh.element[at(leaf.triangle)], leaf.place);
+  }
+  return sum / rays;
+}
+
+ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
+                            const ElementField& field) {
+  ElementField result = field;
+  for (int e = 0; e < field.count(); ++e)
+    result.of(e).rowwise() *= light.rho[at(mesh.root(e))].transpose();
+  return result;
+}
+
+bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
+  of_triangle_.resize(at(mesh.forest.count()));
+  std::vector<int> missing;
+  for (int t = 0; t < mesh.forest.count(); ++t) {
+    auto& rays = of_triangle_[at(t)];
+    if (!mesh.forest.is_leaf(t)) rays.reset();
+    const std::size_t nodes = element_nodes_of(mesh.order[at(t)]).places.size();
+    if (!mesh.forest.is_leaf(t) || (rays && rays->rays.size() == nodes)) continue;
+    missing.push_back(mesh.element[at(t)]);
+    traced_ += nodes * static_cast<std::size_t>(strata_ * strata_);
+  }
+  const bool complete = parallel_for(
+      missing.size(),
+      [&](std::size_t i) {
+        const int e = missing[i];
+        of_triangle_[at(mesh.triangle[at(e)])] = trace(scene_, light_, mesh, e, strata_);
+      },
+      progress, "rays of reflected light");
+  if (complete)
+    parallel_for(at(mesh.count()),
+                 [&](std::size_t e) { settle(mesh.forest, *of_triangle_[at(mesh.triangle[e])]); });
+  return complete;
+}
+
+ElementField RayExchange::source(const ReflectedMesh& mesh) const {
+  ElementField result = zero_field(mesh);
+  for (int e = 0; e < mesh.count(); ++e) {
+    const int t = mesh.triangle[at(e)];
+    result.of(e) =
+        (element_nodes_of(mesh.order[at(t)]).fit * of_triangle_[at(t)]->source.matrix()).array();
+  }
+  return result;
+}
+
+ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& leaving) const {
+  const QuickField quick(leaving);
+  ElementField result = zero_field(mesh);
+  parallel_for(at(mesh.count()), [&](std::size_t e) {
+    const int t = mesh.triangle[e];
+    const NodeRays& rays = *of_triangle_[at(t)];
+    ChannelArray values(static_cast<Eigen::Index>(rays.rays.size()), 3);
+    for (std::size_t k = 0; k < rays.rays.size(); ++k) {
+      Rgb sum = Rgb::Zero();
+      for (int i = rays.first[k]; i < rays.first[k + 1]; ++i) {
+        const RayEnd& end = rays.ends[at(i)];
+        sum += quick.value(mesh.element[at(end.triangle)], end.place());
+      }
+      values.row(static_cast<Eigen::Index>(k)) = (sum / rays.rays[k]).transpose();
+    }
+    result.of(static_cast<int>(e)) =
+        (element_nodes_of(mesh.order[at(t)]).fit * values.matrix()).array();
+  });
+  return result;
+}
+
+std::vector<int> RayExchange::seen_from(const ReflectedMesh& mesh, int element) const {
+  std::vector<int> seen;
+  for (const RayEnd& end : of_triangle_[at(mesh.triangle[at(element)])]->ends)
+    seen.push_back(mesh.element[at(end.triangle)]);
+  return seen;
+}
+
+}  // namespace halfshade

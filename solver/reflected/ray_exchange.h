@@ -1,0 +1,68 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "solver/reflected/first_light.h"
+#include "solver/reflected/quick_field.h"
+#include "solver/reflected/reflected_mesh.h"
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// Where the rays from the nodes of an element end, and what comes from there first.
+struct NodeRays {
+  std::vector<RayEnd> ends;  ///< on triangles of the forest
+  std::vector<int> first;    ///< node → its first end, and the number of ends
+  std::vector<int> rays;     ///< node → number of rays that its ends are taken from
+  ChannelArray source;       ///< node → irradiance from S
+};
+
+/// K, irradiance from leaving light, by a few rays from each node that are traced once and kept.
+/// Only the elements that change are traced anew.
+class RayExchange {
+ public:
+  /// Both must outlive it.
+  RayExchange(const ReflectingScene& scene, const FirstLight& light, int strata)
+      : scene_(scene), light_(light), strata_(strata) {}
+
+  /// Traces what is missing. False if stopped before all was.
+  bool update(const ReflectedMesh& mesh, const Progress& progress);
+
+  /// K S.
+  ElementField source(const ReflectedMesh& mesh) const;
+
+  /// K B.
+  ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const;
+
+  /// The elements that the rays from an element end on, as often as they do.
+  std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const;
+
+  std::size_t rays() const { return traced_; }
+
+ private:
+  const ReflectingScene& scene_;
+  const FirstLight& light_;
+  int strata_;
+  std::size_t traced_ = 0;
+  std::vector<std::unique_ptr<NodeRays>> of_triangle_;  ///< of the forest; none where split
+};
+
+/// The origin of rays at a place of an element.
+RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, int element,
+                     const TrianglePlace& place);
+
+/// Mean over rays of what leaves their ends: S, and a field on the elements; `ends` lie on roots.
+Rgb gathered(const FirstLight& light, const ReflectedMesh& mesh, const QuickField& leaving,
+             std::span<const RayEnd> ends, int rays);
+
+/// A seed for the rays of a node of a triangle; `use` tells apart what is to be independent.
+std::uint64_t ray_seed(int triangle, int node, int use);
+
+/// ρ times a field.
+ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
+                            const ElementField& field);
+
+}  // namespace halfshade

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/core/sound_scene.h"
+#include "meshing/patches/element_table.h"
+#include "solver/direct/direct_light.h"
+#include "solver/elements/element_field.h"
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+namespace halfshade {
+
+/// Direct irradiance H_d in W/m² at a point of a surface's front; called from all threads, once
+/// for each ray. It may be an approximation: what it is off is off in the result, times what
+/// reflects.
+using DirectIrradiance = std::function<Rgb(int surface, const Vec3& position)>;
+
+struct ReflectedOptions {
+  int order = 2;            ///< of the elements, 0…3
+  double tolerance = 0.01;  ///< of G, relative to all irradiance in the L2 norm, > 0
+  double max_length = 0;    ///< of elements to begin with, scene units; 0: by the tolerance
+  int max_elements = 20000;
+  int max_rays = 4096;  ///< from a node of mean size, ≥ 32
+  int max_rounds = 8;   ///< of solving, estimating and refining; 1: no refinement
+  int bounces = -1;     ///< −1: all; n ≥ 0: light that arrives after at most n reflections
+  /// Direct light is not given but found like reflected light: what leaves first is the exitance,
+  /// and the result is all irradiance. For scenes where nearly everything emits.
+  bool through_operator = false;
+};
+
+enum class ReflectedEnd {
+  accurate,     ///< the tolerance is met
+  nothing,      ///< nothing is reflected: G = 0
+  elements,     ///< max_elements stopped it short of the tolerance
+  rays,         ///< max_rays did
+  rounds,       ///< max_rounds did
+  interrupted,  ///< what was found until then; 0 everywhere if that was nothing
+};
+
+struct ReflectedReport {
+  ReflectedEnd end = ReflectedEnd::nothing;
+  int elements = 0;
+  int rounds = 0;
+  std::size_t rays = 0;
+  int systems = 0;         ///< parts that exchange no light
+  int closed_systems = 0;  ///< of them, those that no light leaves: their power is balanced
+  int iterations = 0;      ///< of the linear solver, in the last round
+  double residual = 0;     ///< of it, relative to the light of the system
+  /// The most that a residual may grow to in the result, as seen in the iteration: 1 / the smallest
+  /// singular value. What is left of the residual is at most this times it.
+  double amplification = 1;
+  /// Estimated error of G in the L2 norm relative to all irradiance, with two standard deviations
+  /// of the estimate added; of the polynomials and of the rays together.
+  double error = 0;
+  double noise = 0;              ///< the rays' part in it
+  double mean_square_total = 0;  ///< of all irradiance, summed over the channels, (W/m²)²
+};
+
+/// Light that arrives after at least one reflection: G = K (S + ρ G), K irradiance from leaving
+/// light, S = ρ H_d (or E, see through_operator). Polynomials on a mesh that knows nothing of the
+/// direct light's curves; see reflected.md. Cheap to copy. All calls may run concurrently.
+class ReflectedLight {
+ public:
+  struct State;
+  explicit ReflectedLight(std::shared_ptr<const State> state) : state_(std::move(state)) {}
+
+  /// G by the polynomials. Precondition: the point lies on the surface, up to rounding.
+  Rgb irradiance(int surface, const Vec3& position) const;
+
+  /// G at any point, on a surface or not, by about `rays` rays to what S and the polynomials say:
+  /// two or three times as exact as the polynomials for 1,000 rays, and noisier for a few.
+  Rgb gather(const SurfacePoint& point, int rays) const;
+
+  const ReflectedReport& report() const;
+
+  /// The elements and the polynomials on them. Neighbours may be split differently, so that none
+  /// are given, and points are each element's own.
+  const ElementTable& elements() const;
+  const ElementField& field() const;
+
+ private:
+  std::shared_ptr<const State> state_;
+};
+
+/// Solves for it. `direct` is not asked if direct light goes through the operator, and is kept for
+/// gather(). The scene may go. Deterministic for any number of threads. Throws Error(contract) for
+/// options out of range, Error(invalid_input) where a closed space reflects everything and light is
+/// put in. Memory: 12 bytes for each of about 36 rays from each node (6 in an element of order 2).
+ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
+                               const ReflectedOptions& options = {}, const Progress& progress = {});
+
+}  // namespace halfshade

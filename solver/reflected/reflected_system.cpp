@@ -1,0 +1,133 @@
+#include "solver/reflected/reflected_system.h"
+
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+
+namespace halfshade {
+namespace {
+
+constexpr double solver_tolerance = 1e-10;
+constexpr int most_iterations = 400;
+
+RowGroups groups_of(const ReflectedMesh& mesh, const LightSystems& systems,
+                    const ElementField& field) {
+  RowGroups groups;
+  groups.count = systems.count();
+  groups.of_row.resize(at(field.first.back()));
+  groups.weight.resize(field.first.back());
+  for (int e = 0; e < mesh.count(); ++e)
+    for (int i = field.first[at(e)]; i < field.first[at(e) + 1]; ++i) {
+      groups.of_row[at(i)] = systems.of_element[at(e)];
+      groups.weight[i] = mesh.area(e);
+    }
+  return groups;
+}
+
+/// 0 where the divisor is.
+ChannelArray ratio(const ChannelArray& a, const ChannelArray& b) {
+  return (b != 0).select(a / b, 0.);
+}
+
+/// Keeps the rows of closed systems.
+ChannelArray of_closed(const LightSystems& systems, ChannelArray values) {
+  for (int s = 0; s < systems.count(); ++s)
+    if (!systems.closed[at(s)]) values.row(s).setZero();
+  return values;
+}
+
+void require_absorption(const LightSystems& systems, const ChannelArray& power) {
+  for (int s = 0; s < systems.count(); ++s)
+    if (systems.closed[at(s)] && (systems.absorption.row(s) <= 0 && power.row(s) > 0).any())
+      throw Error(ErrorCode::invalid_input, "reflected_light",
+                  fmt::format("a closed space of area {} reflects everything (reflectance 1) and "
+                              "light of {} W is put in, so that there is no limit; lower a "
+                              "reflectance",
+                              systems.area[s], power.row(s).maxCoeff()));
+}
+
+/// The operator of the rest, see solve_reflected.
+class RestOperator {
+ public:
+  RestOperator(const ReflectedSystem& system, const ElementField& ambient)
+      : system_(system), ambient_(ambient), absorbed_(absorptances(system.light)) {}
+
+  ChannelArray operator()(const ChannelArray& y) const {
+    const auto& [mesh, light, exchange, systems] = system_;
+    ElementField field = ambient_;
+    field.coefficients = y;
+    ElementField leaving = reflected_part(mesh, light, field);
+    const ChannelArray weighted =
+        ratio(integrals(mesh, systems, field, &absorbed_), systems.absorption);
+    add_constants(mesh, systems, of_closed(systems, weighted), &absorbed_, leaving);
+    const ChannelArray mean =
+        of_closed(systems, integrals(mesh, systems, field).colwise() / systems.area);
+    ChannelArray image = y - exchange.apply(mesh, leaving).coefficients;
+    for (int e = 0; e < mesh.count(); ++e)
+      image.middleRows(field.first[at(e)], ambient_.of(e).rows()) +=
+          ambient_.of(e).rowwise() * mean.row(systems.of_element[at(e)]);
+    return image;
+  }
+
+ private:
+  ReflectedSystem system_;
+  const ElementField& ambient_;
+  std::vector<Rgb> absorbed_;
+};
+
+/// What arrives in all, scaled to a mean of 1 in each system.
+ElementField ambient_form(const ReflectedSystem& system, const SplitIrradiance& arriving) {
+  ElementField form = arriving.whole(system.mesh, system.systems);
+  const ChannelArray mean =
+      integrals(system.mesh, system.systems, form).colwise() / system.systems.area;
+  for (int e = 0; e < system.mesh.count(); ++e) {
+    const auto m = mean.row(system.systems.of_element[at(e)]);
+    for (int c = 0; c < 3; ++c) {
+      auto column = form.of(e).col(c);
+      if (m[c] > 0) {
+        column /= m[c];
+      } else {
+        column.setZero();
+        column[0] = 1;
+      }
+    }
+  }
+  return form;
+}
+
+}  // namespace
+
+ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
+                                  const ChannelArray& power, const ElementField* ambient) {
+  const auto& [mesh, light, exchange, systems] = system;
+  require_absorption(systems, power);
+  ReflectedSolution solution;
+  SplitIrradiance& irradiance = solution.irradiance;
+  irradiance = {of_closed(systems, ratio(power, systems.absorption)), zero_field(mesh)};
+  irradiance.rest = exchange.apply(mesh, leaving_rest(mesh, light, systems, irradiance));
+  irradiance.rest.coefficients += arriving.coefficients;
+  solution.ambient = ambient ? *ambient : ambient_form(system, irradiance);
+  const GmresResult solved =
+      gmres(RestOperator(system, solution.ambient), irradiance.rest.coefficients,
+            groups_of(mesh, systems, irradiance.rest), solver_tolerance, most_iterations);
+  irradiance.rest.coefficients = solved.x;
+  solution.iterations = solved.iterations;
+  solution.residual = solved.residual;
+  solution.amplification = solved.amplification;
+  return solution;
+}
+
+ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces) {
+  const auto& [mesh, light, exchange, systems] = system;
+  const ElementField first = exchange.source(mesh);
+  ReflectedSolution solution;
+  solution.irradiance = {ChannelArray::Zero(systems.count(), 3), zero_field(mesh)};
+  ElementField& sum = solution.irradiance.rest;
+  for (int k = 1; k < bounces; ++k) {
+    sum = exchange.apply(mesh, reflected_part(mesh, light, sum));
+    sum.coefficients += first.coefficients;
+  }
+  return solution;
+}
+
+}  // namespace halfshade

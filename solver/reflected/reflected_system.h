@@ -1,0 +1,36 @@
+#pragma once
+
+#include "solver/reflected/light_systems.h"
+
+namespace halfshade {
+
+/// What equations of reflected light are made of. All must outlive it.
+struct ReflectedSystem {
+  const ReflectedMesh& mesh;
+  const FirstLight& light;
+  const RayExchange& exchange;
+  const LightSystems& systems;
+};
+
+struct ReflectedSolution {
+  SplitIrradiance irradiance;
+  /// The form in which imbalance of power is put right: what arrives if leaving light is ambient.
+  ElementField ambient;
+  int iterations = 0;
+  double residual = 0, amplification = 1;
+};
+
+/// Solves G = K ρ G + `arriving` by the exchange's rays, where in closed systems ∫ (1 − ρ) G =
+/// `power`. That gives the mean of G weighted with 1 − ρ, the constant c, exactly, however little
+/// is absorbed. The rest y = G − c solves y − K (ρ y + q m(y)) + a mean(y) = arriving − c K q with
+/// q = 1 − ρ, m the mean weighted with q, a the ambient irradiance of mean 1: with exact K the mean
+/// of y weighted with nothing is 0, and a mean(y) takes up what K does not conserve. No eigenvalue
+/// is near 0. Open systems have c = 0 and G = y. `ambient` of an earlier solution may be given.
+/// Throws Error(invalid_input) if nothing absorbs the power.
+ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
+                                  const ChannelArray& power, const ElementField* ambient = nullptr);
+
+/// The light that has been reflected 1 … bounces − 1 times before it is once more.
+ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces);
+
+}  // namespace halfshade

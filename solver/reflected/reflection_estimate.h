@@ -1,0 +1,36 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "solver/reflected/reflected_system.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace halfshade {
+
+/// What reflected light is off, by rays at random points.
+struct ReflectionEstimate {
+  /// Element → ∫ over it of |error|², without bias: of one element it is mostly noise, and may be
+  /// negative.
+  std::vector<double> square_error;
+  double sum = 0;           ///< of it
+  double deviation = 0;     ///< standard deviation of the sum
+  double square_total = 0;  ///< ∫ |H_d + G|²
+  std::size_t rays = 0;
+  bool complete = true;
+};
+
+struct ReflectionProbes {
+  int points = 1000;  ///< over all surfaces
+  int rays = 256;     ///< from each
+  int use = 0;        ///< see ray_seed
+};
+
+/// Compares irradiance with what arrives of the light that leaves because of it. Two halves of the
+/// rays from a point differ from it by the same error and by noise that is independent: the product
+/// of the differences has no bias. Blind to an error of direct light.
+ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedSystem& system,
+                                  const SplitIrradiance& irradiance, const ReflectionProbes& probes,
+                                  const Progress& progress);
+
+}  // namespace halfshade

@@ -47,6 +47,10 @@ void print_fields(const SolveResult& result, std::FILE* out) {
   fmt::print(out, "direct light {} unknowns, orders {} to {}, {} samples in {} rounds\n",
              result.refinement.unknowns, *low, *high, result.refinement.samples,
              result.refinement.rounds);
+  const ReflectedReport& reflected = result.reflected;
+  if (reflected.elements > 0)
+    fmt::print(out, "reflected    {} elements, {} rays, {} iterations, error {:.2g}\n",
+               reflected.elements, reflected.rays, reflected.iterations, reflected.error);
 }
 
 void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {

@@ -32,6 +32,7 @@ constexpr double growth = 2.5;
 struct Element {
   std::array<Vec3, 3> triangle;
   Vec3 normal;
+  int surface = 0;
   double area = 0;
   ElementFit fit;
   bool is_fitted = false, is_checked = false;
@@ -41,7 +42,8 @@ struct Element {
 
 void check(const AdaptiveFieldOptions& options) {
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.order < -1 ||
-      options.order > max_order || options.max_elements < 1 || options.max_unknowns < 1)
+      options.order > max_order || options.highest_order < 2 || options.highest_order > max_order ||
+      !(options.norm >= 0) || options.max_elements < 1 || options.max_unknowns < 1)
     throw Error(
         ErrorCode::contract, "fit_adaptively",
         fmt::format("tolerance ({}), order ({}), max_elements ({}) or max_unknowns ({}) is "
@@ -52,7 +54,8 @@ void check(const AdaptiveFieldOptions& options) {
 /// Low orders where they will do; what is too high is dropped in the end.
 int first_order(const AdaptiveFieldOptions& options) {
   if (options.order >= 0) return options.order;
-  return std::clamp(static_cast<int>(std::lround(-0.75 * std::log10(options.tolerance))), 2, 5);
+  return std::clamp(static_cast<int>(std::lround(-0.75 * std::log10(options.tolerance))), 2,
+                    std::min(options.highest_order, 5));
 }
 
 /// Evenly spread over the triangle, different for each index (Roberts' sequence).
@@ -94,7 +97,11 @@ class Adaptation {
   }
 
  private:
-  double allowed() const { return options_.tolerance * options_.tolerance * square_; }
+  /// Square of the error.
+  double allowed() const {
+    const double norm = options_.norm * (scale_ > 0 ? scale_ : 1);
+    return options_.tolerance * options_.tolerance * std::max(square_, norm * norm);
+  }
 
   void sum_up() {
     square_error_ = square_ = 0;
@@ -123,6 +130,7 @@ class Adaptation {
       Element& element = elements_[at(e)];
       element.triangle = table_.triangle(e);
       element.normal = table_.normal[at(e)];
+      element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
       if (known < 0) continue;
       const Element& whole = before[at(index_before.at(known))];
@@ -140,7 +148,7 @@ class Adaptation {
   }
 
   /// Values of the field at places of some elements, scaled; empty if it was stopped on the way.
-  std::vector<Rgb> sample(const std::vector<SurfacePoint>& points) {
+  std::vector<Rgb> sample(const std::vector<FieldPoint>& points) {
     std::vector<Rgb> values = field_(points, progress_);
     report_.samples += points.size();
     if (progress_.stopped()) return {};
@@ -153,12 +161,12 @@ class Adaptation {
     return values;
   }
 
-  SurfacePoint point_at(const Element& element, const TrianglePlace& place) const {
-    return {position(element.triangle, place), element.normal};
+  FieldPoint point_at(const Element& element, const TrianglePlace& place) const {
+    return {{position(element.triangle, place), element.normal}, element.surface};
   }
 
   void fit_new() {
-    std::vector<SurfacePoint> points;
+    std::vector<FieldPoint> points;
     for (const Element& element : elements_)
       if (!element.is_fitted)
         for (const TrianglePlace& place : sampling_rule(element.fit.order).places)
@@ -179,7 +187,7 @@ class Adaptation {
 
   /// Looks at places that the fits do not know. True if the estimates stand.
   bool check_new() {
-    std::vector<SurfacePoint> points;
+    std::vector<FieldPoint> points;
     std::vector<TrianglePlace> places;
     for (const Element& element : elements_)
       for (int k = 0; !element.is_checked && k < checks; ++k) {
@@ -227,14 +235,14 @@ class Adaptation {
   /// The order that an element should have; its own if it should be split.
   int better_order(const Element& element) const {
     const double shrinks = decay(element.fit);
-    if (options_.order >= 0 || element.fit.order == max_order || shrinks > smooth)
+    if (options_.order >= 0 || element.fit.order >= options_.highest_order || shrinks > smooth)
       return element.fit.order;
     const double target =
         std::sqrt(share_left_alone * allowed() / static_cast<double>(elements_.size()));
     const double missing =
         std::log(std::sqrt(element.square_error()) / target) / -std::log(std::max(shrinks, 1e-3));
     const int more = std::clamp(static_cast<int>(std::ceil(missing)), 1, most_orders_at_once);
-    return std::min(element.fit.order + more, max_order);
+    return std::min(element.fit.order + more, options_.highest_order);
   }
 
   /// False, with a limit set, if nothing can be done.

@@ -11,16 +11,24 @@
 
 namespace halfshade {
 
+/// Where a field is asked for.
+struct FieldPoint {
+  SurfacePoint point;
+  int surface;
+};
+
 /// A field on surfaces, W/m²: its values at points. It must be the same for the same points.
-using FieldAt = std::function<std::vector<Rgb>(std::span<const SurfacePoint>, const Progress&)>;
+using FieldAt = std::function<std::vector<Rgb>(std::span<const FieldPoint>, const Progress&)>;
 
 /// What limits an adaptive field.
 enum class FieldLimit { none, elements, unknowns, samples, rounds, fixed, stopped };
 
 struct AdaptiveFieldOptions {
-  double tolerance = 0.01;  ///< of the error's L2 norm, relative to the field's; > 0
-  int order = -1;           ///< of all elements, 0…max_order; −1: chosen for each
-  bool split = true;        ///< false: elements stay as they are
+  double tolerance = 0.01;        ///< of the error's L2 norm, relative to the field's; > 0
+  double norm = 0;                ///< that it is relative to instead, if that is more
+  int order = -1;                 ///< of all elements, 0…max_order; −1: chosen for each
+  int highest_order = max_order;  ///< if orders are chosen
+  bool split = true;              ///< false: elements stay as they are
   int max_elements = 40000;
   int max_unknowns = 1000000;  ///< per channel
   double max_samples = 0;      ///< gives up rather than take more; 0: no limit

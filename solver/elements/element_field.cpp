@@ -15,7 +15,7 @@ ElementField zero_field(std::vector<int> order) {
 
 Rgb value_at(const ElementField& field, int element, const TrianglePlace& place) {
   const int order = field.order[at(element)];
-  Eigen::VectorXd values(basis_size(order));
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, basis_size(max_order), 1> values(basis_size(order));
   basis_at(order, place, values);
   return field.of(element).matrix().transpose() * values;
 }

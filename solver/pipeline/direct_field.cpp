@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 namespace halfshade {
 namespace {
@@ -20,10 +19,13 @@ constexpr double share_of_curves = 0.5;
 constexpr double least_angle = 10;
 
 FieldAt direct_light_at(const DirectLightIndex& index) {
-  return [&index](std::span<const SurfacePoint> points, const Progress& progress) {
+  return [&index](std::span<const FieldPoint> points, const Progress& progress) {
+    std::vector<SurfacePoint> places;
+    places.reserve(points.size());
+    for (const FieldPoint& point : points) places.push_back(point.point);
     std::vector<Rgb> values;
     values.reserve(points.size());
-    for (const DirectLight& light : index.irradiance(points, progress))
+    for (const DirectLight& light : index.irradiance(places, progress))
       values.push_back(light.irradiance);
     return values;
   };
@@ -50,6 +52,14 @@ double samples_for_curves(const SoundScene& scene, const Plan& plan) {
   for (const int s : blocking_surfaces(scene))
     for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
   return samples_for_edge * edges * static_cast<double>(plan.sources.size());
+}
+
+PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions& options) {
+  PlanarMeshOptions result;
+  result.max_length = length_of(scene, options);
+  result.min_angle = least_angle;
+  result.max_triangles = static_cast<std::size_t>(options.max_elements);
+  return result;
 }
 
 class DirectFieldSearch {
@@ -91,18 +101,14 @@ class DirectFieldSearch {
   }
 
   void fit_without_curves(double most_samples) {
-    PlanarMeshOptions mesh_options;
-    mesh_options.max_length = length_of(scene(), options_);
-    mesh_options.min_angle = least_angle;
-    mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
-    std::optional<PatchMesh> patches;
+    const PlanarMeshOptions mesh_options = plain_mesh_options(scene(), options_);
     stages_.run("mesh", [&] {
-      patches.emplace(scene(), mesh_options, progress_);
-      return static_cast<std::size_t>(patches->element_count());
+      found_.patches = std::make_shared<PatchMesh>(scene(), mesh_options, progress_);
+      return static_cast<std::size_t>(found_.patches->element_count());
     });
     AdaptiveFieldOptions fit = field_options(options_);
     fit.max_samples = most_samples;
-    fit_on(*patches, fit);
+    fit_on_patches(fit);
   }
 
   void fit_along_curves() {
@@ -121,21 +127,21 @@ class DirectFieldSearch {
     mesh_options.min_angle = least_angle;
     mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
     mesh_options.irradiance_tolerance = events.irradiance_tolerance;
-    std::optional<DiscontinuityMesh> mesh;
     stages_.run("mesh along curves", [&] {
-      mesh.emplace(mesh_discontinuities(scene(), curves, mesh_options, progress_));
-      return static_cast<std::size_t>(mesh->patches.element_count());
+      DiscontinuityMesh mesh = mesh_discontinuities(scene(), curves, mesh_options, progress_);
+      found_.mesh = mesh.report;
+      found_.patches = std::make_shared<PatchMesh>(std::move(mesh.patches));
+      return static_cast<std::size_t>(found_.patches->element_count());
     });
     found_.discontinuities = curves.report;
     found_.curves = curves.curves.size();
-    found_.mesh = mesh->report;
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
-    fit_on(mesh->patches, field_options(options_));
+    fit_on_patches(field_options(options_));
   }
 
-  void fit_on(PatchMesh& patches, const AdaptiveFieldOptions& fit) {
+  void fit_on_patches(const AdaptiveFieldOptions& fit) {
     stages_.run("direct light", [&] {
-      found_.light = fit_adaptively(patches, direct_light_, fit, progress_);
+      found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_);
       return found_.light.report.unknowns;
     });
   }
@@ -180,6 +186,19 @@ DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const SolveOptions& options, const Progress& progress,
                               Stages& stages) {
   return DirectFieldSearch(prepared, plan, options, progress, stages).run();
+}
+
+DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options,
+                            const Progress& progress, Stages& stages) {
+  DirectField none;
+  stages.run("mesh", [&] {
+    none.patches = std::make_shared<PatchMesh>(scene, plain_mesh_options(scene, options), progress);
+    none.light.elements = none.patches->elements();
+    return none.light.elements.corners.size();
+  });
+  none.light.field = zero_field(std::vector<int>(none.light.elements.corners.size(), 0));
+  none.light.error = Eigen::ArrayXd::Zero(none.light.elements.count());
+  return none;
 }
 
 }  // namespace halfshade

@@ -6,12 +6,14 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
 
+#include <memory>
 #include <vector>
 
 namespace halfshade {
 
 /// Direct light on elements made for it, and how they came about.
 struct DirectField {
+  std::shared_ptr<PatchMesh> patches;  ///< as the elements are
   AdaptiveField light;
   std::vector<Region> region;  ///< of each element, with respect to the strongest emitter
   DiscontinuityReport discontinuities;
@@ -27,5 +29,10 @@ struct DirectField {
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const SolveOptions& options, const Progress& progress,
                               Stages& stages);
+
+/// No light on elements that are as large as the surfaces allow: where direct light is found like
+/// reflected light.
+DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options,
+                            const Progress& progress, Stages& stages);
 
 }  // namespace halfshade

@@ -124,9 +124,8 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   auto result = begin_result<SolveResult>(prepared);
   Stages stages(result.stages);
   const Plan plan = make_plan(prepared, options, progress, stages);
-  const bool by_fields = options.method == SolveMethod::fields &&
-                         plan.no_exact_direct_light.empty() && !plan.no_factors.empty();
-  (by_fields ? solve_fields : solve_matrix)(prepared, plan, options, progress, stages, result);
+  const auto solve_by = options.method == SolveMethod::fields ? solve_fields : solve_matrix;
+  solve_by(prepared, plan, options, progress, stages, result);
   if (options.regions) find_regions(prepared, progress, stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;

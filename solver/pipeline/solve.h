@@ -12,6 +12,7 @@
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
+#include "solver/reflected/reflected_light.h"
 
 #include <cstddef>
 #include <string>
@@ -34,7 +35,8 @@ struct SolveResult {
   Solution solution;  ///< means over the elements
   /// Polynomials on the elements, if they are not constant: direct and all irradiance, W/m².
   ElementField direct, irradiance;
-  AdaptiveFieldReport refinement;
+  AdaptiveFieldReport refinement;  ///< of direct light
+  ReflectedReport reflected;
   /// What each element sees of each emitter, if asked for: row-major, one row an element, one
   /// column an emitter.
   std::vector<Region> regions;

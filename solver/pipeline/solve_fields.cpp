@@ -2,65 +2,140 @@
 
 #include "solver/elements/material_arrays.h"
 #include "solver/pipeline/direct_field.h"
+#include "solver/pipeline/total_field.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
 
-std::string sentence(const AdaptiveFieldReport& report, double tolerance) {
-  std::string why;
-  switch (report.limit) {
-    case FieldLimit::none:
-    case FieldLimit::samples:
-    case FieldLimit::stopped:
-    case FieldLimit::fixed:
-      return {};
+/// Of the tolerance: direct light, relative to it alone; reflected light; its values on the
+/// elements of direct light. Squares sum to less than 1.
+constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
+
+std::string reason(FieldLimit limit) {
+  switch (limit) {
     case FieldLimit::elements:
-      why = "more elements than --max-elements allows";
-      break;
+      return "more elements than --max-elements allows";
     case FieldLimit::unknowns:
-      why = "more unknowns than --max-unknowns allows";
-      break;
+      return "more unknowns than --max-unknowns allows";
     case FieldLimit::rounds:
-      why = "more rounds of refinement than it pays to make";
-      break;
+      return "more rounds of refinement than it pays to make";
+    default:
+      return {};
   }
-  return fmt::format("the error is about {:.2g} instead of {:.2g}; less would take {}",
-                     report.relative_error, tolerance, why);
 }
 
-}  // namespace
+std::string reason(ReflectedEnd end) {
+  switch (end) {
+    case ReflectedEnd::elements:
+      return "more elements of reflected light than there may be";
+    case ReflectedEnd::rays:
+      return "more rays of reflected light than there may be";
+    case ReflectedEnd::rounds:
+      return "more rounds of refining reflected light than it pays to make";
+    default:
+      return {};
+  }
+}
 
-void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
-                  const Progress& progress, Stages& stages, SolveResult& result) {
-  DirectField direct = find_direct_field(prepared, plan, options, progress, stages);
-  result.discontinuities = direct.discontinuities;
-  result.curves = direct.curves;
-  result.mesh = direct.mesh;
-  result.discontinuity_tolerance = direct.discontinuity_tolerance;
-  result.refinement = direct.light.report;
-  result.relative_error = direct.light.report.relative_error;
-  result.not_reached = sentence(direct.light.report, options.tolerance);
-  result.elements = std::move(direct.light.elements);
-  result.direct = std::move(direct.light.field);
-  result.irradiance = result.direct;
+/// Why the accuracy asked for was not reached; with elements that were asked for none is.
+std::string not_reached(const SolveResult& result, const SolveOptions& options,
+                        const std::vector<std::string>& reasons) {
+  if (options.refine == Refinement::uniform || result.relative_error <= options.tolerance)
+    return {};
+  const auto first =
+      std::find_if(reasons.begin(), reasons.end(), [](const auto& text) { return !text.empty(); });
+  return fmt::format("the error is about {:.2g} of the irradiance instead of {:.2g}{}{}",
+                     result.relative_error, options.tolerance,
+                     first == reasons.end() ? "" : "; less would take ",
+                     first == reasons.end() ? "" : *first);
+}
 
-  const MaterialArrays materials = material_arrays(prepared.scene(), result.elements);
+ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options) {
+  ReflectedOptions result;
+  result.tolerance = reflected_share * options.tolerance;
+  result.bounces = options.radiosity.bounces;
+  result.through_operator = !plan.no_exact_direct_light.empty();
+  result.max_elements = options.max_elements;
+  return result;
+}
+
+void fill_solution(const SoundScene& scene, const Eigen::ArrayXd& error, SolveResult& result) {
+  const MaterialArrays materials = material_arrays(scene, result.elements);
   Solution& solution = result.solution;
   solution.rho = materials.rho;
   solution.exitance = materials.exitance;
   solution.direct_irradiance = means(result.direct);
   solution.irradiance = means(result.irradiance);
   solution.radiosity = solution.exitance + solution.rho * solution.irradiance;
-  solution.region = std::move(direct.region);
-  // Of the channels' mean.
-  solution.error_estimate = direct.light.error / std::sqrt(3.);
+  solution.error_estimate = error / std::sqrt(3.);  // of the channels' mean
+}
+
+/// What is not absorbed gets out, but for what the light is off.
+void fill_powers(SolveResult& result) {
+  const Eigen::Map<const Eigen::ArrayXd> areas(result.elements.area.data(),
+                                               result.elements.count());
+  const Solution& solution = result.solution;
+  for (int c = 0; c < 3; ++c) {
+    ChannelReport& channel = result.radiosity.channel[at(c)];
+    channel.emitted_power = (areas * solution.exitance.col(c)).sum();
+    channel.absorbed_power = (areas * (1 - solution.rho.col(c)) * solution.irradiance.col(c)).sum();
+    channel.escaped_power = std::max(channel.emitted_power - channel.absorbed_power, 0.);
+    channel.residual = result.reflected.residual;
+    channel.iterations = result.reflected.iterations;
+  }
+}
+
+}  // namespace
+
+void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+                  const Progress& progress, Stages& stages, SolveResult& result) {
+  const bool reflects = plan.no_factors.empty();
+  SolveOptions direct_options = options;
+  if (reflects) direct_options.tolerance *= direct_share;
+  const bool is_exact = plan.no_exact_direct_light.empty();
+  stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
+  stages.leave_out_if(!is_exact, "discontinuities", plan.no_discontinuities);
+  DirectField direct = is_exact
+                           ? find_direct_field(prepared, plan, direct_options, progress, stages)
+                           : no_direct_field(prepared.scene(), options, progress, stages);
+  result.discontinuities = direct.discontinuities;
+  result.curves = direct.curves;
+  result.mesh = direct.mesh;
+  result.discontinuity_tolerance = direct.discontinuity_tolerance;
+  result.refinement = direct.light.report;
   result.radiosity.channels = plan.no_channels.empty() ? 3 : 1;
-  stages.leave_out_if(true, "form factors", plan.no_factors);
+  stages.leave_out_if(!reflects, "reflected light", plan.no_factors);
   stages.leave_out_if(!plan.no_channels.empty(), "second and third channel", plan.no_channels);
+
+  Eigen::ArrayXd error;
+  if (reflects) {
+    TotalField total = add_reflected_light(
+        prepared.scene(), std::move(direct),
+        {reflected_options(plan, options), values_share * options.tolerance}, progress, stages);
+    result.reflected = total.reflected;
+    result.relative_error = total.relative_error;
+    result.elements = std::move(total.elements);
+    result.direct = std::move(total.direct);
+    result.irradiance = std::move(total.irradiance);
+    result.solution.region = std::move(total.region);
+    error = std::move(total.error);
+  } else {
+    result.relative_error = direct.light.report.relative_error;
+    result.elements = std::move(direct.light.elements);
+    result.direct = std::move(direct.light.field);
+    result.irradiance = result.direct;
+    result.solution.region = std::move(direct.region);
+    error = std::move(direct.light.error);
+  }
+  result.not_reached =
+      not_reached(result, options, {reason(result.refinement.limit), reason(result.reflected.end)});
+  fill_solution(prepared.scene(), error, result);
+  fill_powers(result);
 }
 
 }  // namespace halfshade

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "solver/pipeline/direct_field.h"
+#include "solver/reflected/reflected_light.h"
+
+#include <vector>
+
+namespace halfshade {
+
+struct TotalFieldOptions {
+  ReflectedOptions reflected;
+  double values_tolerance = 0.01;  ///< of reflected light as polynomials on the elements of direct
+                                   ///< light, in the L2 norm, relative to all irradiance
+};
+
+/// Direct and reflected light together, on the elements of direct light and parts of them.
+struct TotalField {
+  ElementTable elements;
+  ElementField direct, irradiance;
+  Eigen::ArrayXd error;  ///< root mean square over each element, the channels' squares summed; W/m²
+  std::vector<Region> region;
+  ReflectedReport reflected;
+  double relative_error = 0;  ///< of the whole, estimated, in the L2 norm
+};
+
+/// Solves for the light that direct light makes by reflection, on a mesh of its own, and adds the
+/// two. Where direct light needs few elements, as in the dark, they are divided as reflected light
+/// takes it. Adds its stages to `stages`.
+TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
+                               const TotalFieldOptions& options, const Progress& progress,
+                               Stages& stages);
+
+}  // namespace halfshade

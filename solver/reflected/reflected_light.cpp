@@ -100,6 +100,12 @@ class Rounds {
   }
 
  private:
+  struct Found {
+    SplitIrradiance irradiance;
+    ElementField leaving;  ///< what it is compared with came from, see estimate_error
+    std::vector<double> noise;
+  };
+
   /// False if it was the last.
   bool run_once() {
     ReflectedReport& report = state_.report;
@@ -109,10 +115,8 @@ class Rounds {
     LightSystems systems = find_systems(state_.reflecting, state_.light, mesh_, kept_);
     systems.power = means_.power(mesh_, state_.light, systems);
     const ReflectedSystem system{mesh_, state_.light, kept_, systems};
-    SplitIrradiance irradiance;
-    std::vector<double> noise;
-    if (!solve(system, irradiance, noise)) return false;
-    return judge(system, irradiance, noise);
+    Found found;
+    return solve(system, found) && judge(system, found);
   }
 
   void keep(const ReflectedSystem& system, const SplitIrradiance& irradiance) {
@@ -120,8 +124,7 @@ class Rounds {
     state_.mesh = system.mesh;
   }
 
-  bool solve(const ReflectedSystem& system, SplitIrradiance& irradiance,
-             std::vector<double>& noise) {
+  bool solve(const ReflectedSystem& system, Found& found) {
     const auto& [mesh, light, exchange, systems] = system;
     ReflectedReport& report = state_.report;
     const bool all = options_.bounces < 0;
@@ -135,15 +138,17 @@ class Rounds {
     report.residual = solution.residual;
     report.amplification = solution.amplification;
     if (report.rounds == 0) keep(system, solution.irradiance);
-    const ElementField leaving = leaving_rest(mesh, light, systems, solution.irradiance);
+    found.leaving = leaving_rest(mesh, light, systems, solution.irradiance);
     FinalPass pass =
-        final_pass(state_.reflecting, mesh, light, leaving, {rays_, ++use_}, progress_);
+        final_pass(state_.reflecting, mesh, light, found.leaving, {rays_, ++use_}, progress_);
     if (!pass.complete) return false;
     report.rays += pass.rays;
-    noise = std::move(pass.noise);
-    irradiance = {solution.irradiance.constant, std::move(pass.rest)};
-    conserve_power(mesh, systems, leaving, systems.power, irradiance);
-    if (all) correct(system, solution, irradiance);
+    found.noise = std::move(pass.noise);
+    found.irradiance = {solution.irradiance.constant, std::move(pass.rest)};
+    conserve_power(mesh, systems, found.leaving, systems.power, found.irradiance);
+    if (!all) return true;
+    correct(system, solution, found.irradiance);
+    found.leaving = leaving_rest(mesh, light, systems, found.irradiance);
     return true;
   }
 
@@ -161,11 +166,12 @@ class Rounds {
     irradiance.rest.coefficients += more.irradiance.rest.coefficients;
   }
 
-  bool judge(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-             const std::vector<double>& noise) {
+  bool judge(const ReflectedSystem& system, const Found& now) {
+    const SplitIrradiance& irradiance = now.irradiance;
+    const std::vector<double>& noise = now.noise;
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
-    const ReflectionProbes probes{std::clamp(nodes / 3, 800, 4000), rays_, use_};
+    const ReflectionProbes probes{now.leaving, std::clamp(nodes / 3, 800, 4000), rays_, use_};
     const ReflectionEstimate estimate =
         estimate_error(state_.reflecting, system, irradiance, probes, progress_);
     if (!estimate.complete) return false;

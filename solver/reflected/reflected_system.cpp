@@ -111,6 +111,9 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
       gmres(RestOperator(system, solution.ambient), irradiance.rest.coefficients,
             groups_of(mesh, systems, irradiance.rest), solver_tolerance, most_iterations);
   irradiance.rest.coefficients = solved.x;
+  const std::vector<Rgb> absorbed = absorptances(light);
+  irradiance.constant -= of_closed(
+      systems, ratio(integrals(mesh, systems, irradiance.rest, &absorbed), systems.absorption));
   solution.iterations = solved.iterations;
   solution.residual = solved.residual;
   solution.amplification = solved.amplification;

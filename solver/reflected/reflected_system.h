@@ -21,12 +21,12 @@ struct ReflectedSolution {
 };
 
 /// Solves G = K ρ G + `arriving` by the exchange's rays, where in closed systems ∫ (1 − ρ) G =
-/// `power`. That gives the mean of G weighted with 1 − ρ, the constant c, exactly, however little
-/// is absorbed. The rest y = G − c solves y − K (ρ y + q m(y)) + a mean(y) = arriving − c K q with
-/// q = 1 − ρ, m the mean weighted with q, a the ambient irradiance of mean 1: with exact K the mean
-/// of y weighted with nothing is 0, and a mean(y) takes up what K does not conserve. No eigenvalue
-/// is near 0. Open systems have c = 0 and G = y. `ambient` of an earlier solution may be given.
-/// Throws Error(invalid_input) if nothing absorbs the power.
+/// `power`. That gives the mean c of G weighted with q = 1 − ρ exactly, however little is absorbed:
+/// G = c − m(y) + y, m the mean weighted with q, and y − K (ρ y + q m(y)) + a mean(y) = arriving −
+/// c K q, a the ambient irradiance of mean 1. With exact K the plain mean of y is 0; a mean(y)
+/// takes up what K does not conserve. No eigenvalue is near 0. Open systems have c = 0 and G = y.
+/// `ambient` of an earlier solution may be given. Throws Error(invalid_input) if nothing absorbs
+/// the power.
 ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
                                   const ChannelArray& power, const ElementField* ambient = nullptr);
 

@@ -42,7 +42,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
                                   const SplitIrradiance& irradiance,
                                   const ReflectionProbes& options, const Progress& progress) {
   const auto& [mesh, light, exchange, systems] = system;
-  const QuickField leaving(leaving_rest(mesh, light, systems, irradiance));
+  const QuickField leaving(options.leaving);
   const QuickField rest(irradiance.rest);
   std::vector<Probe> probes = spread_probes(mesh, options);
   const int strata = std::max(3, static_cast<int>(std::lround(std::sqrt(options.rays / 2.))));

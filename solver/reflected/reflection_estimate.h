@@ -21,12 +21,13 @@ struct ReflectionEstimate {
 };
 
 struct ReflectionProbes {
-  int points = 1000;  ///< over all surfaces
-  int rays = 256;     ///< from each
-  int use = 0;        ///< see ray_seed
+  const ElementField& leaving;  ///< what it came from without S, less the constants' part
+  int points = 1000;            ///< over all surfaces
+  int rays = 256;               ///< from each
+  int use = 0;                  ///< see ray_seed
 };
 
-/// Compares irradiance with what arrives of the light that leaves because of it. Two halves of the
+/// Compares irradiance with what arrives of leaving light. Two halves of the
 /// rays from a point differ from it by the same error and by noise that is independent: the product
 /// of the differences has no bias. Blind to an error of direct light.
 ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedSystem& system,

@@ -1,10 +1,5 @@
 #include "solver/reflected/triangle_forest.h"
 
-#include <Eigen/Dense>
-
-#include <algorithm>
-#include <limits>
-
 namespace halfshade {
 namespace {
 
@@ -23,41 +18,14 @@ double area_of(const std::array<Vec3, 3>& corner) {
   return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
 }
 
-/// The box of a triangle with room for the rounding of points that are asked for.
-Bounds roomy_box(const std::array<Vec3, 3>& corner) {
-  Bounds box;
-  for (const Vec3& p : corner) box.include(p);
-  const double magnitude = std::max(box.low.lpNorm<Eigen::Infinity>(),  //
-                                    box.high.lpNorm<Eigen::Infinity>());
-  return box.grown(1e-9 * (box.high - box.low).maxCoeff() +
-                   64 * std::numeric_limits<double>::epsilon() * magnitude);
-}
-
-double least_weight(const TrianglePlace& p) { return std::min({p.x(), p.y(), 1 - p.x() - p.y()}); }
-
-TrianglePlace clamped(const TrianglePlace& p) {
-  const TrianglePlace q = p.cwiseMax(0.);
-  return q.sum() > 1 ? TrianglePlace(q / q.sum()) : q;
-}
-
 }  // namespace
 
 TriangleForest::TriangleForest(const ElementTable& roots)
-    : root_count_(roots.count()), surface_(roots.surface) {
-  std::vector<Bounds> boxes;
+    : root_count_(roots.count()), roots_(roots) {
   for (int e = 0; e < roots.count(); ++e) {
     const auto corner = roots.triangle(e);
     triangles_.push_back({corner, area_of(corner), e, 0, -1, longest_edge(corner)});
-    boxes.push_back(roomy_box(corner));
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << corner[1] - corner[0], corner[2] - corner[0];
-    place_map_.push_back(
-        {corner[0], edges.colPivHouseholderQr().solve(Eigen::Matrix3d::Identity())});
-    const std::size_t surface = at(surface_[at(e)]);
-    if (of_surface_.size() <= surface) of_surface_.resize(surface + 1);
-    of_surface_[surface].push_back(e);
   }
-  tree_ = make_flat_tree(boxes);
 }
 
 void TriangleForest::bisect(int triangle) {
@@ -88,27 +56,8 @@ ForestPlace TriangleForest::leaf_at(ForestPlace from) const {
 }
 
 ForestPlace TriangleForest::leaf_at(int surface, const Vec3& position) const {
-  if (surface < 0 || at(surface) >= of_surface_.size()) return {};
-  ForestPlace best;
-  double most = -std::numeric_limits<double>::infinity();
-  const auto look_at = [&](int root) {
-    const TrianglePlace place = place_map_[at(root)](position);
-    if (const double least = least_weight(place); least > most) {
-      most = least;
-      best = {root, place};
-    }
-  };
-  const std::vector<int>& roots = of_surface_[at(surface)];
-  constexpr std::size_t few = 4;
-  if (roots.size() > few)
-    visit_overlaps(tree_, {position, position}, [&](int root) {
-      if (surface_[at(root)] == surface) look_at(root);
-    });
-  if (best.triangle < 0)
-    for (const int root : roots) look_at(root);
-  if (best.triangle < 0) return best;
-  best.place = clamped(best.place);
-  return leaf_at(best);
+  const ForestPlace root = roots_.find(surface, position);
+  return root.triangle < 0 ? root : leaf_at(root);
 }
 
 }  // namespace halfshade

@@ -1,19 +1,11 @@
 #pragma once
 
-#include "meshing/geometry/flat_tree.h"
-#include "meshing/patches/element_table.h"
-#include "solver/elements/polynomial.h"
+#include "solver/reflected/element_lookup.h"
 
 #include <array>
 #include <vector>
 
 namespace halfshade {
-
-/// A place in a triangle of a forest.
-struct ForestPlace {
-  int triangle = -1;  ///< −1: nowhere
-  TrianglePlace place = TrianglePlace::Zero();
-};
 
 /// Triangles that cover surfaces, each bisected as often as one likes, whatever its neighbours do.
 /// Triangle i < root_count() is element i of the table that the forest is made of.
@@ -38,8 +30,7 @@ class TriangleForest {
   /// The leaf that holds a place, and where in it.
   ForestPlace leaf_at(ForestPlace place) const;
 
-  /// The leaf that holds a point of a surface: the nearest by barycentric coordinates if rounding
-  /// puts the point outside of all. Nowhere if the surface has no triangles.
+  /// The leaf that holds a point of a surface; see ElementLookup::find.
   ForestPlace leaf_at(int surface, const Vec3& position) const;
 
  private:
@@ -51,20 +42,9 @@ class TriangleForest {
     int cut = 0;     // the edge from this corner to the next is the one that is cut
   };
 
-  /// Takes points of a triangle's plane to places.
-  struct PlaceMap {
-    Vec3 origin;
-    Eigen::Matrix<double, 2, 3> slope;
-
-    TrianglePlace operator()(const Vec3& p) const { return slope * (p - origin); }
-  };
-
   std::vector<Triangle> triangles_;
   int root_count_ = 0;
-  std::vector<PlaceMap> place_map_;           // of each root
-  std::vector<int> surface_;                  // of each root
-  std::vector<std::vector<int>> of_surface_;  // its roots
-  FlatTree tree_;                             // of roots
+  ElementLookup roots_;
 };
 
 }  // namespace halfshade

@@ -1,0 +1,53 @@
+#include "solver/reflected/lockstep_gmres.h"
+
+#include "tests/support/random.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+TEST(LockstepGmres, SolvesSystemsOfAllSizesOfLight) {
+  constexpr int n = 60, half = 20;
+  test::Random random(1);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
+  RowGroups groups{{}, Eigen::ArrayXd(n), 2};
+  for (int i = 0; i < n; ++i) {
+    groups.of_row.push_back(i < half ? 0 : 1);
+    groups.weight[i] = random(0.1, 3);
+    for (int j = 0; j < n; ++j)
+      if ((i < half) == (j < half)) A(i, j) -= random(0, 1.9) / (i < half ? half : n - half);
+  }
+  ChannelArray b(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c)
+      b(i, c) = random(0, 1) * std::pow(10., c == 2 ? -40 : c) * (i < half ? 1 : 1e20);
+  b.col(1).tail(n - half).setZero();
+  const auto apply = [&](const ChannelArray& x) { return ChannelArray((A * x.matrix()).array()); };
+  const GmresResult result = gmres(apply, b, groups, 1e-12, 200);
+  const Eigen::MatrixXd expected = A.lu().solve(b.matrix());
+  EXPECT_LE(result.residual, 1e-12);
+  for (int g = 0; g < 2; ++g)
+    for (int c = 0; c < 3; ++c) {
+      const auto off = (result.x.matrix() - expected).col(c);
+      const auto whole = expected.col(c);
+      const auto norm = [&](const auto& v) {
+        return g == 0 ? v.head(half).norm() : v.tail(n - half).norm();
+      };
+      EXPECT_LE(norm(off), 1e-9 * norm(whole)) << g << ' ' << c;
+    }
+}
+
+TEST(LockstepGmres, GivesNothingForNothing) {
+  RowGroups groups{{0, 0}, Eigen::ArrayXd::Ones(2), 1};
+  const GmresResult result =
+      gmres([](const ChannelArray& x) { return x; }, ChannelArray::Zero(2, 3), groups, 1e-9, 10);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_TRUE((result.x == 0).all());
+}
+
+}  // namespace
+}  // namespace halfshade

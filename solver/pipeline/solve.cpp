@@ -39,6 +39,7 @@ Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
       events.eee = events.eee && plan.no_eee.empty();
       events.irradiance_tolerance = options.tolerance * plan.mean_irradiance;
       events.max_length = longest_edge(prepared.scene(), options);
+      events.most_work = options.force.discontinuities ? 0 : affordable_work(options.tolerance);
       found =
           find_discontinuities(prepared.scene(), prepared.opaque(), plan.sources, events, progress);
       return found.curves.size();
@@ -49,14 +50,25 @@ Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
   return found;
 }
 
-/// Meshes the scene, along its discontinuities if it has any.
-SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, const Plan& plan,
-                        const SolveOptions& options, const Progress& progress, Stages& stages) {
+/// What the geometry alone takes: known before the search for curves, for it may be too much.
+SolveMesh make_plain_elements(const SoundScene& scene, const SolveOptions& options,
+                              const Progress& progress, Stages& stages) {
   SolveMesh mesh;
   stages.run("mesh", [&] {
-    mesh = found.curves.empty()
-               ? make_solve_mesh(scene, options, progress)
-               : make_solve_mesh(scene, found, options, plan.mean_irradiance, progress);
+    mesh = make_solve_mesh(scene, options, progress);
+    return mesh.elements.corners.size();
+  });
+  return mesh;
+}
+
+/// Meshes the scene along its discontinuities if it has any.
+SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
+                        const Plan& plan, const SolveOptions& options, const Progress& progress,
+                        Stages& stages) {
+  if (found.curves.empty()) return plain;
+  SolveMesh mesh;
+  stages.run("mesh along curves", [&] {
+    mesh = make_solve_mesh(scene, found, std::move(plain), options, plan.mean_irradiance, progress);
     return mesh.elements.corners.size();
   });
   return mesh;
@@ -91,12 +103,21 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   auto result = begin_result<SolveResult>(prepared);
   Stages stages(result.stages);
 
+  SolveMesh plain = make_plain_elements(prepared.scene(), options, progress, stages);
+  const int plain_elements = plain.elements.count();
   const Plan plan = make_plan(prepared, options, progress, stages);
   const Discontinuities found = find_curves(prepared, plan, options, progress, stages);
   result.discontinuities = found.report;
   result.curves = found.curves.size();
 
-  SolveMesh mesh = make_elements(prepared.scene(), found, plan, options, progress, stages);
+  add(search_warnings(found.report, options.tolerance), result.warnings);
+
+  SolveMesh mesh =
+      make_elements(prepared.scene(), found, std::move(plain), plan, options, progress, stages);
+  add(mesh_warnings({prepared.scene(), mesh.report.kept, plain_elements,
+                     options.max_length > 0 ? 0 : options.elements, mesh.tolerance,
+                     options.tolerance}),
+      result.warnings);
   result.mesh = mesh.report;
   result.discontinuity_tolerance = mesh.tolerance;
   result.elements = std::move(mesh.elements);
@@ -109,9 +130,9 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   estimate_error(stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;
-  const std::vector<Warning> warnings = light_warnings(
-      {result.scene, result.elements, result.solution, result.exchange, result.radiosity});
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  add(light_warnings(
+          {result.scene, result.elements, result.solution, result.exchange, result.radiosity}),
+      result.warnings);
   return result;
 }
 

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -59,12 +60,17 @@ Found find(const Scene& scene) {
   return found;
 }
 
+SolveMesh mesh_along(const Found& found, const SolveOptions& options) {
+  return make_solve_mesh(found.scene, found.curves, make_solve_mesh(found.scene, options), options,
+                         found.mean);
+}
+
 TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
   const Found found = find(s1());
   for (const int elements : {200, 700, 3000}) {
     SolveOptions options;
     options.elements = elements;
-    const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+    const SolveMesh mesh = mesh_along(found, options);
     EXPECT_NEAR(mesh.elements.count(), elements, 0.2 * elements)
         << "a square is halved again and again, so that not every number is there";
     EXPECT_EQ(mesh.tolerance, options.tolerance);
@@ -76,14 +82,14 @@ TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
   const Found found = find(slats(8));
   SolveOptions options;
   options.elements = 100;
-  const SolveMesh few = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh few = mesh_along(found, options);
   // Ten narrow polygons take more than that without any line.
   const int plain = make_solve_mesh(found.scene, options).elements.count();
-  EXPECT_LE(few.elements.count(), 2 * plain);
+  EXPECT_LE(few.elements.count(), 1.25 * plain);
   EXPECT_GT(few.tolerance, options.tolerance);
   EXPECT_GT(few.report.culled, 0u);
   options.elements = 4000;
-  const SolveMesh many = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh many = mesh_along(found, options);
   EXPECT_EQ(many.tolerance, options.tolerance);
   EXPECT_GT(many.report.kept, few.report.kept);
 }
@@ -92,11 +98,10 @@ TEST(SolveMesh, KeepsToTheLengthAskedFor) {
   const Found found = find(s1());
   SolveOptions options;
   options.max_length = 0.2;
-  const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh mesh = mesh_along(found, options);
   EXPECT_LE(summarize_quality(mesh.elements).longest_edge, 0.2);
   options.max_elements = 100;
-  test::expect_error([&] { make_solve_mesh(found.scene, found.curves, options, found.mean); },
-                     ErrorCode::too_large, {"100"});
+  test::expect_error([&] { mesh_along(found, options); }, ErrorCode::too_large, {"100"});
 }
 
 /// Area of the floor's elements that are wholly dark, and of those that are partly so.
@@ -173,6 +178,25 @@ TEST(SolveWithLines, RefusesOptionsOutOfRange) {
   for (const SolveOptions& options : {negative, none})
     test::expect_error([&] { solve(s1(), options); }, ErrorCode::contract,
                        {"solve", "not negative"});
+}
+
+TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
+  Scene scene = slats(30);
+  SolveOptions options;
+  options.max_elements = 31;
+  test::expect_error([&] { solve(scene, options); }, ErrorCode::too_large,
+                     {"32 surfaces", "--max-elements"});
+}
+
+TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
+  SolveOptions options;
+  options.elements = 30;
+  const SolveResult result = solve(slats(8), options);
+  EXPECT_LE(result.elements.count(),
+            1.25 * make_solve_mesh(result.scene, options).elements.count());
+  std::vector<Warning::Kind> kinds;
+  for (const Warning& warning : result.warnings) kinds.push_back(warning.kind);
+  EXPECT_NE(std::find(kinds.begin(), kinds.end(), Warning::Kind::tolerance_raised), kinds.end());
 }
 
 }  // namespace

@@ -2,23 +2,48 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace halfshade {
+namespace {
+
+CLI::Validator not_empty() {
+  return {[](const std::string& text) {
+            return text.empty() ? std::string("the name is empty") : std::string();
+          },
+          ""};
+}
+
+/// What stands between the commas, also where that is nothing.
+std::vector<std::string> items(const std::vector<std::string>& lists) {
+  std::vector<std::string> result;
+  for (const std::string& list : lists) {
+    std::size_t from = 0, comma = 0;
+    do {
+      comma = std::min(list.find(',', from), list.size());
+      result.push_back(list.substr(from, comma - from));
+      from = comma + 1;
+    } while (comma < list.size());
+  }
+  return result;
+}
+
+}  // namespace
 
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_flag("-q,--quiet", common.quiet, "Print errors only");
   app.add_flag("-v,--verbose", common.verbose, "Print repairs and the time of each stage");
-  app.add_option("--threads", common.threads, "Number of threads (default: all of the machine)")
-      ->check(CLI::Range(1, 4096));
-  add_file(app, "--json", common.json, "Write a machine-readable report to FILE");
+  add_whole(app, "--threads", common.threads, {1, 4096},
+            "Number of threads (default: all of the machine)");
+  add_file(app, "--json", common.json, "Write a machine-readable report to FILE; '-': to stdout");
 }
 
 void add_scene(CLI::App& app, std::filesystem::path& scene) {
   app.add_option("scene", scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, …")
       ->required()
+      ->check(not_empty())
       ->type_name("SCENE");
 }
 
@@ -28,51 +53,82 @@ void add_materials(CLI::App& app, std::filesystem::path& materials, const char* 
 
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file,
                       const char* help) {
-  return app.add_option(name, file, help)->type_name("FILE");
+  return app.add_option(name, file, help)->check(not_empty())->type_name("FILE");
+}
+
+CLI::Option* add_text(CLI::App& app, const char* name, std::string& text, const char* help) {
+  return app.add_option(name, text, help)->check(not_empty())->type_name("NAME");
 }
 
 void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs, const char* help) {
   app.add_option("-o,--output", outputs, help)
       ->type_name("FILE")
+      ->check(not_empty())
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_elements(CLI::App& app, int& elements, const char* help) {
-  app.add_option("--elements", elements, help)
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+  add_whole(app, "--elements", elements, {1, 1000000}, help)->capture_default_str();
+}
+
+CLI::Option* add_words(CLI::App& app, const char* name, const std::vector<std::string>& words,
+                       const std::function<void(const std::vector<bool>&)>& choose,
+                       const std::string& help) {
+  const auto check = [words](std::string& list) {
+    for (const std::string& item : items({list}))
+      if (std::find(words.begin(), words.end(), item) == words.end())
+        return fmt::format("'{}' is none of {}", item, fmt::join(words, ", "));
+    return std::string();
+  };
+  return app
+      .add_option_function<std::vector<std::string>>(
+          name,
+          [words, choose](const std::vector<std::string>& lists) {
+            const std::vector<std::string> given = items(lists);
+            std::vector<bool> asked;
+            for (const std::string& word : words)
+              asked.push_back(std::find(given.begin(), given.end(), word) != given.end());
+            choose(asked);
+          },
+          help)
+      ->check(CLI::Validator(check, ""))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary) {
-  app.add_option_function<std::vector<std::string>>(
-         "--events",
-         [&events](const std::vector<std::string>& names) {
-           const auto asked = [&](const char* name) {
-             return std::find(names.begin(), names.end(), name) != names.end();
-           };
-           events = {asked("contact"), asked("face"), asked("ev"), asked("eee")};
-         },
-         "Only curves of these kinds, separated by commas: contact, face, ev, eee (default: all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"contact", "face", "ev", "eee"}))
+  add_words(
+      app, "--events", {"contact", "face", "ev", "eee"},
+      [&events](const std::vector<bool>& asked) {
+        events = {asked[0], asked[1], asked[2], asked[3]};
+      },
+      "Only curves of these kinds, separated by commas: contact, face, ev, eee (default: all)")
       ->type_name("KIND,…");
-  app.add_option("--secondary", secondary,
-                 "Also look for the curves of the N brightest reflecting surfaces")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1000000));
+  add_whole(app, "--secondary", secondary, {0, 1000000},
+            "Also look for the curves of the N brightest reflecting surfaces")
+      ->capture_default_str();
 }
 
-CLI::Validator number(bool zero_too) {
-  return {[zero_too](const std::string& text) -> std::string {
-            double value = -1;
-            if (CLI::detail::lexical_cast(text, value) && std::isfinite(value) &&
-                (value > 0 || (zero_too && value == 0)))
-              return {};
-            return fmt::format("'{}' is not a number {} zero", text,
-                               zero_too ? "of at least" : "above");
-          },
-          zero_too ? "NUMBER >= 0" : "NUMBER > 0"};
+CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::string>& words,
+                        const std::function<void(std::size_t)>& choose, const char* help) {
+  const auto place = [words](const std::string& word) {
+    const auto found = std::find(words.begin(), words.end(), CLI::detail::to_lower(word));
+    return static_cast<std::size_t>(found - words.begin());
+  };
+  const CLI::Validator is_known(
+      [words, place](std::string& word) {
+        return place(word) < words.size()
+                   ? std::string()
+                   : fmt::format("'{}' is not one of {}", word, fmt::join(words, ", "));
+      },
+      "");
+  return app
+      .add_option_function<std::string>(
+          name, [place, choose](const std::string& word) { choose(place(word)); }, help)
+      ->check(is_known)
+      ->default_str(words.front())
+      ->type_name("WORD");
 }
 
 std::string footer(const std::string& text) {

@@ -2,10 +2,15 @@
 
 #include "apps/commands.h"
 
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
 namespace CLI {
 class App;
 class Option;
-class Validator;
 }  // namespace CLI
 
 namespace halfshade {
@@ -24,14 +29,35 @@ void add_scene(CLI::App& app, std::filesystem::path& scene);
 void add_materials(CLI::App& app, std::filesystem::path& materials, const char* help);
 CLI::Option* add_file(CLI::App& app, const char* name, std::filesystem::path& file,
                       const char* help);
+CLI::Option* add_text(CLI::App& app, const char* name, std::string& text, const char* help);
 void add_outputs(CLI::App& app, std::vector<std::filesystem::path>& outputs, const char* help);
 void add_elements(CLI::App& app, int& elements, const char* help);
 
 /// Which discontinuities to look for.
 void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary);
 
-/// A number that is finite and at least zero, or above it; CLI11's own checks let NaN pass.
-CLI::Validator number(bool zero_too);
+/// --flip and --orient, of commands that read a scene; --force, of those that solve it.
+void add_orientation(CLI::App& app, SceneOptions& options);
+void add_force(CLI::App& app, ForcedStages& force);
+
+/// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
+CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                       const char* help);
+CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
+                        const char* help);
+CLI::Option* add_positive(CLI::App& app, const char* name, double& value, const char* help);
+CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, const char* help);
+CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
+                        const char* help);
+
+/// One of some words, which `choose` gets the number of.
+CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::string>& words,
+                        const std::function<void(std::size_t)>& choose, const char* help);
+
+/// Some of some words, separated by commas; `choose` gets for each whether it is given.
+CLI::Option* add_words(CLI::App& app, const char* name, const std::vector<std::string>& words,
+                       const std::function<void(const std::vector<bool>&)>& choose,
+                       const std::string& help);
 
 /// The end of every help text: examples, then the exit codes.
 std::string footer(const std::string& text);

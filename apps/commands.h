@@ -8,6 +8,8 @@
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
 
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -41,6 +43,8 @@ struct Context {
   Provenance provenance;
   Progress progress;                    ///< may be stopped by the user
   std::function<void()> progress_ends;  ///< call before printing
+  std::FILE* summary = stdout;          ///< or stderr, if results go to the standard output
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 };
 
 struct SolveCommand {
@@ -76,12 +80,12 @@ struct RenderCommand {
 struct ProbeCommand {
   std::filesystem::path scene;
   std::filesystem::path materials;
-  std::filesystem::path points;  ///< empty: a grid
+  std::filesystem::path points;  ///< empty: a grid; "-": the standard input
   std::string group;             ///< whose surfaces carry the grid
   double spacing = 0;            ///< of the grid, in scene units
-  std::filesystem::path output;
-  bool direct_only = false;  ///< no interreflection
-  SolveOptions options;      ///< of the solution that interreflection is gathered from
+  std::filesystem::path output;  ///< "-": a table to the standard output
+  bool direct_only = false;      ///< no interreflection
+  SolveOptions options;          ///< of the solution that interreflection is gathered from
 };
 
 struct ExplainCommand {
@@ -90,11 +94,11 @@ struct ExplainCommand {
   SolveOptions options;  ///< of the solution that is explained
 };
 
-/// Each does its job and returns an exit code; errors are thrown as Error.
-int run(const SolveCommand& command, const Context& context);
-int run(const MeshCommand& command, const Context& context);
-int run(const RenderCommand& command, const Context& context);
-int run(const ProbeCommand& command, const Context& context);
-int run(const ExplainCommand& command, const Context& context);
+/// Each does its job and returns what the program ends with; errors are thrown as Error.
+ExitCode run(const SolveCommand& command, const Context& context);
+ExitCode run(const MeshCommand& command, const Context& context);
+ExitCode run(const RenderCommand& command, const Context& context);
+ExitCode run(const ProbeCommand& command, const Context& context);
+ExitCode run(const ExplainCommand& command, const Context& context);
 
 }  // namespace halfshade

@@ -1,6 +1,5 @@
-#include "apps/check_outputs.h"
-#include "apps/commands.h"
-#include "apps/scene_turning.h"
+#include "apps/command_files.h"
+#include "apps/run_end.h"
 #include "io/write/write_explanation.h"
 #include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/prepared_scene.h"
@@ -13,20 +12,20 @@
 namespace halfshade {
 namespace {
 
-void print_scene(const Explanation& explanation) {
+void print_scene(const Explanation& explanation, std::FILE* out) {
   const SoundScene& scene = explanation.scene;
-  fmt::print("surfaces     {} of {} faces, {} group{}, {} material{}\n", scene.surfaces.size(),
+  fmt::print(out, "surfaces     {} of {} faces, {} group{}, {} material{}\n", scene.surfaces.size(),
              scene.face_lines.size(), scene.groups.size(), scene.groups.size() == 1 ? "" : "s",
              scene.materials.size(), scene.materials.size() == 1 ? "" : "s");
   for (const Repair& repair : scene.repairs)
-    fmt::print("repair       {}\n", sentence(repair, scene));
+    fmt::print(out, "repair       {}\n", sentence(repair, scene));
   std::size_t unlit = 0;
   for (const SpacePart& part : explanation.parts) {
     if (!part.lit) ++unlit;
     if (!part.lit) continue;
     constexpr std::size_t most_names = 6;
     const std::size_t shown = std::min(most_names, part.groups.size());
-    fmt::print("part         {}: {}{}{}\n", part.closed ? "closed" : "open",
+    fmt::print(out, "part         {}: {}{}{}\n", part.closed ? "closed" : "open",
                fmt::join(part.groups.begin(),
                          part.groups.begin() + static_cast<std::ptrdiff_t>(shown), ", "),
                shown < part.groups.size() ? ", …" : "",
@@ -34,10 +33,10 @@ void print_scene(const Explanation& explanation) {
                    ? ""
                    : fmt::format("; light reaches the back of {}", part.swallowing));
   }
-  if (unlit > 0) fmt::print("parts        {} more without a light, as inside solids\n", unlit);
+  if (unlit > 0) fmt::print(out, "parts        {} more without a light, as inside solids\n", unlit);
 }
 
-void print_stages(const Explanation& explanation) {
+void print_stages(const Explanation& explanation, std::FILE* out) {
   for (const PlannedStage& stage : explanation.stages) {
     std::string line = stage.left_out_because.empty()
                            ? fmt::format("runs         {}", stage.name)
@@ -48,26 +47,30 @@ void print_stages(const Explanation& explanation) {
       line += fmt::format(": {:.3g} {}", stage.amount, stage.what);
     if (stage.left_out_because.empty() && stage.seconds > 0)
       line += fmt::format(", about {:.2g} s", stage.seconds);
-    fmt::print("{}\n", line);
+    fmt::print(out, "{}\n", line);
   }
 }
 
 }  // namespace
 
-int run(const ExplainCommand& command, const Context& context) {
-  require_folder(context.common.json);
-  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
+ExitCode run(const ExplainCommand& command, const Context& context) {
+  const CommandFiles files = scene_files(command.scene, command.materials, context.common);
+  require_apart(files);
+  require_place(context.common.json);
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
   const PreparedScene prepared(file.scene, context.progress);
   const Explanation explanation = explain(prepared, command.options, context.progress);
   context.progress_ends();
+  const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;
   if (!context.common.json.empty())
-    write_explanation(explanation, context.provenance, context.common.json);
+    write_explanation(explanation, run_info(context, code, {}), context.common.json);
+  print_warnings(file, explanation.warnings, context);
   if (!context.common.quiet) {
-    print_warnings(file.warnings, explanation.warnings);
-    print_scene(explanation);
-    print_stages(explanation);
+    print_scene(explanation, context.summary);
+    print_stages(explanation, context.summary);
   }
-  return context.progress.stopped() ? exit_interrupted : exit_done;
+  return code;
 }
 
 }  // namespace halfshade

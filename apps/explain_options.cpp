@@ -1,5 +1,4 @@
 #include "apps/command_options.h"
-#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,11 +10,9 @@ void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& comm
   add_scene(app, command.scene);
   add_materials(app, command.materials, "Materials file, as for solve");
   add_elements(app, command.options.elements, "About how many elements to reckon with");
-  app.add_option("--tolerance", command.options.tolerance, "As for solve")
-      ->capture_default_str()
-      ->check(number(true));
-  app.add_option("--bounces", command.options.radiosity.bounces, "As for solve")
-      ->check(CLI::Range(0, 100000));
+  add_not_negative(app, "--tolerance", command.options.tolerance, "As for solve")
+      ->capture_default_str();
+  add_whole(app, "--bounces", command.options.radiosity.bounces, {0, 100000}, "As for solve");
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
   add_common(app, common);

@@ -1,9 +1,6 @@
 #include "apps/command_options.h"
-#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
-
-#include <map>
 
 namespace halfshade {
 namespace {
@@ -12,22 +9,21 @@ void add_picture(CLI::App& app, MeshCommand& command) {
   CLI::Option* picture =
       add_file(app, "--picture", command.picture,
                "Map of the curves over the exact direct light of one surface: .png");
-  app.add_option("--of", command.picture_of,
-                 "Group or number of the surface to draw (default: where most curves are)")
+  add_text(app, "--of", command.picture_of,
+           "Group or number of the surface to draw (default: where most curves are)")
+      ->needs(picture);
+  add_choice(
+      app, "--colour", {"order", "kind"},
+      [&command](std::size_t k) {
+        command.picture_options.colour = k == 0 ? CurveColour::order : CurveColour::kind;
+      },
+      "By 'order' (D0 red, D1 blue, D2 pink, D2 of three edges yellow) or by 'kind'\n"
+      "(contact red, face green, ev pink, eee yellow)")
+      ->needs(picture);
+  add_whole(app, "--pixels", command.picture_options.pixels, {least_curve_pixels, most_pixels},
+            "Longer side of the picture")
       ->needs(picture)
-      ->type_name("NAME");
-  const std::map<std::string, CurveColour> colours = {{"order", CurveColour::order},
-                                                      {"kind", CurveColour::kind}};
-  app.add_option("--colour", command.picture_options.colour,
-                 "By 'order' (D0 red, D1 blue, D2 pink, D2 of three edges yellow) or by 'kind'\n"
-                 "(contact red, face green, ev pink, eee yellow)")
-      ->needs(picture)
-      ->transform(CLI::CheckedTransformer(colours, CLI::ignore_case))
-      ->default_str("order");
-  app.add_option("--pixels", command.picture_options.pixels, "Longer side of the picture")
-      ->needs(picture)
-      ->capture_default_str()
-      ->check(CLI::Range(least_curve_pixels, most_pixels));
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -42,14 +38,12 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
               "--curves or --picture is given)");
   add_file(app, "--curves", command.curves, "The curves with kind, order, jump and origin: .vtp");
   add_materials(app, command.materials, "Materials file, as for solve");
-  app.add_option(
-         "--tolerance", command.options.tolerance,
-         "Leave out curves that change the irradiance by less than this share of its mean,\n"
-         "and draw conics accordingly (default: 0, the mesh is complete)")
-      ->check(number(true));
-  app.add_option("--max-length", command.options.max_length,
-                 "Longest element edge in scene units (default: no limit)")
-      ->check(number(false));
+  add_not_negative(
+      app, "--tolerance", command.options.tolerance,
+      "Leave out curves that change the irradiance by less than this share of its mean,\n"
+      "and draw conics accordingly (default: 0, the mesh is complete)");
+  add_positive(app, "--max-length", command.options.max_length,
+               "Longest element edge in scene units (default: no limit)");
   add_events(app, command.options.events, command.options.secondary);
   add_picture(app, command);
   add_orientation(app, common.orientation);

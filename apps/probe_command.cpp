@@ -1,9 +1,9 @@
-#include "apps/check_outputs.h"
-#include "apps/commands.h"
-#include "apps/scene_turning.h"
+#include "apps/command_files.h"
+#include "apps/console.h"
+#include "apps/run_end.h"
+#include "io/files/same_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
-#include "io/write/write_report.h"
 #include "solver/exchange/gather.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
@@ -17,8 +17,10 @@
 namespace halfshade {
 namespace {
 
-/// Points computed at a time: what is lost of finished work when the user interrupts.
-constexpr std::size_t block = 4096;
+/// Points computed at a time are lost when the user interrupts: few at first, then twice as many as
+/// long as they take less than this.
+constexpr std::size_t first_block = 64;
+constexpr std::chrono::milliseconds short_time(200);
 
 /// The same progress as a part of a larger whole that begins at `done` and takes `share` of it.
 Progress part_of(const Progress& progress, double done, double share) {
@@ -33,12 +35,16 @@ template <class Compute>
 std::size_t in_blocks(std::span<const SurfacePoint> points, const Progress& progress,
                       Compute compute) {
   const auto count = static_cast<double>(points.size());
-  for (std::size_t done = 0; done < points.size(); done += block) {
+  std::size_t block = first_block;
+  for (std::size_t done = 0; done < points.size();) {
+    const auto start = std::chrono::steady_clock::now();
     const auto some = points.subspan(done, std::min(block, points.size() - done));
     compute(done, some,
             part_of(progress, static_cast<double>(done) / count,
                     static_cast<double>(some.size()) / count));
     if (progress.stopped()) return done;
+    done += some.size();
+    if (std::chrono::steady_clock::now() - start < short_time) block *= 2;
   }
   return points.size();
 }
@@ -74,38 +80,58 @@ void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
   light.resize(done);
 }
 
+CommandFiles checked_files(const ProbeCommand& command, const CommonOptions& common) {
+  CommandFiles files = scene_files(command.scene, command.materials, common);
+  files.inputs.push_back({"--points", command.points});
+  add_outputs(files, "-o", {command.output});
+  require_apart(files);
+  require_place(common.json);
+  if (!is_standard_stream(command.output)) check_output(command.output, point_formats);
+  return files;
+}
+
+PointTable get_points(const ProbeCommand& command, const SoundScene& scene) {
+  return command.points.empty() ? point_table(surface_grid(scene, command.group, command.spacing))
+                                : read_points(command.points);
+}
+
+/// Writes table and report.
+void write(const ProbeCommand& command, const PointTable& table,
+           const std::vector<DirectLight>& light, ExitCode code, const Context& context) {
+  write_points(table, light, command.output);
+  if (!context.common.json.empty())
+    write_report(ProbeReport{table.points.size(), light.size(), command.direct_only},
+                 run_info(context, code, {command.output}), context.common.json);
+}
+
 }  // namespace
 
-int run(const ProbeCommand& command, const Context& context) {
-  check_output(command.output, point_formats);
-  const auto start = std::chrono::steady_clock::now();
-  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
+ExitCode run(const ProbeCommand& command, const Context& context) {
+  const CommandFiles files = checked_files(command, context.common);
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
   const PreparedScene prepared(file.scene, context.progress);
-  const PointTable table =
-      command.points.empty()
-          ? point_table(surface_grid(prepared.scene(), command.group, command.spacing))
-          : read_points(command.points);
+  const PointTable table = get_points(command, prepared.scene());
   std::vector<DirectLight> light =
       direct_light(prepared.direct_light(), table.points, context.progress);
   if (!command.direct_only)
     add_reflected(prepared, command.options, table.points, context.progress, light);
   context.progress_ends();
-  if (!context.common.quiet) print_warnings(file.warnings, prepared.warnings());
-  write_points(table, light, context.provenance, command.output);
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  print_warnings(file, prepared.warnings(), context);
   const std::size_t points = table.points.size();
-  if (!context.common.json.empty())
-    write_report(ProbeReport{points, light.size(), command.direct_only, seconds.count()},
-                 context.provenance, {command.output}, context.common.json);
+  const ExitCode code = light.size() == points ? exit_done : exit_interrupted;
+  if (light.empty() && code == exit_interrupted) return end_without_results();
+  write(command, table, light, code, context);
   if (!context.common.quiet) {
-    fmt::print("points       {}\n", light.size());
-    if (context.common.verbose) fmt::print("{:<12} {:.2f} s\n", "probe", seconds.count());
-    fmt::print("wrote        {}\n", command.output.string());
+    fmt::print(context.summary, "points       {}\n", light.size());
+    if (context.common.verbose)
+      fmt::print(context.summary, "{:<12} {:.2f} s\n", "probe",
+                 run_info(context, code, {}).seconds);
+    print_outputs(context, {command.output});
   }
-  if (light.size() == points) return exit_done;
-  fmt::print(stderr, "interrupted: {} of {} points were computed and written\n", light.size(),
-             points);
-  return exit_interrupted;
+  if (code == exit_interrupted)
+    complain("interrupted: {} of {} points were computed and written\n", light.size(), points);
+  return code;
 }
 
 }  // namespace halfshade

@@ -1,5 +1,4 @@
 #include "apps/command_options.h"
-#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
@@ -10,13 +9,11 @@ namespace {
 void add_points(CLI::App& app, ProbeCommand& command) {
   CLI::Option* points =
       add_file(app, "--points", command.points,
-               "Table with columns x, y, z, nx, ny, nz; others are kept as they are");
-  CLI::Option* grid = app.add_option("--grid", command.group,
-                                     "Points in a square grid on the front of this group instead")
-                          ->type_name("GROUP");
+               "Table with columns x, y, z, nx, ny, nz; others are kept as they are; '-': stdin");
+  CLI::Option* grid = add_text(app, "--grid", command.group,
+                               "Points in a square grid on the front of this group instead");
   CLI::Option* spacing =
-      app.add_option("--spacing", command.spacing, "Spacing of the grid in scene units")
-          ->check(CLI::PositiveNumber);
+      add_positive(app, "--spacing", command.spacing, "Spacing of the grid in scene units");
   grid->needs(spacing)->excludes(points);
   spacing->needs(grid);
   app.callback([points, grid] {
@@ -32,7 +29,7 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   add_scene(app, command.scene);
   add_points(app, command);
   add_file(app, "-o,--output", command.output,
-           "Result: .csv (the same rows with H_r,H_g,H_b,visible) or .vtp")
+           "Result: .csv (the same rows with H_r,H_g,H_b,visible) or .vtp; '-': .csv to stdout")
       ->required();
   app.add_flag("--direct", command.direct_only,
                "Only light straight from the emitters; else interreflection is gathered from a\n"

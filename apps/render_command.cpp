@@ -1,6 +1,6 @@
-#include "apps/check_outputs.h"
-#include "apps/commands.h"
-#include "apps/scene_turning.h"
+#include "apps/command_files.h"
+#include "apps/console.h"
+#include "apps/run_end.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
 
@@ -11,15 +11,28 @@
 namespace halfshade {
 namespace {
 
-ShadedMesh load(const RenderCommand& command, const SceneOptions& orientation) {
+CommandFiles checked_files(const RenderCommand& command, const CommonOptions& common) {
+  CommandFiles files = has_format(command.input, shaded_formats)
+                           ? CommandFiles{{{"INPUT", command.input}}, {{"--json", common.json}}}
+                           : scene_files(command.input, command.materials, common);
+  add_outputs(files, "-o", {command.output});
+  require_apart(files);
+  require_place(common.json);
+  check_output(command.output, picture_formats);
+  return files;
+}
+
+ShadedMesh load(const RenderCommand& command, const CommandFiles& files, const Context& context) {
   if (has_format(command.input, shaded_formats)) return read_shaded(command.input);
-  const SceneFile file = read_turned(command.input, command.materials, orientation);
-  return shaded(make_sound(file.scene), file.scene.cameras);
+  const SceneFile file =
+      read_scene(command.input, command.materials, context.common.orientation, files);
+  ShadedMesh mesh = shaded(make_sound(file.scene), file.scene.cameras);
+  print_warnings(file, {}, context);
+  return mesh;
 }
 
 Camera named_camera(const ShadedMesh& mesh, const RenderCommand& command) {
-  if (command.camera.empty())
-    return mesh.cameras.empty() ? fitting_camera(mesh) : mesh.cameras.front();
+  if (command.camera.empty()) return default_camera(mesh);
   const auto found = std::find_if(mesh.cameras.begin(), mesh.cameras.end(),
                                   [&](const Camera& c) { return c.name == command.camera; });
   if (found != mesh.cameras.end()) return *found;
@@ -47,18 +60,23 @@ Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
 
 }  // namespace
 
-int run(const RenderCommand& command, const Context& context) {
-  check_output(command.output, picture_formats);
-  const ShadedMesh mesh = load(command, context.common.orientation);
-  const Picture picture =
-      draw(mesh, choose_camera(mesh, command), command.options, context.progress);
+ExitCode run(const RenderCommand& command, const Context& context) {
+  const CommandFiles files = checked_files(command, context.common);
+  const ShadedMesh mesh = load(command, files, context);
+  const Camera camera = choose_camera(mesh, command);
+  const Picture picture = draw(mesh, camera, command.options, context.progress);
   context.progress_ends();
+  // A picture does not show what of it is missing.
+  if (context.progress.stopped()) return end_without_results();
   write_png(picture, command.output);
+  if (!context.common.json.empty())
+    write_report(RenderReport{picture.width, picture.height, picture.exposure, camera},
+                 run_info(context, exit_done, {command.output}), context.common.json);
   if (!context.common.quiet) {
-    fmt::print("exposure     {:.4g}\n", picture.exposure);
-    fmt::print("wrote        {}\n", command.output.string());
+    fmt::print(context.summary, "exposure     {:.4g}\n", picture.exposure);
+    print_outputs(context, {command.output});
   }
-  return context.progress.stopped() ? exit_interrupted : exit_done;
+  return exit_done;
 }
 
 }  // namespace halfshade

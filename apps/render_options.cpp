@@ -1,43 +1,28 @@
 #include "apps/command_options.h"
-#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
 namespace halfshade {
 namespace {
 
-void add_vector(CLI::App& app, const char* name, std::optional<Vec3>& target, const char* help) {
-  app.add_option_function<std::vector<double>>(
-         name, [&target](const std::vector<double>& v) { target = Vec3(v[0], v[1], v[2]); }, help)
-      ->expected(3)
-      ->type_name("X Y Z");
-}
-
 void add_camera(CLI::App& app, RenderCommand& command) {
-  app.add_option("--camera", command.camera,
-                 "Camera by name (default: the file's first, or one that fits the scene)");
+  add_text(app, "--camera", command.camera,
+           "Camera by name (default: the file's first, or one that fits the scene)");
   add_vector(app, "--position", command.position, "Put the camera here");
   add_vector(app, "--target", command.target, "Look at this point");
   add_vector(app, "--up", command.up, "Upwards in the picture");
-  app.add_option("--fov", command.vertical_fov,
-                 "Vertical field of view in degrees, with --position")
-      ->capture_default_str()
-      ->check(CLI::Range(1., 170.));
+  add_number(app, "--fov", command.vertical_fov, {1, 170},
+             "Vertical field of view in degrees, with --position")
+      ->capture_default_str();
 }
 
 void add_picture(CLI::App& app, PictureOptions& options) {
-  app.add_option("--width", options.width, "Pixels")
-      ->capture_default_str()
-      ->check(CLI::Range(1, most_pixels));
-  app.add_option("--height", options.height, "Pixels")
-      ->capture_default_str()
-      ->check(CLI::Range(1, most_pixels));
-  app.add_option("--samples", options.samples, "Rays per pixel")
-      ->capture_default_str()
-      ->check(CLI::Range(1, most_samples));
-  app.add_option("--exposure", options.exposure,
-                 "Display value per W/m² (default: from the picture)")
-      ->check(CLI::PositiveNumber);
+  add_whole(app, "--width", options.width, {1, most_pixels}, "Pixels")->capture_default_str();
+  add_whole(app, "--height", options.height, {1, most_pixels}, "Pixels")->capture_default_str();
+  add_whole(app, "--samples", options.samples, {1, most_samples}, "Rays per pixel")
+      ->capture_default_str();
+  add_positive(app, "--exposure", options.exposure,
+               "Display value per W/m² (default: from the picture)");
   app.add_flag_callback(
       "--flat", [&options] { options.shading = Shading::flat; }, "One colour an element");
   app.add_flag("--mesh", options.mesh_lines, "Draw the element edges");

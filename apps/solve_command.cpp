@@ -1,7 +1,6 @@
-#include "apps/check_outputs.h"
-#include "apps/commands.h"
-#include "apps/scene_turning.h"
-#include "io/write/write_report.h"
+#include "apps/command_files.h"
+#include "apps/console.h"
+#include "apps/run_end.h"
 #include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
@@ -16,8 +15,9 @@ constexpr FileFormats solve_formats = {"results", {".vtu", ".vtp", ".ply", ".png
 void write(const SolveResult& result, const Context& context, const std::filesystem::path& path) {
   if (!has_format(path, picture_formats)) return write_result(result, context.provenance, path);
   const ShadedMesh mesh = shaded(result);
-  const Camera camera = mesh.cameras.empty() ? fitting_camera(mesh) : mesh.cameras.front();
-  write_png(draw(mesh, camera), path);
+  Picture picture = draw(mesh, default_camera(mesh));
+  if (result.interrupted) picture.comment = "interrupted: the solution is not complete";
+  write_png(picture, path);
 }
 
 std::string closure_line(const ExchangeReport& exchange) {
@@ -28,61 +28,80 @@ std::string closure_line(const ExchangeReport& exchange) {
                      exchange.closure_enforced ? ", put right" : ", left as it is");
 }
 
-void print_summary(const SolveResult& result, double asked_tolerance, bool verbose) {
+void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {
+  std::FILE* out = context.summary;
+  const bool verbose = context.common.verbose;
   if (verbose)
     for (const Repair& repair : result.scene.repairs)
-      fmt::print("repair       {}\n", sentence(repair, result.scene));
-  fmt::print("surfaces     {}\n", result.scene.surfaces.size());
-  fmt::print("elements     {}\n", result.elements.count());
+      fmt::print(out, "repair       {}\n", sentence(repair, result.scene));
+  fmt::print(out, "surfaces     {}\n", result.scene.surfaces.size());
+  fmt::print(out, "elements     {}\n", result.elements.count());
   if (result.curves > 0)
-    fmt::print("curves       {} of {}{}\n", result.mesh.kept, result.curves,
+    fmt::print(out, "curves       {} of {}{}\n", result.mesh.kept, result.curves,
                result.discontinuity_tolerance > asked_tolerance
                    ? "; more would take more elements than asked for"
                    : "");
-  fmt::print("factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
+  fmt::print(out, "factors      {}, {} rays, {}\n", result.exchange.factors, result.exchange.rays,
              closure_line(result.exchange));
   const ChannelReport& channel = result.radiosity.channel[0];
-  fmt::print("radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
+  fmt::print(out,
+             "radiosity    {} channel{}, {} iterations, residual {:.1e}, power balance {:.1e}\n",
              result.radiosity.channels, result.radiosity.channels == 1 ? "" : "s",
              channel.iterations, channel.residual, channel.balance);
-  fmt::print("error        {:.2g} relative to the irradiance (estimated, L2)\n",
+  fmt::print(out, "error        {:.2g} relative to the irradiance (estimated, L2)\n",
              result.relative_error);
   for (const StageReport& stage : result.stages)
     if (!stage.left_out_because.empty())
-      fmt::print("left out     {}: {}\n", stage.name, stage.left_out_because);
+      fmt::print(out, "left out     {}: {}\n", stage.name, stage.left_out_because);
     else if (verbose)
-      fmt::print("{:<12} {:.2f} s\n", stage.name, stage.seconds);
+      fmt::print(out, "{:<12} {:.2f} s\n", stage.name, stage.seconds);
+}
+
+/// Whether there is light beyond what is given. Before that a file of an earlier run is worth more.
+bool is_worth_writing(const SolveResult& result) {
+  return !result.interrupted || (result.solution.irradiance > 0).any();
+}
+
+ExitCode exit_code(const SolveResult& result) {
+  return result.interrupted           ? exit_interrupted
+         : result.radiosity.converged ? exit_done
+                                      : exit_not_accurate;
+}
+
+void print_ending(ExitCode code) {
+  if (code == exit_interrupted)
+    complain("interrupted: the results written are incomplete and marked so\n");
+  if (code == exit_not_accurate)
+    complain(
+        "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
 }
 
 }  // namespace
 
-int run(const SolveCommand& command, const Context& context) {
+ExitCode run(const SolveCommand& command, const Context& context) {
   std::vector<std::filesystem::path> outputs = command.outputs;
   if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
-  require_folder(context.common.json);
+  CommandFiles files = scene_files(command.scene, command.materials, context.common);
+  add_outputs(files, "-o", outputs);
+  require_apart(files);
+  require_place(context.common.json);
   for (const auto& path : outputs) check_output(path, solve_formats);
-  const SceneFile file = read_turned(command.scene, command.materials, context.common.orientation);
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
   const SolveResult result = solve(file.scene, command.options, context.progress);
   context.progress_ends();
-  if (!context.common.quiet) print_warnings(file.warnings, result.warnings);
+  print_warnings(file, result.warnings, context);
+  if (!is_worth_writing(result)) return end_without_results();
   for (const auto& path : outputs) write(result, context, path);
+  const ExitCode code = exit_code(result);
   if (!context.common.json.empty())
-    write_report(result, context.provenance, outputs, context.common.json);
+    write_report(result, run_info(context, code, outputs), context.common.json);
   if (!context.common.quiet) {
-    print_summary(result, command.options.tolerance, context.common.verbose);
-    for (const auto& path : outputs) fmt::print("wrote        {}\n", path.string());
+    print_summary(result, command.options.tolerance, context);
+    print_outputs(context, outputs);
   }
-  if (result.interrupted) {
-    fmt::print(stderr, "interrupted: the results written are incomplete and marked so\n");
-    return exit_interrupted;
-  }
-  if (!result.radiosity.converged) {
-    fmt::print(
-        stderr,
-        "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
-    return exit_not_accurate;
-  }
-  return exit_done;
+  print_ending(code);
+  return code;
 }
 
 }  // namespace halfshade

@@ -1,55 +1,54 @@
 #include "apps/command_options.h"
-#include "apps/scene_turning.h"
 
 #include <CLI/CLI.hpp>
 
-#include <map>
+#include <array>
 
 namespace halfshade {
 namespace {
 
 void add_size(CLI::App& app, SolveOptions& options) {
   add_elements(app, options.elements, "About how many elements to make");
-  app.add_option("--max-length", options.max_length,
-                 "Longest element edge in scene units (instead of --elements)")
-      ->check(number(false));
-  app.add_option("--max-elements", options.max_elements, "Refuse to make more elements than this")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+  add_positive(app, "--max-length", options.max_length,
+               "Longest element edge in scene units (instead of --elements)");
+  add_whole(app, "--max-elements", options.max_elements, {1, 1000000},
+            "Refuse to make more elements than this")
+      ->capture_default_str();
 }
 
 void add_light(CLI::App& app, SolveOptions& options) {
-  app.add_option("--bounces", options.radiosity.bounces,
-                 "Only light reflected at most N times (default: all)")
-      ->check(CLI::Range(0, 100000));
-  app.add_option("--rays", options.exchange.rays_per_pair,
-                 "Visibility rays for a pair of elements, on average")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 4096));
-  const std::map<std::string, Closure> closures = {
-      {"auto", Closure::automatic}, {"enforce", Closure::enforce}, {"leave", Closure::leave}};
-  app.add_option(
-         "--closure", options.exchange.closure,
-         "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave'")
-      ->transform(CLI::CheckedTransformer(closures, CLI::ignore_case))
-      ->default_str("auto");
-  const std::map<std::string, DirectLightBy> direct_lights = {{"auto", DirectLightBy::automatic},
-                                                              {"exact", DirectLightBy::exact},
-                                                              {"matrix", DirectLightBy::matrix}};
-  app.add_option("--direct-light", options.direct_light,
-                 "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'")
-      ->transform(CLI::CheckedTransformer(direct_lights, CLI::ignore_case))
-      ->default_str("auto");
+  add_whole(app, "--bounces", options.radiosity.bounces, {0, 100000},
+            "Only light that arrives after at most N reflections: 0 is direct light, 1 adds one\n"
+            "reflection (default: all)");
+  app.add_flag("--regions", options.regions,
+               "Say of each element whether it is lit, in penumbra or umbra of each emitter");
+  add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
+            "Visibility rays for a pair of elements, on average")
+      ->capture_default_str();
+  add_choice(
+      app, "--closure", {"auto", "enforce", "leave"},
+      [&options](std::size_t k) {
+        options.exchange.closure =
+            std::array{Closure::automatic, Closure::enforce, Closure::leave}.at(k);
+      },
+      "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave'");
+  add_choice(
+      app, "--direct-light", {"auto", "exact", "matrix"},
+      [&options](std::size_t k) {
+        options.direct_light =
+            std::array{DirectLightBy::automatic, DirectLightBy::exact, DirectLightBy::matrix}.at(k);
+      },
+      "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'");
 }
 
 void add_curves(CLI::App& app, SolveOptions& options) {
   app.add_flag_callback(
       "--no-discontinuity", [&options] { options.discontinuities = false; },
       "Do not mesh along the curves where the light breaks");
-  app.add_option("--tolerance", options.tolerance,
-                 "Leave out curves that change the irradiance by less than this share of its mean")
-      ->capture_default_str()
-      ->check(number(true));
+  add_not_negative(
+      app, "--tolerance", options.tolerance,
+      "Leave out curves that change the irradiance by less than this share of its mean")
+      ->capture_default_str();
   add_events(app, options.events, options.secondary);
 }
 

@@ -25,6 +25,11 @@ void require_consistent(const ElementTable& elements, const char* caller) {
 void require_consistent(const SolveResult& result, const char* caller) {
   require_consistent(result.elements, caller);
   const auto n = static_cast<Eigen::Index>(result.elements.count());
+  if (!result.regions.empty() &&
+      result.regions.size() != result.elements.corners.size() * result.emitters.size())
+    throw Error(ErrorCode::contract, caller,
+                fmt::format("{} elements and {} emitters have {} regions", n,
+                            result.emitters.size(), result.regions.size()));
   const Solution& s = result.solution;
   for (const ChannelArray* array :
        {&s.rho, &s.exitance, &s.radiosity, &s.irradiance, &s.direct_irradiance})

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace halfshade {
@@ -59,6 +60,7 @@ struct Picture {
   int width = 0, height = 0;
   double exposure = 0;  ///< as used
   std::vector<std::uint8_t> pixels;
+  std::string comment;  ///< stands in the file, not in the picture; may be empty
 };
 
 /// A camera outside the scene's bounding box that shows all of it in a picture at least as wide as
@@ -66,6 +68,11 @@ struct Picture {
 /// short ones; of the sides to look from, the one that shows the most front side. Precondition: the
 /// mesh has points.
 Camera fitting_camera(const ShadedMesh& mesh);
+
+/// What shows a mesh if nobody says where to stand: its first camera; else fitting_camera, unless
+/// walls close the scene's lamp in and hide it from there. Then a camera in the room, at the end of
+/// the longest line through it.
+Camera default_camera(const ShadedMesh& mesh);
 
 /// Draws by casting rays; needs no display. Back sides are not drawn, so that a room can be looked
 /// into from outside. A pixel is the mean of its tone-mapped samples, so that the edges of bright

@@ -32,12 +32,12 @@ void write_png(const Picture& picture, const std::filesystem::path& path) {
   vtkNew<vtkPNGWriter> writer;
   messages.listen_to(writer);
   writer->SetInputData(image);
+  if (!picture.comment.empty()) writer->AddText("Comment", picture.comment.c_str());
   writer->WriteToMemoryOn();
   writer->Write();
   const vtkUnsignedCharArray* bytes = writer->GetResult();
   if (!messages.first.empty() || writer->GetErrorCode() != 0 || bytes == nullptr)
-    throw Error(ErrorCode::unwritable, path.string(),
-                fmt::format("the picture could not be encoded ({})", messages.first));
+    throw Error(ErrorCode::unwritable, path.string(), "the picture could not be encoded");
   const auto* begin = reinterpret_cast<const char*>(writer->GetResult()->GetPointer(0));
   write_atomically(path,
                    std::string_view(begin, static_cast<std::size_t>(bytes->GetNumberOfValues())));

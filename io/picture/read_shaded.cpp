@@ -1,4 +1,4 @@
-#include "io/files/cameras_json.h"
+#include "io/files/camera_numbers.h"
 #include "io/files/extension.h"
 #include "io/files/seal.h"
 #include "io/files/vtk_messages.h"
@@ -18,11 +18,11 @@
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -71,14 +71,23 @@ std::array<int, 3> triangle(vtkPointSet* grid, vtkIdType cell, const path& file)
   return result;
 }
 
+std::vector<double> field_numbers(vtkFieldData* data, const char* name, int components) {
+  vtkDataArray* array = data->GetArray(name);
+  if (array == nullptr || array->GetNumberOfComponents() != components) return {};
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int c = 0; c < components; ++c) values.push_back(array->GetComponent(i, c));
+  return values;
+}
+
 std::vector<Camera> cameras(vtkFieldData* data, const path& file) {
-  auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray("cameras"));
-  if (array == nullptr || array->GetNumberOfValues() == 0) return {};
-  try {
-    return detail::cameras_from_json(array->GetValue(0));
-  } catch (const std::exception& error) {
-    reject(file, fmt::format("the cameras in the file cannot be read ({})", error.what()));
-  }
+  detail::CameraNumbers numbers;
+  numbers.values = field_numbers(data, "cameras", detail::camera_components);
+  for (const double value : numbers.values)
+    if (!std::isfinite(value)) reject(file, "the cameras in the file are not finite");
+  for (const double code : field_numbers(data, "camera_names", 1))
+    numbers.names.push_back(static_cast<int>(std::clamp(code, 0., 255.)));
+  return to_cameras(numbers);
 }
 
 ShadedMesh to_mesh(vtkPointSet* grid, const path& file) {
@@ -120,11 +129,10 @@ ShadedMesh read(const std::string& bytes, const path& file) {
   reader->SetInputString(bytes);
   try {
     reader->Update();
-  } catch (const std::exception& error) {  // sizes that are not there, for example
-    reject(file, fmt::format("VTK cannot read the file ({})", error.what()));
+  } catch (const std::exception&) {  // sizes that are not there, for example
+    reject(file, "the data in the file cannot be decoded");
   }
-  if (!messages.first.empty())
-    reject(file, fmt::format("VTK cannot read the file ({})", messages.first));
+  if (!messages.first.empty()) reject(file, "the data in the file cannot be decoded");
   return to_mesh(reader->GetOutput(), file);
 }
 

@@ -63,6 +63,7 @@ void apply(const Override& change, const path& file, Material& material, Materia
   if (change.exitance) origin.exitance_place = file.string();
   if (change.two_sided) material.two_sided = *change.two_sided;
   origin.undefined_place.clear();
+  origin.from_json = true;
 }
 
 /// Applies to every material of this name, of which a group may have made variants.
@@ -101,6 +102,17 @@ void apply_by_group(const std::map<int, Override>& changes, const path& file, Sc
   }
 }
 
+/// True if there is a material of the group's name with other faces than the group's.
+bool means_two_things(const std::string& name, int group, const SceneDraft& draft) {
+  bool any = false, differs = false;
+  for (const Face& face : draft.scene.faces) {
+    const bool of_material = draft.origins[static_cast<std::size_t>(face.material)].name == name;
+    any |= of_material;
+    differs |= of_material != (face.group == group);
+  }
+  return any && differs;
+}
+
 std::vector<std::string> material_names(const SceneDraft& draft) {
   std::vector<std::string> names;
   for (const MaterialOrigin& origin : draft.origins)
@@ -118,6 +130,11 @@ void apply_materials(const json& materials, const path& file, const std::string&
   for (const auto& [name, entry] : materials.items()) {
     const Override change = read_override(entry, file, key_path(key, name));
     if (const auto group = draft.group_ids.find(name); group != draft.group_ids.end()) {
+      if (means_two_things(name, group->second, draft))
+        draft.warnings.push_back(
+            fmt::format("{}: {} names a group and a material that do not have the same faces; it "
+                        "is applied to the group",
+                        file.string(), key_path(key, name)));
       by_group[group->second] = change;
     } else if (!apply_by_material(change, file, name, draft)) {
       fail(file, 0,

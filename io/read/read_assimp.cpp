@@ -1,4 +1,4 @@
-// glTF, STL, COLLADA and 3DS through assimp, which keeps positions in single precision as the
+// glTF, COLLADA and 3DS through assimp, which keeps positions in single precision as the
 // formats mostly do. Nothing is triangulated or joined; node transforms are applied in double.
 
 #include "io/read/read_formats.h"
@@ -6,6 +6,7 @@
 #include "meshing/core/error.h"
 
 #include <Eigen/Geometry>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/material.h>
@@ -162,21 +163,41 @@ class AssimpReader {
   std::map<std::string, double> emissive_strengths_;
 };
 
+/// Notes which files are read: a scene may name others.
+class NotingFiles : public Assimp::DefaultIOSystem {
+ public:
+  explicit NotingFiles(std::vector<std::filesystem::path>& files) : files_(files) {}
+
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    Assimp::IOStream* stream = DefaultIOSystem::Open(file, mode);
+    if (stream != nullptr) files_.emplace_back(file);
+    return stream;
+  }
+
+ private:
+  std::vector<std::filesystem::path>& files_;
+};
+
 }  // namespace
 
 SceneDraft read_with_assimp(const std::filesystem::path& path) {
   require_readable(path);
+  if (is_gltf(path)) require_whole_glb(path);
+  std::vector<std::filesystem::path> files;
   Assimp::Importer importer;
+  importer.SetIOHandler(new NotingFiles(files));  // which the importer deletes
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // not the ids
   const aiScene* input = nullptr;
   try {
     input = importer.ReadFile(path.string(), 0);
   } catch (const std::exception& error) {
-    fail(path, 0, fmt::format("assimp cannot read the file: {}", error.what()));
+    fail(path, 0, fmt::format("the file cannot be read: {}", error.what()));
   }
   if (input == nullptr)
-    fail(path, 0, fmt::format("assimp cannot read the file: {}", importer.GetErrorString()));
-  return AssimpReader(path, *input).read();
+    fail(path, 0, fmt::format("the file cannot be read: {}", importer.GetErrorString()));
+  SceneDraft draft = AssimpReader(path, *input).read();
+  draft.files = std::move(files);
+  return draft;
 }
 
 }  // namespace halfshade::reading

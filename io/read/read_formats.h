@@ -17,6 +17,12 @@ struct MaterialOrigin {
   std::string rho_place;        ///< "file:line"; empty if not given
   std::string exitance_place;   ///< "file:line"; empty if not given
   std::string undefined_place;  ///< where it is used, if no file defines it; else empty
+  bool from_json = false;       ///< given by a materials file or a sidecar
+};
+
+struct MissingFile {
+  std::string place;     ///< "file:line"
+  std::string sentence;  ///< that it is missing
 };
 
 /// A scene that has not been checked as a whole yet.
@@ -24,6 +30,9 @@ struct SceneDraft {
   Scene scene;
   std::vector<MaterialOrigin> origins;  ///< one a material
   std::vector<std::string> warnings;
+  std::vector<std::filesystem::path> files;  ///< read besides the scene itself
+  /// Material libraries that are not there; an error unless JSON files give all materials.
+  std::vector<MissingFile> missing;
   std::unordered_map<std::string, int> material_ids;  ///< by the name in the scene file
   std::unordered_map<std::string, int> group_ids;
 };
@@ -34,6 +43,7 @@ inline constexpr const char* default_name = "default";
 SceneDraft read_obj(const std::filesystem::path& path);
 SceneDraft read_ply(const std::filesystem::path& path);
 SceneDraft read_off(const std::filesystem::path& path);
+SceneDraft read_stl(const std::filesystem::path& path);
 SceneDraft read_with_assimp(const std::filesystem::path& path);
 
 /// Adds what an MTL file defines to the draft's materials.
@@ -41,6 +51,10 @@ void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
 
 /// True for .gltf and .glb files.
 bool is_gltf(const std::filesystem::path& path);
+
+/// Fails if the chunks of a binary glTF file are longer than the file: assimp would ask for memory
+/// for them.
+void require_whole_glb(const std::filesystem::path& path);
 
 /// The factors of KHR_materials_emissive_strength, which assimp leaves out, by material name.
 std::map<std::string, double> gltf_emissive_strengths(const std::filesystem::path& path);

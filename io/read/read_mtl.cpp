@@ -30,13 +30,14 @@ class MtlReader {
   void statement(std::string_view text) {
     split(text, words_);
     const std::string_view keyword = words_[0];
-    if (keyword == "newmtl") {
+    const std::string small = lower(keyword);
+    if (small == "newmtl") {
       finish_material();
       start_material(trimmed(text.substr(keyword.size())));
-    } else if (keyword == "Kd") {
+    } else if (small == "kd") {
       draft_.scene.materials[present(keyword)].rho = colour();
       draft_.origins[present(keyword)].rho_place = place(file_, line_);
-    } else if (keyword == "Ke") {
+    } else if (small == "ke") {
       draft_.scene.materials[present(keyword)].exitance = colour();
       draft_.origins[present(keyword)].exitance_place = place(file_, line_);
     } else {
@@ -53,7 +54,7 @@ class MtlReader {
     Material& material = draft_.scene.materials[id];
     material = Material{};
     material.name = name;
-    draft_.origins[id] = {material.name, {}, {}, {}};
+    draft_.origins[id] = {material.name, {}, {}, {}, false};
     material_ = id;
   }
 

@@ -43,7 +43,8 @@ class ObjReader {
  private:
   void statement(std::string_view text) {
     split(text, words_);
-    const std::string_view keyword = words_[0];
+    // Small letters by the book; some programs write capital ones.
+    const std::string keyword = lower(words_[0]);
     const std::string_view arguments = trimmed(text.substr(keyword.size()));
     if (keyword == "v") {
       vertex();
@@ -57,7 +58,7 @@ class ObjReader {
     } else if (keyword == "mtllib") {
       material_library(arguments);
     } else {
-      unused(keyword);
+      unused(keyword, words_[0]);
     }
   }
 
@@ -130,11 +131,15 @@ class ObjReader {
 
   void library(std::string_view name) {
     const path file = beside(name);
-    if (!exists(file))
-      fail(file_, line_,
-           fmt::format("mtllib names {}, but there is no file '{}'", in_quotes(name),
-                       file.string()));
-    if (libraries_.insert(file).second) read_mtl(file, draft_);
+    if (!exists(file)) {
+      draft_.missing.push_back(
+          {place(file_, line_), fmt::format("mtllib names {}, but there is no file '{}'",
+                                            in_quotes(name), file.string())});
+      return;
+    }
+    if (!libraries_.insert(file).second) return;
+    draft_.files.push_back(file);
+    read_mtl(file, draft_);
   }
 
   static bool exists(const path& file) {
@@ -150,14 +155,14 @@ class ObjReader {
     return file_.parent_path() / text;
   }
 
-  void unused(std::string_view keyword) {
+  void unused(std::string_view keyword, std::string_view as_written) {
     // Texture coordinates, normals, smoothing, points and lines do not concern us.
     static constexpr std::string_view silent[] = {"vt", "vn", "s", "l", "p"};
     if (std::find(std::begin(silent), std::end(silent), keyword) != std::end(silent)) return;
     constexpr std::size_t most = 10;  // a file of another kind has thousands
-    if (unknown_.size() < most && unknown_.insert(std::string(keyword)).second)
+    if (unknown_.size() < most && unknown_.insert(std::string(as_written)).second)
       draft_.warnings.push_back(fmt::format("{}: statements that begin with {} are not used",
-                                            place(file_, line_), in_quotes(keyword)));
+                                            place(file_, line_), in_quotes(as_written)));
   }
 
   void check_references() const {

@@ -49,10 +49,11 @@ class OffReader {
 
   /// Takes the keyword off; the counts may follow on its line or on the next.
   void header() {
-    std::string_view keyword = words_[0];
-    for (const std::string_view prefix : {"ST", "C", "N"})
+    const std::string word = lower(words_[0]);
+    std::string_view keyword = word;
+    for (const std::string_view prefix : {"st", "c", "n"})
       if (keyword.starts_with(prefix)) keyword.remove_prefix(prefix.size());
-    if (keyword == "OFF") {
+    if (keyword == "off") {
       words_.erase(words_.begin());
     } else if (!parse_integer(words_[0])) {
       fail(file_, lines_.line(),
@@ -60,7 +61,7 @@ class OffReader {
                        "or STOFF",
                        in_quotes(words_[0])));
     }
-    if (!words_.empty() && words_[0] == "BINARY")
+    if (!words_.empty() && lower(words_[0]) == "binary")
       fail(file_, lines_.line(), "binary OFF files cannot be read; save it as text");
     if (words_.empty()) next("the numbers of vertices and faces");
   }

@@ -15,24 +15,25 @@ class HeaderReader {
       : file_(file), bytes_(bytes) {}
 
   Header read() {
-    if (!bytes_.starts_with("ply") || bytes_.find_first_of("\r\n") != 3)
+    if (lower(bytes_.substr(0, 3)) != "ply" || bytes_.find_first_of("\r\n") != 3)
       fail(file_, 1, "the first line of a PLY file must be 'ply'");
     ending_ = bytes_.substr(3).starts_with("\r\n") ? "\r\n" : bytes_.substr(3, 1);
     next();
     bool has_format = false;
     while (next()) {
       split(text_, words_);
-      if (words_.empty() || words_[0] == "comment" || words_[0] == "obj_info") continue;
-      if (words_[0] == "end_header") {
+      const std::string keyword = words_.empty() ? "comment" : lower(words_[0]);
+      if (keyword == "comment" || keyword == "obj_info") continue;
+      if (keyword == "end_header") {
         if (!has_format) fail(file_, header_.lines, "the header ends without a format");
         return header_;
       }
-      if (words_[0] == "format") {
+      if (keyword == "format") {
         format();
         has_format = true;
-      } else if (words_[0] == "element") {
+      } else if (keyword == "element") {
         element();
-      } else if (words_[0] == "property") {
+      } else if (keyword == "property") {
         property();
       } else {
         fail(file_, header_.lines,
@@ -54,7 +55,7 @@ class HeaderReader {
   }
 
   void format() {
-    const std::string_view name = words_.size() > 1 ? words_[1] : "";
+    const std::string name = words_.size() > 1 ? lower(words_[1]) : "";
     if (name == "ascii") {
       header_.encoding = Encoding::ascii;
     } else if (name == "binary_little_endian") {
@@ -81,7 +82,7 @@ class HeaderReader {
   void property() {
     if (header_.elements.empty()) fail(file_, header_.lines, "a property comes before any element");
     Property property;
-    if (words_.size() == 5 && words_[1] == "list") {
+    if (words_.size() == 5 && lower(words_[1]) == "list") {
       property.count_type = type(words_[2]);
       if (is_real(*property.count_type))
         fail(file_, header_.lines, "the length of a list cannot be a floating-point number");
@@ -97,8 +98,9 @@ class HeaderReader {
   }
 
   Type type(std::string_view name) const {
+    const std::string small = lower(name);
     for (std::size_t i = 0; i < type_names.size(); ++i)
-      if (name == type_names[i].name || name == type_names[i].alias) return static_cast<Type>(i);
+      if (small == type_names[i].name || small == type_names[i].alias) return static_cast<Type>(i);
     fail(file_, header_.lines, fmt::format("{} is not a type of PLY files", in_quotes(name)));
   }
 

@@ -1,5 +1,6 @@
 #include "io/read/read_points.h"
 
+#include "io/files/same_file.h"
 #include "io/read/read_text.h"
 
 #include <fmt/format.h>
@@ -39,21 +40,20 @@ void split_cells(std::string_view row, char separator, std::vector<std::string_v
   }
 }
 
-std::string lower(std::string_view text) {
+std::string column_name(std::string_view text) {
   if (text.size() > 1 && text.front() == '"' && text.back() == '"')
     text = text.substr(1, text.size() - 2);
-  std::string result(text);
-  for (char& c : result)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return result;
+  return reading::lower(text);
 }
 
 class PointReader {
  public:
-  explicit PointReader(const fs::path& path) : path_(path) {}
+  explicit PointReader(const fs::path& path)
+      : is_stream_(is_standard_stream(path)), path_(is_stream_ ? "standard input" : path) {}
 
   PointTable read() {
-    const std::string bytes = reading::read_bytes(path_);
+    const std::string bytes =
+        is_stream_ ? reading::read_standard_input() : reading::read_bytes(path_);
     reading::LineReader lines(bytes);
     while (lines.next()) {
       line_ = lines.line();
@@ -93,7 +93,7 @@ class PointReader {
     for (std::size_t k = 0; k < names.size(); ++k) {
       std::size_t found = 0;
       for (std::size_t c = 0; c < cells_.size(); ++c)
-        if (lower(cells_[c]) == names[k]) {
+        if (column_name(cells_[c]) == names[k]) {
           columns_[k] = c;
           ++found;
         }
@@ -126,6 +126,7 @@ class PointReader {
     table_.rows.emplace_back(text);
   }
 
+  bool is_stream_;
   fs::path path_;
   PointTable table_;
   Columns columns_{};

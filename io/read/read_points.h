@@ -19,8 +19,8 @@ struct PointTable {
 /// Reads points from a text table: columns x, y, z, nx, ny, nz in any order, named in the first row
 /// (upper or lower case), among others that are kept and not looked at; or six columns of numbers
 /// in that order without names. Separated by commas, semicolons or tabs, as the first row shows.
-/// Empty lines and comments (#) are skipped. Normals may have any length but zero. Throws
-/// Error(invalid_input) with file and line for anything else.
+/// "-" is the standard input. Empty lines and comments (#) are skipped. Normals may have any length
+/// but zero. Throws Error(invalid_input) with file and line for anything else.
 PointTable read_points(const std::filesystem::path& path);
 
 /// Points in the form of a table that would read back as the same ones.

@@ -23,7 +23,8 @@ SceneDraft read_by_extension(const path& file) {
   if (extension == ".obj") return reading::read_obj(file);
   if (extension == ".ply") return reading::read_ply(file);
   if (extension == ".off") return reading::read_off(file);
-  for (const std::string_view known : {".gltf", ".glb", ".stl", ".dae", ".3ds"})
+  if (extension == ".stl") return reading::read_stl(file);
+  for (const std::string_view known : {".gltf", ".glb", ".dae", ".3ds"})
     if (extension == known) return reading::read_with_assimp(file);
   throw Error(ErrorCode::usage, file.string(),
               fmt::format("{} of a scene; known are .obj, .ply, .off, .gltf, .glb, .stl, .dae and "
@@ -90,17 +91,51 @@ void check_materials(const SceneDraft& draft) {
   }
 }
 
+/// A library that is not there matters unless JSON files give every face its material.
+void check_libraries(const SceneDraft& draft) {
+  const bool covered =
+      !draft.origins.empty() && std::all_of(draft.origins.begin(), draft.origins.end(),
+                                            [](const auto& origin) { return origin.from_json; });
+  if (!draft.missing.empty() && !covered)
+    throw Error(ErrorCode::invalid_input, draft.missing.front().place,
+                draft.missing.front().sentence);
+}
+
+/// Says what is taken where the files say nothing.
+std::vector<std::string> guesses_in(const SceneDraft& draft) {
+  std::vector<std::string> guesses;
+  for (std::size_t m = 0; m < draft.origins.size(); ++m) {
+    if (draft.origins[m].name != reading::default_name || !draft.origins[m].rho_place.empty())
+      continue;
+    const auto& faces = draft.scene.faces;
+    const auto count = std::count_if(faces.begin(), faces.end(), [&](const Face& face) {
+      return face.material == static_cast<int>(m);
+    });
+    guesses.push_back(
+        fmt::format("{}: {} of {} faces have no material; their reflectance is taken as {}",
+                    draft.scene.source, count, faces.size(), draft.scene.materials[m].rho[0]));
+  }
+  return guesses;
+}
+
 }  // namespace
 
 SceneFile read_scene(const path& file, const path& materials) {
   SceneDraft draft = read_by_extension(file);
-  if (draft.scene.faces.empty())
+  if (draft.scene.faces.empty()) {
+    check_libraries(draft);
     throw Error(ErrorCode::invalid_input, file.string(), "there are no faces in the file");
+  }
   apply_json_files(file, materials, draft);
   drop_unused_materials(draft);
+  check_libraries(draft);
   check_materials(draft);
+  for (const reading::MissingFile& missing : draft.missing)
+    draft.warnings.push_back(missing.place + ": " + missing.sentence);
+  std::vector<std::string> guesses = guesses_in(draft);
   validate(draft.scene);
-  return {std::move(draft.scene), std::move(draft.warnings)};
+  return {std::move(draft.scene), std::move(draft.warnings), std::move(guesses),
+          std::move(draft.files)};
 }
 
 }  // namespace halfshade

@@ -12,10 +12,14 @@ namespace halfshade {
 struct SceneFile {
   Scene scene;
   std::vector<std::string> warnings;  ///< one sentence each, with file and line where known
+  std::vector<std::string> guesses;   ///< what is taken where the files say nothing, likewise
+  std::vector<std::filesystem::path>
+      files;  ///< read besides the scene: material libraries, buffers
 };
 
-/// Reads a scene by its extension: .obj (+ .mtl), .ply, .off in double precision; .gltf, .glb,
-/// .stl, .dae and .3ds through assimp in single precision. Polygons stay polygons. Applies the
+/// Reads a scene by its extension: .obj (+ .mtl), .ply, .off and .stl as text in double
+/// precision, .stl binary in its single one; .gltf, .glb, .dae and .3ds through assimp in single
+/// precision. Polygons stay polygons. Applies the
 /// sidecar (the scene's path with .json as extension, if there is one) and then the materials file
 /// `materials` (none if empty), and validates the result.
 ///

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
+#include <iostream>
 #include <new>
 
 namespace halfshade::reading {
@@ -34,18 +35,7 @@ std::string_view without_comment(std::string_view line) {
   return line;
 }
 
-}  // namespace
-
-std::string place(const std::filesystem::path& path, int line) {
-  return line > 0 ? fmt::format("{}:{}", path.string(), line) : path.string();
-}
-
-void fail(const std::filesystem::path& path, int line, const std::string& sentence) {
-  throw Error(ErrorCode::invalid_input, place(path, line), sentence);
-}
-
-std::string read_bytes(const std::filesystem::path& path) {
-  std::ifstream stream = open(path);
+std::string read_all(std::istream& stream, const std::filesystem::path& path) {
   std::string bytes;
   try {
     std::size_t size = 0;
@@ -63,6 +53,23 @@ std::string read_bytes(const std::filesystem::path& path) {
   if (bytes.empty()) fail(path, 0, "the file is empty");
   return bytes;
 }
+
+}  // namespace
+
+std::string place(const std::filesystem::path& path, int line) {
+  return line > 0 ? fmt::format("{}:{}", path.string(), line) : path.string();
+}
+
+void fail(const std::filesystem::path& path, int line, const std::string& sentence) {
+  throw Error(ErrorCode::invalid_input, place(path, line), sentence);
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::ifstream stream = open(path);
+  return read_all(stream, path);
+}
+
+std::string read_standard_input() { return read_all(std::cin, "standard input"); }
 
 void require_readable(const std::filesystem::path& path) {
   std::ifstream stream = open(path);
@@ -141,6 +148,13 @@ void split(std::string_view text, std::vector<std::string_view>& words) {
     words.push_back(text.substr(at, end - at));
     at = text.find_first_not_of(spaces, end);
   }
+}
+
+std::string lower(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
 }
 
 std::string_view trimmed(std::string_view text) {

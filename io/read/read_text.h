@@ -13,6 +13,9 @@ namespace halfshade::reading {
 /// Error(too_large) if it does not fit into memory.
 std::string read_bytes(const std::filesystem::path& path);
 
+/// All of the standard input. Throws as read_bytes.
+std::string read_standard_input();
+
 /// The same checks without keeping the content.
 void require_readable(const std::filesystem::path& path);
 
@@ -41,6 +44,9 @@ double finite_number(std::string_view word, const std::filesystem::path& path, i
 void split(std::string_view text, std::vector<std::string_view>& words);
 
 std::string_view trimmed(std::string_view text);
+
+/// The text in small letters, of A to Z.
+std::string lower(std::string_view text);
 
 /// Goes through a text line by line. Lines end with \n, \r\n or \r. Comments, which start with # at
 /// the start of a line or after a space, are cut off, spaces at both ends, too, and lines without

@@ -54,6 +54,12 @@ Camera read_camera(const json& entry, const path& file, std::size_t index) {
 void apply_sidecar(const path& file, SceneDraft& draft) {
   const json sidecar = read_json(file);
   require_object(sidecar, file, "");
+  // Another run may have written it over the sidecar, with its materials: better no result than
+  // one without them.
+  if (sidecar.contains("command_line") && sidecar.contains("version"))
+    fail(file, 0,
+         "this is a report that halfshade has written (--json), not a sidecar with unit, cameras "
+         "and materials; give it another name, or put the sidecar back");
   for (const auto& [name, value] : sidecar.items()) {
     if (name == "unit") {
       draft.scene.unit = text_value(value, file, in_quotes(name));

@@ -7,9 +7,35 @@
 #include <nlohmann/json.hpp>
 
 #include <set>
+#include <span>
 
 namespace halfshade::detail {
-Json scene_json(const SoundScene& scene, std::size_t cameras) {
+namespace {
+
+template <class Thing>
+std::vector<std::string> names_of(const std::vector<Thing>& things) {
+  std::vector<std::string> names;
+  for (const Thing& thing : things) names.push_back(thing.name);
+  return names;
+}
+
+/// As sentences count them.
+std::vector<int> counted_from_one(std::vector<int> faces) {
+  for (int& face : faces) ++face;
+  return faces;
+}
+
+}  // namespace
+
+Json head_json(const RunInfo& run) {
+  return {{"version", run.provenance.version},
+          {"command_line", run.provenance.command_line},
+          {"status", run.status},
+          {"seconds", run.seconds},
+          {"peak_memory_bytes", run.peak_memory_bytes}};
+}
+
+Json scene_json(const SoundScene& scene, const std::vector<Camera>& cameras) {
   std::set<int> faces;
   for (const Surface& surface : scene.surfaces)
     faces.insert(surface.faces.begin(), surface.faces.end());
@@ -17,15 +43,18 @@ Json scene_json(const SoundScene& scene, std::size_t cameras) {
           {"surfaces", scene.surfaces.size()},
           {"materials", scene.materials.size()},
           {"groups", scene.groups.size()},
-          {"cameras", cameras},
-          {"diagonal", scene.diagonal}};
+          {"cameras", cameras.size()},
+          {"diagonal", scene.diagonal},
+          {"material_names", names_of(scene.materials)},
+          {"group_names", scene.groups},
+          {"camera_names", names_of(cameras)}};
 }
 
 Json repairs_json(const SoundScene& scene) {
   Json json = Json::array();
   for (const Repair& repair : scene.repairs)
     json.push_back({{"kind", name_of(repair.kind)},
-                    {"faces", repair.faces},
+                    {"faces", counted_from_one(repair.faces)},
                     {"sentence", sentence(repair, scene)}});
   return json;
 }
@@ -39,22 +68,22 @@ Json warnings_json(const std::vector<Warning>& warnings) {
 
 Json area_quality_json(const ElementTable& elements) {
   const AreaQuality quality = summarize_area_quality(elements);
-  return {{"histogram", {{"bin_width", 5}, {"shares", quality.histogram}}},
+  return {{"histogram", {{"bin_width_degrees", 5}, {"shares", quality.histogram}}},
           {"near_input_angles", quality.near_input_angles},
           {"good", quality.good},
           {"tolerable", quality.tolerable},
-          {"min_angle", quality.min_angle}};
+          {"min_angle_degrees", quality.min_angle}};
 }
 
 Json mesh_json(const ElementTable& elements) {
   const QualitySummary quality = summarize_quality(elements);
   return {{"elements", elements.count()},
           {"points", elements.points.size()},
-          {"min_angle", quality.min_angle},
-          {"mean_min_angle", quality.mean_angle},
+          {"min_angle_degrees", quality.min_angle},
+          {"mean_min_angle_degrees", quality.mean_angle},
           {"worst_element", quality.worst_element},
           {"longest_edge", quality.longest_edge},
-          {"min_angle_histogram", {{"bin_width", 5}, {"counts", quality.histogram}}}};
+          {"min_angle_histogram", {{"bin_width_degrees", 5}, {"counts", quality.histogram}}}};
 }
 
 Json stages_json(const std::vector<StageReport>& stages) {
@@ -83,7 +112,8 @@ Json exchange_json(const ExchangeReport& report) {
 
 Json radiosity_json(const RadiosityReport& report) {
   Json channels = Json::array();
-  for (const ChannelReport& channel : report.channel)
+  for (const ChannelReport& channel :
+       std::span(report.channel).first(report.channels == 1 ? 1 : report.channel.size()))
     channels.push_back({{"iterations", channel.iterations},
                         {"residual", channel.residual},
                         {"error", channel.error},

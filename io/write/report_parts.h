@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/write/run_info.h"
 #include "meshing/patches/discontinuity_mesh.h"
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
@@ -15,8 +16,11 @@ namespace halfshade::detail {
 
 using Json = nlohmann::ordered_json;
 
-/// How much there is of everything.
-Json scene_json(const SoundScene& scene, std::size_t cameras);
+/// What every report begins with.
+Json head_json(const RunInfo& run);
+/// How much there is of everything, and the names that go with the numbers in result files.
+Json scene_json(const SoundScene& scene, const std::vector<Camera>& cameras);
+/// Faces count from 1 here, as in the sentences.
 Json repairs_json(const SoundScene& scene);
 Json warnings_json(const std::vector<Warning>& warnings);
 Json stages_json(const std::vector<StageReport>& stages);
@@ -31,6 +35,7 @@ Json search_json(const DiscontinuityReport& report);
 Json along_curves_json(const DiscontinuityMeshReport& report);
 
 Json exchange_json(const ExchangeReport& report);
+/// One channel where all are equal.
 Json radiosity_json(const RadiosityReport& report);
 
 }  // namespace halfshade::detail

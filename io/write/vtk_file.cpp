@@ -1,12 +1,12 @@
 #include "io/write/detail/vtk_file.h"
 
-#include "io/files/cameras_json.h"
+#include "io/files/camera_numbers.h"
 #include "io/files/seal.h"
 #include "io/files/vtk_messages.h"
 #include "meshing/core/error.h"
 #include "meshing/patches/quality.h"
 
-#include <fmt/format.h>
+#include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkFieldData.h>
@@ -14,7 +14,6 @@
 #include <vtkNew.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
@@ -63,8 +62,7 @@ std::string encode(Grid* grid, const char* caller) {
   writer->WriteToOutputStringOn();
   writer->SetInputData(grid);
   if (writer->Write() == 0 || !messages.first.empty())
-    throw Error(ErrorCode::unwritable, caller,
-                fmt::format("the data could not be encoded for VTK ({})", messages.first));
+    throw Error(ErrorCode::unwritable, caller, "the data could not be encoded");
   return seal(without_keys(writer->GetOutputString()));
 }
 
@@ -80,16 +78,17 @@ void add_integers(vtkFieldData* data, const char* name, const std::vector<int>& 
   add_array<vtkIntArray>(data, name, values, components);
 }
 
-void add_channels(vtkFieldData* data, const char* name, const ChannelArray& values) {
-  const Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = values;
-  add_numbers(data, name, {rows.data(), rows.data() + rows.size()}, 3);
+void add_colours(vtkFieldData* data, const char* name, const std::vector<double>& values) {
+  add_numbers(data, name, values, 3);
+  vtkAbstractArray* array = data->GetAbstractArray(name);
+  array->SetComponentName(0, "R");
+  array->SetComponentName(1, "G");
+  array->SetComponentName(2, "B");
 }
 
-void add_strings(vtkFieldData* data, const char* name, const std::vector<std::string>& values) {
-  vtkNew<vtkStringArray> array;
-  array->SetName(name);
-  for (const std::string& value : values) array->InsertNextValue(value);
-  data->AddArray(array);
+void add_channels(vtkFieldData* data, const char* name, const ChannelArray& values) {
+  const Eigen::Array<double, Eigen::Dynamic, 3, Eigen::RowMajor> rows = values;
+  add_colours(data, name, {rows.data(), rows.data() + rows.size()});
 }
 
 std::vector<int> region_codes(const std::vector<Region>& regions) {
@@ -129,27 +128,26 @@ vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements,
   return grid;
 }
 
-void add_run(vtkFieldData* data, const RunData& run, const Provenance& provenance) {
-  std::vector<std::string> stages, materials;
-  std::vector<double> seconds;
-  for (const StageReport& stage : run.stages) {
-    stages.push_back(stage.name);
-    seconds.push_back(stage.seconds);
-  }
-  for (const Material& material : run.scene.materials) materials.push_back(material.name);
-  add_provenance(data, provenance);
-  add_strings(data, "unit", {run.unit});
-  add_strings(data, "cameras", {cameras_to_json(run.cameras)});
-  add_strings(data, "group_names", run.scene.groups);
-  add_strings(data, "material_names", materials);
-  add_strings(data, "stage_names", stages);
-  add_numbers(data, "stage_seconds", seconds);
-  add_integers(data, "interrupted", {run.interrupted ? 1 : 0});
+void add_interrupted(vtkFieldData* data, bool interrupted) {
+  add_integers(data, "interrupted", {interrupted ? 1 : 0});
 }
 
-void add_provenance(vtkFieldData* data, const Provenance& provenance) {
-  add_strings(data, "version", {provenance.version});
-  add_strings(data, "command_line", {provenance.command_line});
+void add_cameras(vtkFieldData* data, const std::vector<Camera>& cameras) {
+  if (cameras.empty()) return;
+  const CameraNumbers numbers = to_numbers(cameras);
+  add_numbers(data, "cameras", numbers.values, camera_components);
+  add_integers(data, "camera_names", numbers.names);
+}
+
+void add_sources(vtkFieldData* data, const std::vector<LightSource>& sources) {
+  std::vector<int> surfaces;
+  std::vector<double> exitances;
+  for (const LightSource& source : sources) {
+    surfaces.push_back(source.surface);
+    exitances.push_back(source.exitance);
+  }
+  add_integers(data, "sources", surfaces);
+  add_numbers(data, "source_exitance", exitances);
 }
 
 void set_points(vtkPointSet* grid, std::span<const Vec3> points) {

@@ -88,8 +88,7 @@ void add_cell_data(const Columns& columns, vtkFieldData* data) {
   detail::add_integers(data, "feature_ids", columns.feature_ids, 3);
 }
 
-std::string vtp_bytes(const SoundScene& scene, const Discontinuities& found,
-                      const std::string& unit, const Provenance& provenance, double deviation) {
+std::string vtp_bytes(const SoundScene& scene, const Discontinuities& found, double deviation) {
   Columns columns;
   vtkNew<vtkCellArray> lines;
   for (const DiscontinuityCurve& curve : found.curves) {
@@ -103,14 +102,7 @@ std::string vtp_bytes(const SoundScene& scene, const Discontinuities& found,
   grid->SetLines(lines);
   add_cell_data(columns, grid->GetCellData());
   detail::add_numbers(grid->GetPointData(), "jump", columns.point_jump);
-  vtkFieldData* field = grid->GetFieldData();
-  detail::add_provenance(field, provenance);
-  detail::add_strings(field, "unit", {unit});
-  detail::add_strings(field, "kind_names", {kind_names.begin(), kind_names.end()});
-  detail::add_strings(field, "feature_kind_names",
-                      {"emitter_vertex", "emitter_edge", "vertex", "edge", "face"});
-  detail::add_strings(field, "group_names", scene.groups);
-  detail::add_integers(field, "interrupted", {found.report.interrupted ? 1 : 0});
+  detail::add_interrupted(grid->GetFieldData(), found.report.interrupted);
   return detail::vtk_bytes(grid, "write_curves");
 }
 
@@ -128,14 +120,13 @@ double jump_at(const DiscontinuityCurve& curve, double s) {
   return finite(low >= 0 ? std::max(value, 0.) : high <= 0 ? std::min(value, 0.) : value);
 }
 
-void write_curves(const SoundScene& scene, const Discontinuities& found, const std::string& unit,
-                  const Provenance& provenance, const std::filesystem::path& path,
-                  const CurveFileOptions& options) {
+void write_curves(const SoundScene& scene, const Discontinuities& found,
+                  const std::filesystem::path& path, const CurveFileOptions& options) {
   require_format(path, curve_formats);
   if (!(options.deviation > 0))
     throw Error(ErrorCode::contract, "write_curves",
                 fmt::format("the deviation ({}) must be positive", options.deviation));
-  write_atomically(path, vtp_bytes(scene, found, unit, provenance, options.deviation));
+  write_atomically(path, vtp_bytes(scene, found, options.deviation));
 }
 
 }  // namespace halfshade

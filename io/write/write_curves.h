@@ -21,13 +21,11 @@ struct CurveFileOptions {
 /// in the result files), emitter_group and group, jump (in the middle, of the order-th derivative
 /// from right to left, W/m² per length^order), length, source_count, and of the first source
 /// feature_kinds (0 emitter vertex, 1 emitter edge, 2 vertex, 3 edge, 4 face; 3 components, −1
-/// where there is none) and feature_ids. Point data: jump. Field data: version, command_line, unit,
-/// kind_names, feature_kind_names, group_names, interrupted. Jumps beyond the range of floats are
-/// cut off there. Throws Error(usage) for another extension, Error(unwritable), and Error(contract)
-/// if a curve names a surface that does not exist.
-void write_curves(const SoundScene& scene, const Discontinuities& found, const std::string& unit,
-                  const Provenance& provenance, const std::filesystem::path& path,
-                  const CurveFileOptions& options = {});
+/// where there is none) and feature_ids. Point data: jump. Field data: interrupted (0 or 1). Jumps
+/// beyond the range of floats are cut off there. Throws Error(usage) for another extension,
+/// Error(unwritable), and Error(contract) if a curve names a surface that does not exist.
+void write_curves(const SoundScene& scene, const Discontinuities& found,
+                  const std::filesystem::path& path, const CurveFileOptions& options = {});
 
 /// "contact", "face", "ev" or "eee".
 const char* name_of(CurveKind kind);

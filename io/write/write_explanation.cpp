@@ -41,7 +41,7 @@ Json sources_json(const Explanation& explanation) {
     const Surface& surface = explanation.scene.surfaces[at(source.surface)];
     json.push_back({{"surface", source.surface},
                     {"group", explanation.scene.groups[at(surface.group)]},
-                    {"exitance", source.exitance},
+                    {"exitance_w_per_m2", source.exitance},
                     {"area", area(surface)}});
   }
   return json;
@@ -49,12 +49,13 @@ Json sources_json(const Explanation& explanation) {
 
 }  // namespace
 
-void write_explanation(const Explanation& explanation, const Provenance& provenance,
+void write_explanation(const Explanation& explanation, const RunInfo& run,
                        const std::filesystem::path& path) {
-  Json json = {{"version", provenance.version}, {"command_line", provenance.command_line}};
+  Json json = head_json(run);
   json["unit"] = explanation.unit;
-  json["scene"] = scene_json(explanation.scene, 0);
+  json["scene"] = scene_json(explanation.scene, {});
   json["scene"].erase("cameras");
+  json["scene"].erase("camera_names");
   json["repairs"] = repairs_json(explanation.scene);
   json["warnings"] = warnings_json(explanation.warnings);
   json["channels"] = explanation.plan.no_channels.empty() ? 3 : 1;

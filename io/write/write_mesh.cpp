@@ -37,25 +37,17 @@ void add_cell_data(const MeshResult& result, vtkFieldData* data) {
   if (!elements.edge_order.empty()) add_integers(data, "edge_order", flat(elements.edge_order), 3);
 }
 
-void add_field_data(const MeshResult& result, const Provenance& provenance, vtkFieldData* data) {
-  add_run(data, {result.scene, result.cameras, result.unit, result.stages, result.interrupted},
-          provenance);
-  std::vector<int> surfaces;
-  std::vector<double> exitances;
-  for (const LightSource& source : result.found.sources) {
-    surfaces.push_back(source.surface);
-    exitances.push_back(source.exitance);
-  }
-  add_integers(data, "sources", surfaces);
-  add_numbers(data, "source_exitance", exitances);
+void add_field_data(const MeshResult& result, vtkFieldData* data) {
+  add_interrupted(data, result.interrupted);
+  add_cameras(data, result.cameras);
+  add_sources(data, result.found.sources);
   add_numbers(data, "irradiance_tolerance", {result.irradiance_tolerance});
 }
 
-std::string vtk(const MeshResult& result, const Provenance& provenance,
-                std::string_view extension) {
+std::string vtk(const MeshResult& result, std::string_view extension) {
   const auto grid = element_grid(result.elements, extension);
   add_cell_data(result, grid->GetCellData());
-  add_field_data(result, provenance, grid->GetFieldData());
+  add_field_data(result, grid->GetFieldData());
   return vtk_bytes(grid, "write_mesh");
 }
 
@@ -100,8 +92,7 @@ void write_mesh(const MeshResult& result, const Provenance& provenance,
   require_consistent(result.elements, "write_mesh");
   require_labels(result);
   const std::string extension = extension_of(path);
-  write_atomically(
-      path, extension == ".ply" ? ply(result, provenance) : vtk(result, provenance, extension));
+  write_atomically(path, extension == ".ply" ? ply(result, provenance) : vtk(result, extension));
 }
 
 }  // namespace halfshade

@@ -14,10 +14,11 @@ inline constexpr FileFormats mesh_formats = {"meshes", {".vtu", ".vtp", ".ply"}}
 /// regions (the same for each source, one component each, in the order of field data `sources`,
 /// surfaces' ids), exitance, reflectance, face, group, material, surface, level, quality (minimum
 /// angle in degrees), edge_order (3 components: the lowest order of the curves along the edge from
-/// corner k to k+1, −1 where there is none). Field data as write_result, but for achieved_error
-/// sources, source_exitance (W/m²) and irradiance_tolerance (W/m²). PLY: vertices in double
-/// precision, triangles with surface and region. Throws Error(usage) for another extension,
-/// Error(unwritable) if it cannot be written, Error(contract) unless each element has a label.
+/// corner k to k+1, −1 where there is none). Field data: interrupted, cameras and camera_names as
+/// in write_result; sources, source_exitance (W/m²) and irradiance_tolerance (W/m²). PLY: vertices
+/// in double precision, triangles with surface and region. Throws Error(usage) for another
+/// extension, Error(unwritable) if it cannot be written, Error(contract) unless each element has a
+/// label.
 void write_mesh(const MeshResult& result, const Provenance& provenance,
                 const std::filesystem::path& path);
 

@@ -1,6 +1,7 @@
 #include "io/write/write_points.h"
 
 #include "io/files/atomic_file.h"
+#include "io/files/same_file.h"
 #include "io/write/detail/vtk_file.h"
 #include "meshing/core/error.h"
 
@@ -19,7 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string csv_bytes(const PointTable& table, std::span<const DirectLight> light) {
-  std::string bytes = table.header;
+  std::string bytes;
+  if (light.size() < table.points.size())
+    bytes = fmt::format("# interrupted: {} of {} points\n", light.size(), table.points.size());
+  bytes += table.header;
   const char s = table.separator;
   fmt::format_to(std::back_inserter(bytes), "{}H_r{}H_g{}H_b{}visible\n", s, s, s, s);
   for (std::size_t k = 0; k < light.size(); ++k) {
@@ -30,8 +34,7 @@ std::string csv_bytes(const PointTable& table, std::span<const DirectLight> ligh
   return bytes;
 }
 
-std::string vtp_bytes(const PointTable& table, std::span<const DirectLight> light,
-                      const Provenance& provenance) {
+std::string vtp_bytes(const PointTable& table, std::span<const DirectLight> light) {
   std::vector<Vec3> points;
   std::vector<double> irradiance, visible, normal;
   std::vector<int> region;
@@ -51,25 +54,26 @@ std::string vtp_bytes(const PointTable& table, std::span<const DirectLight> ligh
   detail::set_points(grid, points);
   grid->SetVerts(vertices);
   vtkFieldData* data = grid->GetPointData();
-  detail::add_numbers(data, "irradiance", irradiance, 3);
+  detail::add_colours(data, "irradiance", irradiance);
   detail::add_numbers(data, "visible", visible);
   detail::add_integers(data, "region", region);
   detail::add_numbers(data, "normal", normal, 3);
-  detail::add_provenance(grid->GetFieldData(), provenance);
+  detail::add_interrupted(grid->GetFieldData(), light.size() < table.points.size());
   return detail::vtk_bytes(grid, "write_points");
 }
 
 }  // namespace
 
 void write_points(const PointTable& table, std::span<const DirectLight> light,
-                  const Provenance& provenance, const fs::path& path) {
+                  const fs::path& path) {
   if (light.size() > table.points.size())
     throw Error(
         ErrorCode::contract, "write_points",
         fmt::format("there are {} points but {} results", table.points.size(), light.size()));
+  if (is_standard_stream(path)) return write_atomically(path, csv_bytes(table, light));
   require_format(path, point_formats);
-  write_atomically(path, extension_of(path) == ".csv" ? csv_bytes(table, light)
-                                                      : vtp_bytes(table, light, provenance));
+  write_atomically(
+      path, extension_of(path) == ".csv" ? csv_bytes(table, light) : vtp_bytes(table, light));
 }
 
 }  // namespace halfshade

@@ -10,14 +10,15 @@ namespace halfshade {
 
 inline constexpr FileFormats point_formats = {"points", {".csv", ".vtp"}};
 
-/// Writes points with the light at each, by extension. `light` may be shorter than the table: what
-/// comes after was not computed and is left out.
+/// Writes points with the light at each, by extension; "-" writes a table to the standard output.
+/// `light` may be shorter than the table: what comes after was not computed and is left out, and
+/// the file says so, a table in a comment (#) before its header.
 /// * .csv: the rows of the table followed by H_r, H_g, H_b (irradiance in W/m²) and visible, with
 /// as many digits as it takes to read back the same numbers;
 /// * .vtp: points with the arrays irradiance, visible, region (0 lit, 1 penumbra, 2 umbra, 3 away)
-/// and normal; field data version and command_line.
+/// and normal; field data interrupted (0 or 1).
 /// Throws Error(usage) for another extension, Error(unwritable) if it cannot be written.
 void write_points(const PointTable& table, std::span<const DirectLight> light,
-                  const Provenance& provenance, const std::filesystem::path& path);
+                  const std::filesystem::path& path);
 
 }  // namespace halfshade

@@ -15,7 +15,12 @@ namespace {
 
 using namespace detail;
 
-Json to_json(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
+/// One number for each channel that differs.
+Json to_json(const Rgb& rgb, bool grey) {
+  return grey ? Json::array({rgb[0]}) : Json{rgb[0], rgb[1], rgb[2]};
+}
+
+Json to_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 Json to_json(const std::vector<std::filesystem::path>& paths) {
   Json json = Json::array();
@@ -23,15 +28,10 @@ Json to_json(const std::vector<std::filesystem::path>& paths) {
   return json;
 }
 
-/// What every report begins with.
-Json head(const Provenance& provenance) {
-  return {{"version", provenance.version}, {"command_line", provenance.command_line}};
-}
-
 /// What is told of every scene that was worked on.
 template <class Result>
-Json scene_head(const Result& result, const Provenance& provenance) {
-  Json json = head(provenance);
+Json scene_head(const Result& result, const RunInfo& run) {
+  Json json = head_json(run);
   json["unit"] = result.unit;
   json["interrupted"] = result.interrupted;
   return json;
@@ -56,16 +56,17 @@ Json groups_json(const SolveResult& result) {
     sums.emitted += area * s.exitance.row(e).transpose();
     sums.absorbed += area * (1 - s.rho.row(e).transpose()) * irradiance;
   }
+  const bool grey = result.radiosity.channels == 1;
   Json json = Json::array();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Sums& sums = groups[g];
     const double area = sums.area > 0 ? sums.area : 1;  // a group without elements has zero light
     json.push_back({{"name", result.scene.groups[g]},
                     {"area", sums.area},
-                    {"mean_radiosity", to_json(sums.radiosity / area)},
-                    {"mean_irradiance", to_json(sums.irradiance / area)},
-                    {"emitted_power", to_json(sums.emitted)},
-                    {"absorbed_power", to_json(sums.absorbed)}});
+                    {"mean_radiosity_w_per_m2", to_json(sums.radiosity / area, grey)},
+                    {"mean_irradiance_w_per_m2", to_json(sums.irradiance / area, grey)},
+                    {"emitted_power", to_json(sums.emitted, grey)},
+                    {"absorbed_power", to_json(sums.absorbed, grey)}});
   }
   return json;
 }
@@ -100,7 +101,7 @@ Json sources_json(const MeshResult& result) {
     const Surface& surface = result.scene.surfaces.at(static_cast<std::size_t>(source.surface));
     json.push_back({{"surface", source.surface},
                     {"group", result.scene.groups.at(static_cast<std::size_t>(surface.group))},
-                    {"exitance", source.exitance},
+                    {"exitance_w_per_m2", source.exitance},
                     {"area", area(surface)}});
   }
   return json;
@@ -113,13 +114,12 @@ void write(const Json& json, const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_report(const SolveResult& result, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
+void write_report(const SolveResult& result, const RunInfo& run,
                   const std::filesystem::path& path) {
   require_consistent(result, "write_report");
-  Json json = scene_head(result, provenance);
+  Json json = scene_head(result, run);
   json["estimated_relative_error"] = result.relative_error;
-  json["scene"] = scene_json(result.scene, result.cameras.size());
+  json["scene"] = scene_json(result.scene, result.cameras);
   json["repairs"] = repairs_json(result.scene);
   json["warnings"] = warnings_json(result.warnings);
   Json& discontinuities = json["discontinuities"] = search_json(result.discontinuities);
@@ -131,16 +131,14 @@ void write_report(const SolveResult& result, const Provenance& provenance,
   json["exchange"] = exchange_json(result.exchange);
   json["radiosity"] = radiosity_json(result.radiosity);
   json["groups"] = groups_json(result);
-  json["outputs"] = to_json(outputs);
+  json["outputs"] = to_json(run.outputs);
   write(json, path);
 }
 
-void write_report(const MeshResult& result, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
-                  const std::filesystem::path& path) {
+void write_report(const MeshResult& result, const RunInfo& run, const std::filesystem::path& path) {
   require_consistent(result.elements, "write_report");
-  Json json = scene_head(result, provenance);
-  json["scene"] = scene_json(result.scene, result.cameras.size());
+  Json json = scene_head(result, run);
+  json["scene"] = scene_json(result.scene, result.cameras);
   json["repairs"] = repairs_json(result.scene);
   json["warnings"] = warnings_json(result.warnings);
   json["sources"] = sources_json(result);
@@ -149,22 +147,35 @@ void write_report(const MeshResult& result, const Provenance& provenance,
   Json& mesh = json["mesh"] = mesh_json(result.elements);
   mesh.update(along_curves_json(result.mesh));
   mesh["area_quality"] = area_quality_json(result.elements);
-  mesh["irradiance_tolerance"] = result.irradiance_tolerance;
+  mesh["irradiance_tolerance_w_per_m2"] = result.irradiance_tolerance;
   json["stages"] = stages_json(result.stages);
-  json["outputs"] = to_json(outputs);
+  json["outputs"] = to_json(run.outputs);
   write(json, path);
 }
 
-void write_report(const ProbeReport& report, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
+void write_report(const ProbeReport& report, const RunInfo& run,
                   const std::filesystem::path& path) {
-  Json json = head(provenance);
+  Json json = head_json(run);
   json["points"] = report.points;
   json["points_done"] = report.points_done;
   json["direct_only"] = report.direct_only;
-  json["seconds"] = report.seconds;
   json["interrupted"] = report.points_done < report.points;
-  json["outputs"] = to_json(outputs);
+  json["outputs"] = to_json(run.outputs);
+  write(json, path);
+}
+
+void write_report(const RenderReport& report, const RunInfo& run,
+                  const std::filesystem::path& path) {
+  Json json = head_json(run);
+  json["width"] = report.width;
+  json["height"] = report.height;
+  json["exposure"] = report.exposure;
+  json["camera"] = {{"name", report.camera.name},
+                    {"position", to_json(report.camera.position)},
+                    {"direction", to_json(report.camera.direction)},
+                    {"up", to_json(report.camera.up)},
+                    {"vertical_fov_degrees", report.camera.vertical_fov}};
+  json["outputs"] = to_json(run.outputs);
   write(json, path);
 }
 

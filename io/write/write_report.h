@@ -1,6 +1,6 @@
 #pragma once
 
-#include "io/write/write_result.h"
+#include "io/write/run_info.h"
 #include "solver/pipeline/mesh_scene.h"
 
 #include <filesystem>
@@ -8,38 +8,44 @@
 
 namespace halfshade {
 
-/// Writes what a program may want to know of a run as one JSON object: version, command_line, unit,
-/// scene (counts), repairs, warnings (kind and sentence), discontinuities (how they were found,
-/// kept and culled), mesh (elements, points, min_angle and a histogram of the elements' minimum
-/// angles), stages, exchange, radiosity (per channel), interrupted, estimated_relative_error,
-/// outputs, and groups (area, mean radiosity and irradiance, emitted and absorbed power of each).
-/// Faces, materials and groups count from 0, as in the arrays of the result files. Throws
+/// Writes what a program may want to know of a run as one JSON object: version, command_line,
+/// status, seconds, peak_memory_bytes, unit, scene (counts and names), repairs, warnings (kind and
+/// sentence), discontinuities (how they were found, kept and culled), mesh (elements, points,
+/// min_angle_degrees and a histogram of the elements' minimum angles), stages, exchange, radiosity
+/// (per channel), interrupted, estimated_relative_error, outputs, and groups (area, mean radiosity
+/// and irradiance, emitted and absorbed power of each, powers in W/m² times the square of the unit
+/// of length). Lists of channels have one entry where all three are equal. Faces count from 1, as
+/// in sentences; surfaces and elements from 0, as in the arrays of the result files. Throws
 /// Error(unwritable).
-void write_report(const SolveResult& result, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
-                  const std::filesystem::path& path);
+void write_report(const SolveResult& result, const RunInfo& run, const std::filesystem::path& path);
 
-/// Writes as one JSON object: version, command_line, unit, interrupted, scene, repairs, warnings,
-/// sources, curves (total, by kind and order, with lengths), search (how they were found), mesh
-/// (elements, points, angles, kept and culled curves, deviation, …; area_quality: shares of the
-/// area by smallest angle, and which share of what is not at an input angle has at least 20.7
-/// (good) and 1 degree (tolerable); irradiance_tolerance in W/m²), stages, outputs. Throws
-/// Error(unwritable).
-void write_report(const MeshResult& result, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
-                  const std::filesystem::path& path);
+/// Writes the same of a mesh, with sources, curves (total, by kind and order, with lengths), search
+/// (how they were found) and mesh (elements, points, angles, kept and culled curves, deviation, …;
+/// area_quality: shares of the area by smallest angle, and which share of what is not at an input
+/// angle has at least 20.7 (good) and 1 degree (tolerable); irradiance_tolerance_w_per_m2).
+/// Throws Error(unwritable).
+void write_report(const MeshResult& result, const RunInfo& run, const std::filesystem::path& path);
 
 /// How a probe went.
 struct ProbeReport {
   std::size_t points = 0, points_done = 0;  ///< fewer if interrupted
   bool direct_only = false;                 ///< no interreflection
-  double seconds = 0;
 };
 
-/// Writes version, command_line, points, points_done, direct_only, seconds, interrupted, outputs.
+/// Writes what every report begins with, points, points_done, direct_only, interrupted, outputs.
 /// Throws Error(unwritable).
-void write_report(const ProbeReport& report, const Provenance& provenance,
-                  const std::vector<std::filesystem::path>& outputs,
+void write_report(const ProbeReport& report, const RunInfo& run, const std::filesystem::path& path);
+
+/// How a picture was drawn.
+struct RenderReport {
+  int width = 0, height = 0;  ///< pixels
+  double exposure = 0;        ///< factor from W/m² to display values
+  Camera camera;
+};
+
+/// Writes what every report begins with, width, height, exposure, camera, outputs.
+/// Throws Error(unwritable).
+void write_report(const RenderReport& report, const RunInfo& run,
                   const std::filesystem::path& path);
 
 }  // namespace halfshade

@@ -12,7 +12,7 @@ void write_result(const SolveResult& result, const Provenance& provenance,
   detail::require_consistent(result, "write_result");
   const std::string extension = extension_of(path);
   write_atomically(path, extension == ".ply" ? detail::ply_bytes(result, provenance)
-                                             : detail::vtk_bytes(result, provenance, extension));
+                                             : detail::vtk_bytes(result, extension));
 }
 
 }  // namespace halfshade

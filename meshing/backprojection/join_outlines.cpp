@@ -1,5 +1,6 @@
 #include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/core/planes_explain.h"
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
@@ -14,10 +15,12 @@ struct Corners {
   std::vector<Vec3> position;
   std::vector<double> reach;  // corners this close are the same
   std::vector<int> edge;
+  std::vector<int> surface;
 };
 
-void add_ring(const Surface& surface, const Ring& ring, const LocalTolerance& tolerance,
+void add_ring(const SoundScene& scene, int id, const Ring& ring, const LocalTolerance& tolerance,
               int first_edge, Corners& corners) {
+  const Surface& surface = scene.surfaces[at(id)];
   const std::size_t n = ring.size();
   for (std::size_t k = 0; k < n; ++k) {
     const double before = (ring[k] - ring[(k + n - 1) % n]).norm();
@@ -27,6 +30,7 @@ void add_ring(const Surface& surface, const Ring& ring, const LocalTolerance& to
         tolerance.length,
         std::min(2 * tolerance.planarity, margins::largest_joint_gap * std::min(before, after))));
     corners.edge.push_back(first_edge + static_cast<int>(k));
+    corners.surface.push_back(id);
   }
 }
 
@@ -35,7 +39,8 @@ Bounds box_about(const Vec3& p, double reach) {
 }
 
 /// Maps each corner to a vertex.
-std::vector<int> join(const Corners& corners, std::vector<Vec3>& vertices) {
+std::vector<int> join(const SoundScene& scene, const Corners& corners,
+                      std::vector<Vec3>& vertices) {
   std::vector<Bounds> boxes;
   for (std::size_t i = 0; i < corners.position.size(); ++i)
     boxes.push_back(box_about(corners.position[i], 0));
@@ -46,8 +51,10 @@ std::vector<int> join(const Corners& corners, std::vector<Vec3>& vertices) {
     vertex[i] = static_cast<int>(vertices.size());
     vertices.push_back(corners.position[i]);
     visit_overlaps(tree, box_about(corners.position[i], corners.reach[i]), [&](int j) {
-      if (vertex[at(j)] < 0 && (corners.position[at(j)] - corners.position[i]).norm() <=
-                                   std::min(corners.reach[i], corners.reach[at(j)]))
+      const Vec3 offset = corners.position[at(j)] - corners.position[i];
+      if (vertex[at(j)] < 0 && offset.norm() <= std::min(corners.reach[i], corners.reach[at(j)]) &&
+          planes_explain(offset, scene.surfaces[at(corners.surface[i])],
+                         scene.surfaces[at(corners.surface[at(j)])]))
         vertex[at(j)] = vertex[i];
     });
   }
@@ -83,13 +90,14 @@ void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
   Corners corners;
   std::vector<int> sizes;
   std::vector<double> reach;  // of each ring's edges
-  for (const Surface& surface : scene.surfaces) {
+  for (int s = 0; s < static_cast<int>(scene.surfaces.size()); ++s) {
+    const Surface& surface = scene.surfaces[at(s)];
     OpaqueTopology::OpaqueSurface opaque{surface.frame, static_cast<int>(sizes.size()),
                                          static_cast<int>(surface.rings.size()),
                                          tolerance_of(surface)};
     int first_edge = 0;
     for (const Ring& ring : surface.rings) {
-      add_ring(surface, ring, opaque.tolerance, first_edge, corners);
+      add_ring(scene, s, ring, opaque.tolerance, first_edge, corners);
       first_edge += static_cast<int>(ring.size());
       for (const Vec2& p : ring)
         opaque.magnitude =
@@ -99,7 +107,7 @@ void join_outlines(const SoundScene& scene, OpaqueTopology& out) {
     }
     out.surfaces.push_back(opaque);
   }
-  const std::vector<int> vertex = join(corners, out.vertices);
+  const std::vector<int> vertex = join(scene, corners, out.vertices);
   std::vector<Bounds> boxes;
   for (const Vec3& p : out.vertices) boxes.push_back(box_about(p, 0));
   const FlatTree tree = make_flat_tree(boxes);

@@ -239,8 +239,10 @@ int PointView::layers_over(const DirectionBeside& direction) {
   if (tree.nodes.empty()) return 0;
   const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
-  // The direction is off by its rounding, which grows along the ray.
-  const double margin = blur() * last, spread = margins::slack + 2 * jitter_;
+  // The direction is off by its rounding, which grows along the ray; what reaches far is rounded as
+  // far as it reaches.
+  const Vec3 margin = Vec3::Constant(blur() * last);
+  const double spread = 1 + margins::slack + 4 * jitter_;
   const Vec3 inverse = target.direction.unaryExpr(
       [](double d) { return 1 / (std::abs(d) > margins::least_slope ? d : margins::least_slope); });
   int stack[FlatTree::max_stack], depth = 0, sum = 0;
@@ -248,12 +250,11 @@ int PointView::layers_over(const DirectionBeside& direction) {
   while (depth > 0) {
     const int index = stack[--depth];
     const FlatTree::Node& node = tree.nodes[at(index)];
-    const Vec3 wider = Vec3::Constant(margin + spread * (node.box.high - node.box.low).maxCoeff());
-    const Vec3 low = (node.box.low - wider - point_).cwiseProduct(inverse);
-    const Vec3 high = (node.box.high + wider - point_).cwiseProduct(inverse);
+    const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
+    const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
     const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + margins::slack));
-    if (enter > leave) continue;
+    if (enter > leave * spread) continue;
     if (node.right >= 0) {
       stack[depth++] = node.right;
       stack[depth++] = index + 1;

@@ -67,7 +67,7 @@ std::optional<CommonLine> common_line(const PlaneFrame& receiver, const PlaneFra
       receiver.origin - emitter.height(receiver.origin) / emitter.normal.dot(steepest) * steepest;
   line.direction = direction.normalized();
   line.start = receiver.to_plane(line.origin);
-  line.along = receiver.to_plane(line.origin + line.direction) - line.start;
+  line.along = {receiver.e1.dot(line.direction), receiver.e2.dot(line.direction)};
   return line;
 }
 
@@ -77,7 +77,7 @@ std::vector<double> view_limits(const OpaqueScene& opaque, const EmitterScene& e
                                 const CommonLine& line) {
   const PlaneFrame& plane = emitter_scene.frame;
   const Vec2 p = plane.to_plane(line.origin);
-  const Vec2 u = plane.to_plane(line.origin + line.direction) - p;
+  const Vec2 u(plane.e1.dot(line.direction), plane.e2.dot(line.direction));
   std::vector<double> cuts;
   for (const Vec3& limit : limits_in_plane(opaque.topology(), emitter_scene))
     for (const OutlinePoint& corner : emitter_scene.corners) {

@@ -26,9 +26,6 @@ inline constexpr double shortest_of_longest = 1.0 / 8;
 // Border lines. Surfaces that share an edge lie apart there by as much as their planes do, but
 // never by this share of an edge.
 inline constexpr double largest_gap = 0.01;
-// Planes at less than this angle (the square of its sine) are parallel as far as their normals can
-// tell.
-inline constexpr double least_squared_sine = 1e-12;
 
 // Quality, degrees. What refinement with a floor under its edges can do almost everywhere.
 inline constexpr double tolerable_angle = 1;

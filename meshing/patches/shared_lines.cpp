@@ -1,5 +1,6 @@
 #include "meshing/patches/shared_lines.h"
 
+#include "meshing/core/planes_explain.h"
 #include "meshing/geometry/flat_tree.h"
 #include "meshing/patches/margins.h"
 
@@ -43,21 +44,6 @@ void collect(const SoundScene& scene, SharedLines& out, std::vector<Stretch>& st
     for (const Segment2& contact : surface.contacts) add(contact, (contact[1] - contact[0]).norm());
   }
   out.first_border.push_back(static_cast<int>(out.borders.size()));
-}
-
-// Whether the planes of two surfaces, each off its corners by at most `planarity`, explain that an
-// edge of both lies here in one and, moved by `offset` across it, in the other. Parallel ones do
-// not: surfaces that lie in one plane to within the tolerance have the same plane.
-bool planes_explain(const Vec3& offset, const Surface& first, const Surface& second) {
-  const LocalTolerance tolerance = tolerance_of(first, second);
-  if (offset.norm() <= tolerance.length) return true;
-  const Vec3 &normal_a = first.frame.normal, &normal_b = second.frame.normal;
-  // The offset as a sum of parts along the normals.
-  const double cosine = normal_a.dot(normal_b), a = normal_a.dot(offset), b = normal_b.dot(offset);
-  const double squared_sine = normal_a.cross(normal_b).squaredNorm();
-  if (squared_sine <= margins::least_squared_sine) return false;
-  return std::abs(a - cosine * b) <= squared_sine * tolerance.planarity &&
-         std::abs(b - cosine * a) <= squared_sine * tolerance.planarity;
 }
 
 struct Overlap {

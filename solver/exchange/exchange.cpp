@@ -125,7 +125,7 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
   exchange.report.complete = factors.complete;
   exchange.report.rays = factors.rays;
   exchange.report.refined_rows = factors.refined_rows;
-  exchange.matrix = std::move(factors.matrix);
+  exchange.matrix.swap(factors.matrix);
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
   exchange.enclosures = find_enclosures(scene, elements, cells, exchange.matrix);
   report_closure(exchange);

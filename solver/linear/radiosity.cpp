@@ -30,7 +30,7 @@ Eigen::VectorXd irradiance_from(const LightExchange& exchange, const Eigen::Vect
 ChannelSolution sum_bounces(const LightExchange& exchange, const Channel& channel, int bounces) {
   const Eigen::VectorXd dark = Eigen::VectorXd::Zero(channel.rho.size());
   ChannelSolution solution{channel.exitance, dark, dark};
-  for (int bounce = 0; bounce < bounces; ++bounce) {
+  for (int bounce = 0; bounce <= bounces; ++bounce) {
     solution.reflected = solution.radiosity - channel.exitance;
     solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
     solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);

@@ -13,7 +13,7 @@ struct RadiosityOptions {
   double tolerance = 1e-10;  ///< relative residual at which the iteration stops, in (0, 1)
   int max_iterations = 1000;
   bool all_channels = false;  ///< also where all three are the same
-  int bounces = -1;           ///< −1: all; n ≥ 0: only light reflected at most n times
+  int bounces = -1;  ///< −1: all; n ≥ 0: light that arrives after at most n reflections
 };
 
 struct ChannelReport {

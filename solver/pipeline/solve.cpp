@@ -74,6 +74,16 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, S
   return mesh;
 }
 
+void find_regions(const PreparedScene& prepared, const Progress& progress, Stages& stages,
+                  SolveResult& result) {
+  stages.run("regions", [&] {
+    result.emitters = light_sources(prepared.scene());
+    result.regions = label_elements(prepared.scene(), prepared.opaque(), result.elements,
+                                    result.emitters, progress);
+    return result.regions.size();
+  });
+}
+
 void estimate_error(Stages& stages, SolveResult& result) {
   stages.run("error estimate", [&] {
     // Squares of light of any size must not over- or underflow.
@@ -127,6 +137,7 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
 
+  if (options.regions) find_regions(prepared, progress, stages, result);
   estimate_error(stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/core/light_source.h"
 #include "meshing/core/progress.h"
 #include "meshing/core/scene.h"
 #include "meshing/core/sound_scene.h"
@@ -29,6 +30,10 @@ struct SolveResult {
   double discontinuity_tolerance = 0;  ///< share of the mean irradiance, as used
   ElementTable elements;
   Solution solution;
+  /// What each element sees of each emitter, if asked for: row-major, one row an element, one
+  /// column an emitter.
+  std::vector<Region> regions;
+  std::vector<LightSource> emitters;  ///< in the order of the columns
   std::vector<StageReport> stages;
   std::vector<Warning> warnings;
   ExchangeReport exchange;

@@ -31,6 +31,7 @@ struct SolveOptions {
   int secondary = 0;  ///< look for those of this many of the brightest reflecting surfaces, too
   /// Curves whose effect on the irradiance is below this share of its mean are left out.
   double tolerance = 0.01;
+  bool regions = false;  ///< say what each element sees of each emitter
   DirectLightBy direct_light = DirectLightBy::automatic;
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;

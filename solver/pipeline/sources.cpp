@@ -91,12 +91,17 @@ std::vector<LightSource> strong_enough(std::vector<LightSource> sources, const S
 
 std::string most_surfaces_emit(const SoundScene& scene) {
   double all = 0, emitting = 0;
+  std::size_t emitters = 0;
   for (const Surface& surface : scene.surfaces) {
     const Material& material = scene.materials[at(surface.material)];
     all += area(surface);
-    if ((material.exitance > 0).any()) emitting += area(surface);
+    if (!(material.exitance > 0).any()) continue;
+    emitting += area(surface);
+    ++emitters;
   }
-  return emitting > most * all
+  // By number, too: a sun has nearly all the area and casts the sharpest shadows.
+  return emitting > most * all &&
+                 static_cast<double>(emitters) > most * static_cast<double>(scene.surfaces.size())
              ? "most surfaces emit, so that direct light is no sharper than reflected"
              : "";
 }

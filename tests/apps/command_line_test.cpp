@@ -213,11 +213,12 @@ TEST(CommandLine, InterruptWritesAMarkedPartialResult) {
   const test::TempDir folder;
   const test::Outcome outcome =
       halfshade({"solve", (data / "cornell_box.obj").string(), "--elements", "20000", "-o",
-                 "out.vtu", "--json", "report.json"},
+                 "out.vtu", "-o", "marked.png", "--json", "report.json"},
                 folder.path(), std::chrono::milliseconds(1500));
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
   EXPECT_TRUE(fs::exists(folder.path() / "out.vtu"));
+  EXPECT_NE(test::contents(folder.path() / "marked.png").find("interrupted: "), std::string::npos);
   const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
   EXPECT_TRUE(report.at("interrupted").get<bool>());
   EXPECT_EQ(halfshade({"render", "out.vtu", "-o", "out.png", "--samples", "1", "-q"}, folder.path())

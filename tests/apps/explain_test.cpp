@@ -70,7 +70,7 @@ TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
     EXPECT_FALSE(has(solve({way}).err, "warning")) << way;
     std::ifstream(folder.path() / "r.json") >> report;
     EXPECT_TRUE(report["warnings"].empty());
-    EXPECT_GT(report["groups"][0]["mean_irradiance"][0], 0.01) << way;
+    EXPECT_GT(report["groups"][0]["mean_irradiance_w_per_m2"][0], 0.01) << way;
   }
 }
 

@@ -5,6 +5,8 @@
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
 #include "tests/support/files.h"
+#include "tests/support/random.h"
+#include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -19,10 +21,50 @@
 namespace halfshade {
 namespace {
 
-const std::vector<std::string> scenes = {"bars",   "cornell_box", "furnace_cube",    "holed_light",
-                                         "l_room", "s1",          "table_and_chairs"};
+// With the larger ones, dining_room, hundred_lights and sphere, this takes minutes.
+const std::vector<std::string> data_scenes = {"bars",        "cornell_box",     "furnace_cube",
+                                              "holed_light", "l_room",          "s1",
+                                              "skew_bars",   "table_and_chairs"};
 
-Scene load(const std::string& name) { return read_scene(test::data_file(name + ".obj")).scene; }
+std::vector<std::string> random_names() {
+  std::vector<std::string> names;
+  for (int seed = 0; seed < 50; ++seed) names.push_back("random_" + std::to_string(seed));
+  return names;
+}
+
+/// A floor, one or two lights, and boxes and triangles between that may stand on the floor, touch
+/// and cut each other.
+Scene random_scene(std::uint64_t seed) {
+  test::Random random(seed);
+  Scene scene;
+  scene.groups = {"all"};
+  const int grey = test::add_material(scene, 0.5, 0), light = test::add_material(scene, 0.2, 3);
+  test::add_polygon(scene, {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}}, grey);
+  for (int k = random.integer(1, 2); k > 0; --k) {
+    const Vec3 at = random.in_box({-1.5, -1.5, 1.8}, {1, 1, 2.2});
+    const double x = random(0.2, 0.8), y = random(0.2, 0.8), tilt = random(-0.1, 0.1);
+    test::add_polygon(scene, {at, at + Vec3(0, y, 0), at + Vec3(x, y, tilt), at + Vec3(x, 0, tilt)},
+                      light);
+  }
+  for (int k = random.integer(1, 4); k > 0; --k) {
+    const Vec3 low = random.in_box({-1.5, -1.5, 0}, {1, 1, 1});
+    const Vec3 bottom(low.x(), low.y(), random.below(2) == 0 ? 0 : low.z());
+    const Vec3 high = bottom + random.in_box({0.1, 0.1, 0.1}, {0.6, 0.6, 0.6});
+    for (const auto& face : test::box_faces(bottom, high, false))
+      test::add_polygon(scene, face, grey);
+  }
+  for (int k = random.integer(0, 3); k > 0; --k) {
+    const Vec3 at = random.in_box({-1.5, -1.5, 0.2}, {1, 1, 1.5});
+    test::add_polygon(scene, {at, at + random.point(-0.7, 0.7), at + random.point(-0.7, 0.7)},
+                      grey);
+  }
+  return scene;
+}
+
+Scene load(const std::string& name) {
+  if (name.starts_with("random_")) return random_scene(std::stoul(name.substr(7)));
+  return read_scene(test::data_file(name + ".obj")).scene;
+}
 
 Scene scaled(Scene scene, double factor) {
   for (Vec3& p : scene.vertices) p *= factor;
@@ -58,18 +100,24 @@ std::vector<Rgb> direct_light(const Scene& scene, const std::vector<SurfacePoint
 void expect_same(const std::vector<Rgb>& expected, const std::vector<Rgb>& got, double tolerance,
                  const std::string& what) {
   ASSERT_EQ(expected.size(), got.size()) << what;
-  double largest = 0, worst = 0;
+  double worst = 0;
   for (std::size_t i = 0; i < got.size(); ++i) {
-    largest = std::max(largest, expected[i].maxCoeff());
     const double off = (expected[i] - got[i]).abs().maxCoeff();
     worst = std::isnan(off) ? HUGE_VAL : std::max(worst, off);
   }
-  EXPECT_GT(largest, 0) << what;
-  EXPECT_LE(worst, tolerance * largest) << what;
+  EXPECT_LE(worst, tolerance) << what;
 }
 
 class Laws : public testing::TestWithParam<std::string> {
  protected:
+  /// So much of the strongest exitance, W/m².
+  double share(double part) const {
+    double exitance = 0;
+    for (const Material& material : scene_.materials)
+      exitance = std::max(exitance, material.exitance.maxCoeff());
+    return part * exitance;
+  }
+
   const Scene scene_ = load(GetParam());
 };
 
@@ -80,8 +128,8 @@ TEST_P(Laws, DirectLightDoesNotDependOnTheUnit) {
     expect_same(expected, direct_light(scaled(scene_, factor), scaled(points, factor)), 0,
                 "times " + std::to_string(std::log2(factor)) + " powers of two");
   for (const double factor : {1e-30, 1e-9, 1e-3, 1e3, 1e9, 1e30})
-    expect_same(expected, direct_light(scaled(scene_, factor), scaled(points, factor)), 1e-12,
-                "times 10^" + std::to_string(std::log10(factor)));
+    expect_same(expected, direct_light(scaled(scene_, factor), scaled(points, factor)),
+                share(1e-12), "times 10^" + std::to_string(std::log10(factor)));
 }
 
 /// The curves on one surface, in its frame and in units of the scene as it was.
@@ -159,7 +207,8 @@ TEST_P(Laws, DirectLightFollowsExitance) {
   for (const double factor : {0x1p-500, 1e-150, 1e150, 0x1p500}) {
     std::vector<Rgb> got = direct_light(with_exitance(scene_, factor), points);
     for (Rgb& irradiance : got) irradiance /= factor;
-    expect_same(expected, got, 1e-14, "times " + std::to_string(std::log10(factor)) + " decades");
+    expect_same(expected, got, share(1e-14),
+                "times " + std::to_string(std::log10(factor)) + " decades");
   }
 }
 
@@ -173,7 +222,8 @@ TEST_P(Laws, TheOrderOfFacesAndVerticesDoesNotMatter) {
     for (int& v : face.vertices) v = last - v;
     std::rotate(face.vertices.begin(), face.vertices.begin() + 1, face.vertices.end());
   }
-  expect_same(direct_light(scene_, points), direct_light(other, points), 1e-12, "turned round");
+  expect_same(direct_light(scene_, points), direct_light(other, points), share(1e-12),
+              "turned round");
 }
 
 TEST_P(Laws, WhatIsElsewhereDoesNotMatter) {
@@ -199,11 +249,13 @@ TEST_P(Laws, WhatIsElsewhereDoesNotMatter) {
   for (const auto& [distance, extent] :
        {std::pair{3., 1e-9}, {10., 1.}, {1e6, 1.}, {1e6, 1e5}, {1e12, 1e9}})
     expect_same(
-        expected, direct_light(with_triangle(distance, extent), points), 1e-12,
+        expected, direct_light(with_triangle(distance, extent), points), share(1e-12),
         "a triangle " + std::to_string(extent) + " wide " + std::to_string(distance) + " away");
 }
 
-INSTANTIATE_TEST_SUITE_P(Data, Laws, testing::ValuesIn(scenes),
+INSTANTIATE_TEST_SUITE_P(Data, Laws, testing::ValuesIn(data_scenes),
+                         [](const auto& instance) { return instance.param; });
+INSTANTIATE_TEST_SUITE_P(Random, Laws, testing::ValuesIn(random_names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

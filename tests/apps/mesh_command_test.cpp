@@ -95,8 +95,8 @@ TEST_F(Mesh, ToleranceLeavesOutAndMaxLengthRefines) {
   const auto complete = run({}), coarse = run({"--tolerance", "0.5"}),
              fine = run({"--max-length", "0.2"});
   EXPECT_EQ(complete.at("culled"), 0);
-  EXPECT_EQ(complete.at("irradiance_tolerance"), 0);
-  EXPECT_GT(coarse.at("irradiance_tolerance"), 0);
+  EXPECT_EQ(complete.at("irradiance_tolerance_w_per_m2"), 0);
+  EXPECT_GT(coarse.at("irradiance_tolerance_w_per_m2"), 0);
   EXPECT_GT(coarse.at("culled"), 0);
   EXPECT_LT(coarse.at("elements"), complete.at("elements"));
   EXPECT_LE(fine.at("longest_edge"), 0.2);
@@ -116,7 +116,7 @@ TEST_F(Mesh, SecondarySourcesHaveCurvesOfTheirOwn) {
   EXPECT_EQ(with.at("sources").size(), without.at("sources").size() + 1);
   EXPECT_EQ(without.at("sources").at(0), with.at("sources").at(0));
   EXPECT_NE(with.at("sources").back().at("group"), "light");
-  EXPECT_GT(with.at("sources").back().at("exitance"), 0);
+  EXPECT_GT(with.at("sources").back().at("exitance_w_per_m2"), 0);
 }
 
 TEST_F(Mesh, ThreadsDoNotChangeTheBytes) {

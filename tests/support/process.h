@@ -23,10 +23,9 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `arguments` (the program first) in `folder`, which must exist, and collects what it prints.
-/// Sends SIGINT after `interrupt_after` if that is positive.
-inline Outcome run_program(std::vector<std::string> arguments, const std::filesystem::path& folder,
-                           std::chrono::milliseconds interrupt_after = {}) {
+/// Starts `arguments` (the program first) in `folder`, which must exist.
+inline pid_t start_program(std::vector<std::string> arguments,
+                           const std::filesystem::path& folder) {
   const auto out = folder / ".stdout", err = folder / ".stderr";
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error("fork failed");
@@ -40,13 +39,27 @@ inline Outcome run_program(std::vector<std::string> arguments, const std::filesy
     execv(argv[0], argv.data());
     _exit(127);
   }
+  return child;
+}
+
+/// Waits for what start_program started, and collects what it printed.
+inline Outcome wait_for(pid_t child, const std::filesystem::path& folder) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / ".stdout"),
+          contents(folder / ".stderr")};
+}
+
+/// Runs `arguments` (the program first) in `folder` and collects what it prints. Sends SIGINT after
+/// `interrupt_after` if that is positive.
+inline Outcome run_program(std::vector<std::string> arguments, const std::filesystem::path& folder,
+                           std::chrono::milliseconds interrupt_after = {}) {
+  const pid_t child = start_program(std::move(arguments), folder);
   if (interrupt_after.count() > 0) {
     std::this_thread::sleep_for(interrupt_after);
     kill(child, SIGINT);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(out), contents(err)};
+  return wait_for(child, folder);
 }
 
 /// Splits at blanks.

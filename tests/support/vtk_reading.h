@@ -6,7 +6,6 @@
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -41,14 +40,6 @@ inline std::vector<double> numbers(vtkFieldData* data, const char* name, int com
   std::vector<double> values;
   for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
     for (int c = 0; c < components; ++c) values.push_back(array->GetComponent(i, c));
-  return values;
-}
-
-inline std::vector<std::string> strings(vtkFieldData* data, const char* name) {
-  auto* array = vtkStringArray::SafeDownCast(data->GetAbstractArray(name));
-  if (array == nullptr) return {"(no such array)"};
-  std::vector<std::string> values;
-  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i) values.push_back(array->GetValue(i));
   return values;
 }
 

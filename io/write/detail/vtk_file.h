@@ -20,8 +20,9 @@ void add_numbers(vtkFieldData* data, const char* name, const std::vector<double>
                  int components = 1);
 void add_integers(vtkFieldData* data, const char* name, const std::vector<int>& values,
                   int components = 1);
+/// Rows of three components, named R, G and B.
+void add_colours(vtkFieldData* data, const char* name, const std::vector<double>& values);
 void add_channels(vtkFieldData* data, const char* name, const ChannelArray& values);
-void add_strings(vtkFieldData* data, const char* name, const std::vector<std::string>& values);
 
 /// 0 lit, 1 penumbra, 2 umbra, 3 where no emitter lies above the horizon.
 std::vector<int> region_codes(const std::vector<Region>& regions);
@@ -32,18 +33,15 @@ void add_element_data(const ElementTable& elements, vtkFieldData* data);
 /// Points and triangles, without data: an unstructured grid for ".vtu", poly data for ".vtp".
 vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements, std::string_view extension);
 
-/// What every run leaves in the field data.
-struct RunData {
-  const SoundScene& scene;
-  const std::vector<Camera>& cameras;
-  const std::string& unit;
-  const std::vector<StageReport>& stages;
-  bool interrupted;
-};
-void add_run(vtkFieldData* data, const RunData& run, const Provenance& provenance);
+/// Field data interrupted (0 or 1): what every file says. Field data hold numbers only, since some
+/// readers fail on strings, and nothing that differs from run to run.
+void add_interrupted(vtkFieldData* data, bool interrupted);
 
-/// Field data version and command_line.
-void add_provenance(vtkFieldData* data, const Provenance& provenance);
+/// Field data cameras and camera_names, see CameraNumbers.
+void add_cameras(vtkFieldData* data, const std::vector<Camera>& cameras);
+
+/// Field data sources (surfaces' ids) and source_exitance (W/m²): the components of regions.
+void add_sources(vtkFieldData* data, const std::vector<LightSource>& sources);
 
 /// Replaces the points of a grid, in double precision.
 void set_points(vtkPointSet* grid, std::span<const Vec3> points);

@@ -264,6 +264,49 @@ TEST(FittingCamera, LooksAtTheFrontOfAnOpenScene) {
   }
 }
 
+/// The box's six squares; their fronts look outwards or inwards.
+void add_box(ShadedMesh& mesh, double half, bool outwards) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double side : {-half, half}) {
+      const int first = static_cast<int>(mesh.points.size());
+      for (const auto& [a, b] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+        Vec3 p;
+        p[axis] = side;
+        p[(axis + 1) % 3] = a * half;
+        p[(axis + 2) % 3] = b * half;
+        mesh.points.push_back(p);
+        mesh.point_radiosity.push_back(Rgb::Constant(1));
+      }
+      const bool turned = (side > 0) != outwards;
+      for (const auto& t : {std::array{0, 1, 2}, {0, 2, 3}}) {
+        std::array<int, 3> corners = {first + t[0], first + t[1], first + t[2]};
+        if (turned) std::swap(corners[1], corners[2]);
+        mesh.triangles.push_back(corners);
+        mesh.triangle_radiosity.push_back(Rgb::Constant(1));
+        mesh.emits.push_back(0);
+      }
+    }
+}
+
+TEST(DefaultCamera, StandsInARoomThatOuterWallsHide) {
+  const auto is_inside = [](const ShadedMesh& mesh) {
+    return default_camera(mesh).position.cwiseAbs().maxCoeff() < 1;
+  };
+  ShadedMesh thin, thick, block;
+  add_box(thin, 1, false);
+  add_box(block, 1, true);
+  add_box(thick, 1, false);
+  add_box(thick, 1.2, true);
+  EXPECT_FALSE(is_inside(thin)) << "it can be looked into from outside";
+  EXPECT_TRUE(is_inside(thick));
+  const Picture picture = draw(thick, default_camera(thick), options(30, 30));
+  for (const int p : {2, 15, 27}) EXPECT_NE(at(picture, p, p), background);
+  thick.cameras = {facing()};
+  EXPECT_EQ(default_camera(thick).position, facing().position) << "the scene's own";
+  add_square(block, {5, 5, 5}, 1, Rgb::Constant(1), true);  // a lamp that nothing closes in
+  EXPECT_FALSE(is_inside(block));
+}
+
 TEST(Shaded, ASolutionCarriesItsLightAndItsLamps) {
   const SolveResult result = test::sample_result(2);
   const ShadedMesh mesh = shaded(result);

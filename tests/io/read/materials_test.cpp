@@ -41,6 +41,44 @@ TEST(Materials, OverrideAMaterialWhereverItIsUsed) {
   EXPECT_TRUE((material_of(scene, 1).rho == 0.8).all());
 }
 
+TEST(Materials, ALibraryThatIsNotThereDoesNotMatterIfAllIsGiven) {
+  std::string scene = obj;
+  scene.replace(scene.find("scene.mtl"), 9, "other.mtl");
+  const std::string both = R"({"red": {"reflectance": 0.5}, "white": {"exitance": 1}})";
+  EXPECT_THAT(read(both, "", scene).warnings, ElementsAre(HasSubstr("scene.obj:1: mtllib names")));
+  EXPECT_THAT(read("", R"({"materials": )" + both + "}", scene).warnings,
+              ElementsAre(HasSubstr("'other.mtl'")));
+  expect_error([&] { read(R"({"red": {"reflectance": 0.5}})", "", scene); },
+               ErrorCode::invalid_input, {"scene.obj:1", "'other.mtl'"});
+  expect_error([&] { read("", "", scene); }, ErrorCode::invalid_input, {"'other.mtl'"});
+}
+
+TEST(Materials, OneNameForTwoThingsIsTold) {
+  std::string scene = obj;
+  scene.replace(scene.find("g lamp"), 6, "g red");  // a group of one of the two red faces
+  EXPECT_THAT(read(R"({"red": {"reflectance": 0.5}})", "", scene).warnings,
+              ElementsAre(HasSubstr("'red' names a group and a material")));
+  EXPECT_THAT(read(R"({"white": {"reflectance": 0.5}})", "", scene).warnings, IsEmpty());
+  const std::string same =
+      "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\ng red\nusemtl red\nf 1 2 3\n";
+  EXPECT_THAT(read(R"({"red": {"reflectance": 0.5}})", "", same).warnings, IsEmpty())
+      << "they are the same faces";
+}
+
+TEST(Materials, AGuessedReflectanceIsTold) {
+  const std::string plain = "v 0 0 0\nv 1 0 0\nv 1 1 0\ng a\nf 1 2 3\ng b\nf 1 2 3\n";
+  EXPECT_THAT(read("", "", plain).guesses, ElementsAre(HasSubstr("2 of 2 faces have no material")));
+  EXPECT_THAT(read(R"({"a": {"reflectance": 0.1}})", "", plain).guesses,
+              ElementsAre(HasSubstr("1 of 2 faces")));
+  EXPECT_THAT(read(R"({"default": {"reflectance": 0.1}})", "", plain).guesses, IsEmpty());
+  EXPECT_THAT(read("").guesses, IsEmpty());
+}
+
+TEST(Materials, AReportIsNoSidecar) {
+  expect_error([&] { read("", R"({"version": "0.1.0", "command_line": "a", "unit": "m"})"); },
+               ErrorCode::invalid_input, {"scene.json", "report"});
+}
+
 TEST(Materials, LeaveWhatTheyDoNotName) {
   const Scene scene = read(R"({"white": {"two_sided": true}})").scene;
   const Material& white = material_of(scene, 1);

@@ -1,14 +1,12 @@
 #include "io/read/read_scene.h"
+#include "tests/support/files.h"
+#include "tests/support/gltf_samples.h"
 #include "tests/support/scene_texts.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <array>
-#include <bit>
-#include <cstdint>
-#include <cstring>
 #include <gmock/gmock.h>
 #include <string>
 
@@ -16,78 +14,14 @@ namespace halfshade {
 namespace {
 
 using nlohmann::json;
+using test::as_glb;
+using test::expect_error;
 using test::expect_refused;
+using test::gltf_triangle;
 using test::read_text;
 using test::TempDir;
 using testing::ElementsAre;
 using testing::UnorderedElementsAre;
-
-std::string base64(const std::string& bytes) {
-  static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned bits = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (unsigned k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? digits[bits >> (18 - 6 * k) & 63U] : '=';
-  }
-  return text;
-}
-
-template <typename T>
-void append(std::string& bytes, T value) {
-  static_assert(std::endian::native == std::endian::little);
-  std::array<char, sizeof(T)> raw;
-  std::memcpy(raw.data(), &value, sizeof(T));
-  bytes.append(raw.data(), raw.size());
-}
-
-std::string triangle_buffer() {
-  std::string buffer;
-  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F}) append(buffer, x);
-  for (const int i : {0, 1, 2}) append(buffer, static_cast<std::uint16_t>(i));
-  return buffer;
-}
-
-/// A triangle (0,0,0) (1,0,0) (0,1,0) in two nodes: "plain" and the mirrored and moved "twin".
-json gltf_triangle() {
-  const std::string buffer = triangle_buffer();
-  json gltf = json::parse(R"({
-    "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-    "nodes": [{"name": "plain", "mesh": 0},
-              {"name": "twin", "mesh": 0, "scale": [-2, 1, 1], "translation": [10, 20, 30]}],
-    "meshes": [{"name": "shape", "primitives": [
-      {"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
-    "materials": [{"name": "glow", "doubleSided": true, "emissiveFactor": [1, 0.5, 0],
-      "pbrMetallicRoughness": {"baseColorFactor": [0.25, 0.5, 0.75, 1]}}],
-    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
-                   "min": [0, 0, 0], "max": [1, 1, 0]},
-                  {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"}],
-    "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 36},
-                    {"buffer": 0, "byteOffset": 36, "byteLength": 6}]})");
-  gltf["buffers"] = {{{"byteLength", buffer.size()},
-                      {"uri", "data:application/octet-stream;base64," + base64(buffer)}}};
-  return gltf;
-}
-
-/// The same file with its buffer in a binary chunk.
-std::string as_glb(json gltf) {
-  const auto chunk = [](const std::string& type, std::string content, char filler) {
-    content.resize((content.size() + 3) / 4 * 4, filler);
-    std::string bytes;
-    append(bytes, static_cast<std::uint32_t>(content.size()));
-    return bytes + type + content;
-  };
-  const std::string buffer = triangle_buffer();
-  gltf["buffers"] = {{{"byteLength", buffer.size()}}};
-  const std::string chunks =
-      chunk("JSON", gltf.dump(), ' ') + chunk(std::string("BIN\0", 4), buffer, '\0');
-  std::string bytes = "glTF";
-  append(bytes, std::uint32_t{2});
-  append(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
-  return bytes + chunks;
-}
 
 Vec3 normal(const Scene& scene, int face) {
   const std::vector<Vec3> p = face_corners(scene, face);
@@ -100,6 +34,16 @@ int face_in_group(const Scene& scene, const std::string& group) {
       return static_cast<int>(f);
   ADD_FAILURE() << "no face in " << group;
   return 0;
+}
+
+TEST(ReadGltf, RefusesChunksLongerThanTheFile) {
+  const TempDir folder;
+  for (const std::size_t at : {12U, 14U, 15U}) {  // the length of the first chunk
+    std::string bytes = as_glb(gltf_triangle());
+    bytes[at] = '\x7f';
+    expect_error([&] { read_scene(folder.write("a.glb", bytes)); }, ErrorCode::invalid_input,
+                 {"a.glb", at == 12 ? "" : "bytes is announced"});
+  }
 }
 
 TEST(ReadGltf, AppliesTransformsNamesAndMaterials) {
@@ -192,46 +136,6 @@ TEST(ReadGltf, RefusesTruncatedFiles) {
     expect_refused("a.gltf", text.substr(0, size), {"a.gltf"});
   for (const std::size_t size : {std::size_t{3}, std::size_t{12}, binary.size() / 2})
     expect_refused("a.glb", binary.substr(0, size), {"a.glb"});
-}
-
-const std::string ascii_stl =
-    "solid box\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\n"
-    "endloop\nendfacet\nendsolid box\n";
-
-std::string binary_stl() {
-  std::string bytes(80, ' ');
-  append(bytes, std::uint32_t{1});
-  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.5F})
-    append(bytes, x);
-  append(bytes, std::uint16_t{0});
-  return bytes;
-}
-
-TEST(ReadStl, ReadsTextAndBinary) {
-  const TempDir folder;
-  for (const auto& path : {folder.write("a.stl", ascii_stl), folder.write("b.stl", binary_stl())}) {
-    const Scene scene = read_scene(path).scene;
-    ASSERT_EQ(scene.faces.size(), 1U);
-    EXPECT_THAT(face_corners(scene, 0), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0.5)));
-    ASSERT_EQ(scene.materials.size(), 1U);
-    EXPECT_EQ(scene.materials[0].name, "default");
-    EXPECT_TRUE((scene.materials[0].rho == Material{}.rho).all());
-    EXPECT_TRUE((scene.materials[0].exitance == 0).all());
-  }
-}
-
-TEST(ReadStl, NamesGroups) {
-  const TempDir folder;
-  EXPECT_THAT(read_scene(folder.write("a.stl", ascii_stl)).scene.groups, ElementsAre("box"));
-  EXPECT_THAT(read_scene(folder.write("b.stl", binary_stl())).scene.groups, ElementsAre("default"));
-}
-
-TEST(ReadStl, RefusesTruncatedFilesAndNan) {
-  for (const std::size_t size : {20U, 84U, 100U})
-    expect_refused("b.stl", binary_stl().substr(0, size), {"b.stl"});
-  std::string bytes = binary_stl();
-  bytes.replace(84 + 12, 4, std::string("\0\0\xC0\x7F", 4));  // a quiet NaN
-  expect_refused("b.stl", bytes, {"b.stl", "vertex 1", "nan"});
 }
 
 std::string collada(const std::string& up, const std::string& meter) {

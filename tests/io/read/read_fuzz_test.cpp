@@ -1,27 +1,50 @@
-// Whatever the bytes, a reader gives a sound scene or an Error: no crash, no hang, nothing else
-// thrown. Every mutation is reproducible.
+// Whatever the bytes, a reader gives what it reads or an Error: no crash, no hang, no memory beyond
+// what small files need, nothing else thrown. Every mutation is reproducible. The long run, with
+// sanitizers, for the given time a format and from another seed:
+//   cmake --preset asan && cmake --build --preset asan --target io_tests
+//   export ASAN_OPTIONS=detect_leaks=0 HALFSHADE_FUZZ_SECONDS=60 HALFSHADE_FUZZ_SEED=8
+//   build/asan/tests/io_tests --gtest_filter='*ReadMutated*'
 
+#include "io/files/little_endian.h"
+#include "io/read/read_points.h"
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
 #include "tests/support/files.h"
+#include "tests/support/gltf_samples.h"
+#include "tests/support/mutator.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <random>
+#include <chrono>
+#include <cstdlib>
 #include <string>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <vector>
 
 namespace halfshade {
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr unsigned seconds_for_one = 10;
+/// A run of all formats takes less than this with sanitizers, too.
+constexpr long most_memory_kb = 800'000;
+
 const std::string obj =
     "# room\nmtllib scene.mtl\no a\nv 0 0 0\nv 1 0.5e0 0\nv 1 1 0 1\nv -0 1 \\\n0\nvt 0 0\n"
     "usemtl m\nf 1 2//1 3/1/1 4/2\ng b\nf -1 -2 -3\n";
 const std::string mtl = "newmtl m\nKd 0.5 0.25 1\nKe 1 2 3e0\nd 1\nmap_Kd a.png\n";
-const std::string json =
+const std::string sidecar =
     R"({"unit": "m", "materials": {"m": {"reflectance": 0.5}, "a": {"exitance": [1, 2, 3]}},
  "cameras": [{"name": "c", "position": [0, 0, 1], "target": [0, 0, 0], "vertical_fov": 40}]})";
+const std::string cameras =
+    R"({"cameras": [{"name": "c", "position": [0, 0, 1], "target": [0, 0, 0]},
+ {"name": "d", "position": [0, -2e1, 1], "direction": [0, 1, 0], "up": [0, 0, 1],
+  "vertical_fov": 40.5}]})";
+const std::string materials =
+    R"({"m": {"reflectance": [0.5, 0.25, 1], "two_sided": true},
+ "a": {"exitance": 3.5e2, "reflectance": 0}})";
 const std::string off =
     "COFF\n4 2 0\n0 0 0 255\n1 0 0\n1 1 0\n0 1 0 # last\n4 0 1 2 3\n3 2 1 0 9\n";
 const std::string ply_header_end =
@@ -29,6 +52,10 @@ const std::string ply_header_end =
     "property list uchar int vertex_indices\nend_header\n";
 const std::string ply_ascii =
     "ply\nformat ascii 1.0\ncomment c\n" + ply_header_end + "0 0 0\n1 0 0\n1 1 0\n3 0 1 2\n";
+const std::string stl =
+    "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\n"
+    "endloop\nendfacet\nendsolid\n";
+const std::string points = "id;x;y;z;nx;ny;nz\n# two\na;1;2;3e0;0;0;1\nb;-0.5;2;3;1;-1;0\n";
 
 std::string ply_binary() {
   std::string text = "ply\nformat binary_big_endian 1.0\n" + ply_header_end;
@@ -38,38 +65,12 @@ std::string ply_binary() {
   return text + std::string("\3\0\0\0\0\0\0\0\1\0\0\0\2", 13);
 }
 
-/// A few random changes: bytes set, bits flipped, pieces cut, repeated or replaced by hard cases.
-std::string mutated(std::string bytes, std::mt19937& random) {
-  static const std::vector<std::string> hard_cases = {
-      "-1", "0",    "1e999", "nan",    "99999999999999999999", "4294967295",
-      "\n", "\\\n", "/",     "#",      std::string(1, '\0'),   "\xFF\xFE",
-      "-",  "+",    ".",     "1e-999", "2147483648",           "{",
-      "[",  "\"",   ","};
-  const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
-  for (std::size_t change = 0, count = 1 + below(3); change < count; ++change) {
-    const std::size_t at = below(bytes.size() + 1);
-    const std::size_t length = below(std::min<std::size_t>(8, bytes.size() - at) + 1);
-    switch (random() % 6) {
-      case 0:
-        bytes.resize(at);
-        break;
-      case 1:
-        bytes.erase(at, length);
-        break;
-      case 2:
-        bytes.insert(at, bytes.substr(below(bytes.size() + 1), below(20)));
-        break;
-      case 3:
-        bytes.replace(at, length, hard_cases[below(hard_cases.size())]);
-        break;
-      default:
-        if (at < bytes.size())
-          bytes[at] = static_cast<char>(random() % 2 == 0 ? random() % 256
-                                                          : static_cast<unsigned char>(bytes[at]) ^
-                                                                (1U << (random() % 8)));
-    }
-  }
-  return bytes;
+std::string stl_binary() {
+  std::string bytes(80, ' ');
+  detail::put(bytes, std::uint32_t{1});
+  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.F, 0.F, 0.F, 1.F, 0.5F})
+    detail::put(bytes, x);
+  return bytes + std::string(2, '\0');
 }
 
 struct Seed {
@@ -82,46 +83,84 @@ struct Seed {
 
 void PrintTo(const Seed& seed, std::ostream* out) { *out << seed.name; }
 
-class ReadMutated : public testing::TestWithParam<Seed> {};
+class ReadMutated : public testing::TestWithParam<Seed> {
+ protected:
+  ReadMutated() {
+    folder_.write("scene.mtl", mtl);
+    folder_.write("scene.obj", obj);
+    folder_.write(GetParam().file, GetParam().content);
+  }
 
-TEST_P(ReadMutated, GivesASoundSceneOrAnError) {
-  const Seed& seed = GetParam();
-  const test::TempDir folder;
-  folder.write("scene.mtl", mtl);
-  folder.write("scene.obj", obj);
-  const auto scene = folder.path() / seed.scene;
-  folder.write(seed.file, seed.content);
-  ASSERT_NO_THROW(read_scene(scene)) << "the seed itself";
-  std::mt19937 random(7);
-  int sound = 0, refused = 0;
-  for (int run = 0; run < seed.runs; ++run) {
-    const std::string bytes = mutated(seed.content, random);
-    folder.write(seed.file, bytes);
+  void read() const {
+    const fs::path path = folder_.path() / GetParam().scene;
+    if (path.extension() == ".csv") {
+      read_points(path);
+    } else {
+      const bool has_materials = GetParam().file == "materials.json";
+      validate(
+          read_scene(path, has_materials ? folder_.path() / GetParam().file : fs::path()).scene);
+    }
+  }
+
+  /// Counts what came of it.
+  void read_mutated(const std::string& bytes) {
+    folder_.write(GetParam().file, bytes);
+    alarm(seconds_for_one);  // the signal ends the test
     try {
-      validate(read_scene(scene).scene);
-      ++sound;
+      read();
+      ++sound_;
     } catch (const Error& error) {
-      ++refused;
+      ++refused_;
       EXPECT_FALSE(error.place().empty());
       EXPECT_LT(std::string(error.what()).size(), 1000U);
     } catch (const std::exception& other) {
-      ADD_FAILURE() << "run " << run << ": " << other.what() << "\n" << bytes;
+      ADD_FAILURE() << other.what() << "\n" << bytes;
     }
+    alarm(0);
   }
-  // Both outcomes occur, or the mutations would try too little.
-  EXPECT_GT(sound, seed.runs / 100);
-  EXPECT_GT(refused, seed.runs / 100);
+
+  test::TempDir folder_;
+  int sound_ = 0, refused_ = 0;
+};
+
+int setting(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, ReadMutated,
-                         testing::Values(Seed{"Obj", "scene.obj", "scene.obj", obj, 1500},
-                                         Seed{"Mtl", "scene.obj", "scene.mtl", mtl, 1000},
-                                         Seed{"Sidecar", "scene.obj", "scene.json", json, 1000},
-                                         Seed{"Off", "scene.off", "scene.off", off, 1500},
-                                         Seed{"PlyText", "scene.ply", "scene.ply", ply_ascii, 1500},
-                                         Seed{"PlyBinary", "scene.ply", "scene.ply", ply_binary(),
-                                              3000}),
-                         [](const auto& param) { return param.param.name; });
+TEST_P(ReadMutated, GivesWhatItReadsOrAnError) {
+  ASSERT_NO_THROW(read()) << "the seed itself";
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::seconds(setting("HALFSHADE_FUZZ_SECONDS", 0));
+  test::Mutator mutated(static_cast<unsigned>(setting("HALFSHADE_FUZZ_SEED", 7)));
+  int runs = 0;
+  for (; runs < GetParam().runs || Clock::now() < end; ++runs)
+    read_mutated(mutated(GetParam().content));
+  // Both outcomes occur, or the mutations would try too little.
+  EXPECT_GT(sound_, runs / 100);
+  EXPECT_GT(refused_, runs / 100);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  EXPECT_LT(usage.ru_maxrss, most_memory_kb);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Formats, ReadMutated,
+    testing::Values(Seed{"Obj", "scene.obj", "scene.obj", obj, 1500},
+                    Seed{"Mtl", "scene.obj", "scene.mtl", mtl, 1000},
+                    Seed{"Sidecar", "scene.obj", "scene.json", sidecar, 1000},
+                    Seed{"Cameras", "scene.obj", "scene.json", cameras, 1000},
+                    Seed{"Materials", "scene.obj", "materials.json", materials, 1000},
+                    Seed{"Off", "scene.off", "scene.off", off, 1500},
+                    Seed{"PlyText", "scene.ply", "scene.ply", ply_ascii, 1500},
+                    Seed{"PlyBinary", "scene.ply", "scene.ply", ply_binary(), 3000},
+                    Seed{"StlText", "scene.stl", "scene.stl", stl, 1500},
+                    Seed{"StlBinary", "scene.stl", "scene.stl", stl_binary(), 1500},
+                    Seed{"Gltf", "scene.gltf", "scene.gltf", test::gltf_triangle().dump(1), 1500},
+                    Seed{"Glb", "scene.glb", "scene.glb", test::as_glb(test::gltf_triangle()),
+                         1500},
+                    Seed{"Points", "points.csv", "points.csv", points, 1500}),
+    [](const auto& param) { return param.param.name; });
 
 }  // namespace
 }  // namespace halfshade

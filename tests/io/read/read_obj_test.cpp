@@ -28,6 +28,18 @@ SceneFile read_material(const std::string& lines) {
   return read("mtllib scene.mtl\nusemtl m\n" + square + "f 1 2 3 4\n", "newmtl m\n" + lines);
 }
 
+TEST(ReadObj, TakesCapitalKeywordsAndSaysWhatItRead) {
+  const SceneFile file =
+      read("MTLLIB scene.mtl\nO box\nUSEMTL m\nV 0 0 0\nV 1 0 0\nV 1 1 0\nVN 0 0 1\nF 1 2 3\n",
+           "NEWMTL m\nKD 0.25 0.25 0.25\nKE 1 2 3\n");
+  EXPECT_THAT(file.warnings, IsEmpty());
+  EXPECT_THAT(file.scene.groups, ElementsAre("box"));
+  EXPECT_EQ(file.scene.materials.at(0).rho[1], 0.25);
+  EXPECT_EQ(file.scene.materials.at(0).exitance[2], 3);
+  ASSERT_EQ(file.files.size(), 1U);
+  EXPECT_EQ(file.files[0].filename(), "scene.mtl");
+}
+
 TEST(ReadObj, KeepsPolygonsTheirOrderAndTheirLines) {
   const Scene scene = read("# a comment\n" + square + "\nv 0.5 2 0\nf 1 2 3 5 4\nf 4 3 2\n").scene;
   ASSERT_EQ(scene.vertices.size(), 5U);

@@ -13,7 +13,8 @@ namespace {
 
 nlohmann::json written(const SolveResult& result, const Provenance& provenance = {"1.2", "solve"}) {
   const test::TempDir folder;
-  write_report(result, provenance, {"a.vtu", "b c.png"}, folder.path() / "r.json");
+  write_report(result, {provenance, {"a.vtu", "b c.png"}, "interrupted", 1.5, 4096},
+               folder.path() / "r.json");
   return nlohmann::json::parse(test::contents(folder.path() / "r.json"));
 }
 
@@ -29,6 +30,12 @@ TEST(WriteReport, TellsTheRun) {
   const auto json = written(result);
   EXPECT_EQ(json.at("version"), "1.2");
   EXPECT_EQ(json.at("command_line"), "solve");
+  EXPECT_EQ(json.at("status"), "interrupted");
+  EXPECT_EQ(json.at("seconds"), 1.5);
+  EXPECT_EQ(json.at("peak_memory_bytes"), 4096);
+  EXPECT_EQ(json.at("scene").at("group_names"), nlohmann::json({"floor", "rug"}));
+  EXPECT_EQ(json.at("scene").at("material_names"), nlohmann::json({"grey", "lamp"}));
+  EXPECT_EQ(json.at("scene").at("camera_names"), nlohmann::json({"above"}));
   EXPECT_EQ(json.at("unit"), "cm");
   EXPECT_EQ(json.at("interrupted"), true);
   EXPECT_EQ(json.at("outputs"), nlohmann::json({"a.vtu", "b c.png"}));
@@ -36,7 +43,8 @@ TEST(WriteReport, TellsTheRun) {
   EXPECT_EQ(json.at("scene").at("surfaces"), 1);
   EXPECT_EQ(json.at("scene").at("materials"), 2);
   EXPECT_EQ(json.at("repairs").at(0).at("kind"), "coplanar_merged");
-  EXPECT_EQ(json.at("repairs").at(0).at("faces"), nlohmann::json({0, 1}));
+  EXPECT_EQ(json.at("repairs").at(0).at("faces"), nlohmann::json({1, 2}))
+      << "as the sentence counts them";
   EXPECT_EQ(json.at("repairs").at(0).at("sentence"),
             "face 1, face 2 (line 7) lie in one plane and were joined");
   EXPECT_EQ(json.at("stages").at(0).at("seconds"), 0.25);
@@ -55,7 +63,7 @@ TEST(WriteReport, TheHistogramCountsEveryElement) {
   const auto mesh = written(test::sample_result(3)).at("mesh");
   EXPECT_EQ(mesh.at("elements"), 18);
   EXPECT_EQ(mesh.at("points"), 16);
-  EXPECT_NEAR(mesh.at("min_angle").get<double>(), 45, 1e-9);  // halves of squares
+  EXPECT_NEAR(mesh.at("min_angle_degrees").get<double>(), 45, 1e-9);  // halves of squares
   int sum = 0;
   for (const int count : mesh.at("min_angle_histogram").at("counts")) sum += count;
   EXPECT_EQ(sum, 18);
@@ -68,8 +76,8 @@ TEST(WriteReport, GroupsAddUpToTheWhole) {
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups.at(0).at("name"), "floor");
   EXPECT_EQ(groups.at(0).at("area"), 0.5);
-  EXPECT_NEAR(groups.at(0).at("mean_irradiance").at(1).get<double>(), 2.1, 1e-14);
-  EXPECT_NEAR(groups.at(0).at("mean_radiosity").at(1).get<double>(), 8 + 0.1 * 2.1, 1e-14);
+  EXPECT_NEAR(groups.at(0).at("mean_irradiance_w_per_m2").at(1).get<double>(), 2.1, 1e-14);
+  EXPECT_NEAR(groups.at(0).at("mean_radiosity_w_per_m2").at(1).get<double>(), 8 + 0.1 * 2.1, 1e-14);
   EXPECT_NEAR(groups.at(0).at("emitted_power").at(2).get<double>(), 3.5, 1e-14);
   EXPECT_NEAR(groups.at(0).at("absorbed_power").at(0).get<double>(), 0.5 * 0.9 * 1.1, 1e-14);
   EXPECT_NEAR(groups.at(1).at("absorbed_power").at(1).get<double>(), 0.5 * 0.6 * (2.1 + 1 / 7.0),
@@ -77,12 +85,23 @@ TEST(WriteReport, GroupsAddUpToTheWhole) {
   EXPECT_EQ(groups.at(1).at("emitted_power").at(0), 0);
 }
 
+TEST(WriteReport, AGreySceneHasOneChannel) {
+  SolveResult result = test::sample_result(1);
+  result.radiosity.channels = 1;
+  const auto json = written(result);
+  EXPECT_EQ(json.at("radiosity").at("channel").size(), 1U);
+  const auto group = json.at("groups").at(0);
+  for (const char* key :
+       {"mean_radiosity_w_per_m2", "mean_irradiance_w_per_m2", "emitted_power", "absorbed_power"})
+    EXPECT_EQ(group.at(key).size(), 1U) << key;
+}
+
 TEST(WriteReport, AGroupWithoutElementsIsListedWithoutLight) {
   SolveResult result = test::sample_result(1);
   result.scene.groups.emplace_back("nothing");
   const auto group = written(result).at("groups").at(2);
   EXPECT_EQ(group.at("area"), 0);
-  EXPECT_EQ(group.at("mean_radiosity"), nlohmann::json({0.0, 0.0, 0.0}));
+  EXPECT_EQ(group.at("mean_radiosity_w_per_m2"), nlohmann::json({0.0, 0.0, 0.0}));
 }
 
 TEST(WriteReport, IsJsonWhateverIsInIt) {
@@ -97,9 +116,9 @@ TEST(WriteReport, IsJsonWhateverIsInIt) {
 TEST(WriteReport, NamesAPlaceThatCannotBeWritten) {
   const test::TempDir folder;
   const auto file = folder.write("file", "");
-  test::expect_error([&] { write_report(test::sample_result(1), {}, {}, file / "r.json"); },
+  test::expect_error([&] { write_report(test::sample_result(1), {}, file / "r.json"); },
                      ErrorCode::unwritable, {"r.json", "Not a directory"});
-  test::expect_error([&] { write_report(test::sample_result(1), {}, {}, "/dev/full"); },
+  test::expect_error([&] { write_report(test::sample_result(1), {}, "/dev/full"); },
                      ErrorCode::unwritable, {"/dev/full", "No space left"});
 }
 

@@ -1,10 +1,10 @@
+#include "io/picture/picture.h"
 #include "io/write/write_result.h"
 #include "tests/support/files.h"
 #include "tests/support/sample_result.h"
-#include "tests/support/vtk_reading.h"
+#include "tests/support/vtk_structure.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <vtkCellData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
@@ -14,8 +14,6 @@ namespace halfshade {
 namespace {
 
 namespace fs = std::filesystem;
-
-using test::strings;
 
 vtkSmartPointer<vtkPointSet> read(const fs::path& path) { return test::read_vtk(path); }
 
@@ -109,33 +107,54 @@ TEST_P(WriteVtk, AnotherReaderFindsTheSameLightToTheLastBit) {
   }
 }
 
+TEST_P(WriteVtk, RegionsOfEachEmitterAreThereIfAskedFor) {
+  SolveResult result = test::sample_result(1);
+  EXPECT_EQ(read(write(result))->GetCellData()->GetArray("regions"), nullptr);
+  result.emitters = {{0, 7}, {0, 3}};
+  result.regions = {Region::lit, Region::umbra, Region::penumbra, Region::away};
+  const auto grid = read(write(result));
+  EXPECT_EQ(test::numbers(grid->GetCellData(), "regions", 2), (std::vector<double>{0, 2, 1, 3}));
+  EXPECT_EQ(test::numbers(grid->GetFieldData(), "source_exitance"), (std::vector<double>{7, 3}));
+  result.regions.pop_back();
+  test::expect_error([&] { write(result); }, ErrorCode::contract, {"2 emitters have 3 regions"});
+}
+
 TEST_P(WriteVtk, TheFileSaysHowItCameAbout) {
   SolveResult result = test::sample_result(1);
   result.interrupted = true;
   vtkFieldData* data = nullptr;
   const auto grid = read(write(result));
   data = grid->GetFieldData();
-  EXPECT_EQ(strings(data, "version"), std::vector<std::string>{"1.2.3"});
-  EXPECT_EQ(strings(data, "command_line"),
-            std::vector<std::string>{"halfshade solve \"a <scene> & more.obj\""});
-  EXPECT_EQ(strings(data, "unit"), std::vector<std::string>{"cm"});
-  EXPECT_EQ(strings(data, "group_names"), (std::vector<std::string>{"floor", "rug"}));
-  EXPECT_EQ(strings(data, "material_names"), (std::vector<std::string>{"grey", "lamp"}));
-  EXPECT_EQ(strings(data, "stage_names"), (std::vector<std::string>{"mesh", "exchange"}));
-  EXPECT_EQ(data->GetArray("stage_seconds")->GetComponent(0, 0), 0.25);
   EXPECT_EQ(data->GetArray("interrupted")->GetComponent(0, 0), 1);
-  const auto cameras = nlohmann::json::parse(strings(data, "cameras").at(0));
-  EXPECT_EQ(cameras.at(0).at("name"), "above");
-  EXPECT_EQ(cameras.at(0).at("position"), nlohmann::json({0.5, 0.5, 3.0}));
-  EXPECT_EQ(cameras.at(0).at("vertical_fov"), 40);
+  EXPECT_EQ(data->GetArray("achieved_error")->GetNumberOfTuples(), 1);
+  const auto camera = test::numbers(data, "cameras", 10);
+  EXPECT_EQ(camera, (std::vector<double>{0.5, 0.5, 3, 0, 0, -1, 0, 1, 0, 40}));
+  EXPECT_EQ(test::numbers(data, "camera_names"), (std::vector<double>{'a', 'b', 'o', 'v', 'e', 0}));
 }
 
-TEST_P(WriteVtk, NamesInAnyLanguageAndEncodingComeThrough) {
+TEST_P(WriteVtk, OtherProgramsFindNumbersOnly) {
+  for (const int n : {1, 3}) test::expect_sound_vtk(write(test::sample_result(n)));
+}
+
+TEST_P(WriteVtk, WhatDiffersFromRunToRunIsNotInTheFile) {
+  SolveResult again = test::sample_result(2);
+  for (StageReport& stage : again.stages) stage.seconds += 1;
+  const std::string bytes = test::contents(write(test::sample_result(2)));
+  EXPECT_EQ(test::contents(write(again)), bytes);
+  const fs::path other = folder_.path() / (std::string("other") + GetParam());
+  write_result(again, {"1.2.3", "halfshade solve elsewhere"}, other);
+  EXPECT_EQ(test::contents(other), bytes);
+}
+
+TEST_P(WriteVtk, CameraNamesInAnyEncodingComeThrough) {
   SolveResult result = test::sample_result(1);
-  result.scene.groups = {"küche", ""};
+  result.cameras.resize(3);
   result.cameras[0].name = "\xff not UTF-8";
-  const fs::path path = write(result);
-  EXPECT_EQ(strings(read(path)->GetFieldData(), "group_names"), result.scene.groups);
+  result.cameras[1].name = "";
+  result.cameras[2].name = "küche";
+  const auto cameras = read_shaded(write(result)).cameras;
+  ASSERT_EQ(cameras.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(cameras[k].name, result.cameras[k].name);
 }
 
 TEST_P(WriteVtk, DataAreInlineAndCompressed) {

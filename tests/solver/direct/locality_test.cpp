@@ -43,13 +43,15 @@ double above_centre(double half, double height) {
   return 4 * test::point_parallel_rectangle(half, half, height);
 }
 
-TEST(Locality, PlatesExchangeLightAcrossAnyGap) {
-  for (const double gap : {1e-7, 1e-6, 1e-3, 1., 1e3}) {
-    Layout plates;
-    plates.add(square(0.5, 0, true), plates.light);
-    plates.add(square(0.5, gap, false), plates.black);
-    EXPECT_NEAR(plates.irradiance({0, 0, gap}, down) / above_centre(0.5, gap), 1, 1e-9) << gap;
-  }
+TEST(Locality, PlatesExchangeLightAcrossAnyGapInWhateverOrder) {
+  for (const double gap : {1e-7, 1e-6, 1e-3, 1., 1e3})
+    for (const bool light_first : {false, true}) {
+      Layout plates;
+      if (light_first) plates.add(square(0.5, 0, true), plates.light);
+      plates.add(square(0.5, gap, false), plates.black);
+      if (!light_first) plates.add(square(0.5, 0, true), plates.light);
+      EXPECT_NEAR(plates.irradiance({0, 0, gap}, down) / above_centre(0.5, gap), 1, 1e-9) << gap;
+    }
 }
 
 TEST(Locality, AFarTriangleChangesNothing) {

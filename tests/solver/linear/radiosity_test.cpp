@@ -85,7 +85,8 @@ TEST(Radiosity, BouncesSumTheGeometricSeries) {
     RadiosityReport report;
     const Solution s = solved(cube(), grey(Eigen::ArrayXd::Constant(6, rho)),
                               grey(Eigen::ArrayXd::Constant(6, E)), report, {.bounces = n});
-    EXPECT_NEAR(s.radiosity(3, 1), E * (1 - std::pow(rho, n + 1)) / (1 - rho), 1e-12) << n;
+    EXPECT_NEAR(s.irradiance(3, 1), E * (1 - std::pow(rho, n + 1)) / (1 - rho), 1e-12) << n;
+    EXPECT_NEAR(s.radiosity(3, 1), E * (1 - std::pow(rho, n + 2)) / (1 - rho), 1e-12) << n;
     EXPECT_NEAR(s.direct_irradiance(3, 1), E, 1e-12);
   }
 }

@@ -53,11 +53,15 @@ TEST(StrongEnough, LeavesOutWhatTheToleranceCovers) {
   EXPECT_EQ(count(0.5), 0u);
 }
 
-TEST(MostSurfacesEmit, ComparesAreas) {
+TEST(MostSurfacesEmit, ComparesAreasAndNumbers) {
   Scene scene = test::table_scene();  // the light is 1 of 5.25
   EXPECT_EQ(most_surfaces_emit(make_sound(scene)), "");
-  scene.materials[0].exitance = Rgb::Ones();
-  EXPECT_NE(most_surfaces_emit(make_sound(scene)), "");
+  Scene furnace = scene;
+  furnace.materials[0].exitance = Rgb::Ones();
+  EXPECT_NE(most_surfaces_emit(make_sound(furnace)), "");
+  test::add_polygon(scene, {{-1e6, 1e6, 1e8}, {1e6, 1e6, 1e8}, {1e6, -1e6, 1e8}, {-1e6, -1e6, 1e8}},
+                    1);
+  EXPECT_EQ(most_surfaces_emit(make_sound(scene)), "") << "a sun is large, but one";
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "apps/commands.h"
+#include "io/files/extension.h"
+#include "io/read/read_scene.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// A file of the command line and what messages call it: "--json", "SCENE". An empty path is none.
+struct NamedFile {
+  std::string name;
+  std::filesystem::path path;
+};
+
+/// What a command reads and writes.
+struct CommandFiles {
+  std::vector<NamedFile> inputs, outputs;
+};
+
+/// What every command on a scene has: the scene, its sidecar, whether it is there or not, the
+/// materials and the report.
+CommandFiles scene_files(const std::filesystem::path& scene, const std::filesystem::path& materials,
+                         const CommonOptions& common);
+void add_outputs(CommandFiles& files, const char* name,
+                 const std::vector<std::filesystem::path>& paths);
+
+/// Throws Error(usage), naming both, if an output is also an input, or two outputs are one.
+void require_apart(const CommandFiles& files);
+
+/// Mistakes worth telling before an hour of computing. Throws Error(usage) unless the file's
+/// extension is one of `formats`, and as require_place. An empty path is fine.
+void check_output(const std::filesystem::path& file, const FileFormats& formats);
+
+/// Throws Error(unwritable) if the folder that a file is to be written to does not exist or must
+/// not be written, or if the file is a folder. An empty path and a standard stream are fine.
+void require_place(const std::filesystem::path& file);
+
+/// Reads the scene of a command, its faces turned as asked for. Throws as halfshade::read_scene,
+/// and Error(usage) if an output is one of the files that the scene names.
+SceneFile read_scene(const std::filesystem::path& scene, const std::filesystem::path& materials,
+                     const SceneOptions& orientation, CommandFiles files);
+
+}  // namespace halfshade

@@ -1,0 +1,77 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// The number that all of the text is.
+template <class Number>
+std::optional<Number> parsed(const std::string& text) {
+  Number value{};
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  return value;
+}
+
+/// Refuses texts that are no number or for which `is_good` is false; `what` says what is wanted.
+template <class Number, class IsGood>
+CLI::Validator check(const std::string& what, IsGood is_good) {
+  return {[what, is_good](const std::string& text) -> std::string {
+            const std::optional<Number> value = parsed<Number>(text);
+            return value && is_good(*value) ? "" : fmt::format("'{}' is not {}", text, what);
+          },
+          ""};
+}
+
+CLI::Option* add_real(CLI::App& app, const char* name, double& value, const CLI::Validator& valid,
+                      const char* type, const char* help) {
+  return app.add_option(name, value, help)->check(valid)->type_name(type);
+}
+
+}  // namespace
+
+CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                       const char* help) {
+  const auto [least, most] = range;
+  const std::string what = fmt::format("a whole number from {} to {}", least, most);
+  return app.add_option(name, value, help)
+      ->check(check<int>(what, [range](int v) { return v >= range[0] && v <= range[1]; }))
+      ->type_name("N");
+}
+
+CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
+                        const char* help) {
+  const std::string what = fmt::format("a number from {} to {}", range[0], range[1]);
+  const auto is_good = [range](double v) { return v >= range[0] && v <= range[1]; };
+  return add_real(app, name, value, check<double>(what, is_good), "NUMBER", help);
+}
+
+CLI::Option* add_positive(CLI::App& app, const char* name, double& value, const char* help) {
+  const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
+  return add_real(app, name, value, check<double>("a number above zero", is_good), "NUMBER", help);
+}
+
+CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, const char* help) {
+  const auto is_good = [](double v) { return v >= 0 && std::isfinite(v); };
+  return add_real(app, name, value, check<double>("a number of at least zero", is_good), "NUMBER",
+                  help);
+}
+
+CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
+                        const char* help) {
+  const auto is_good = [](double v) { return std::isfinite(v); };
+  return app
+      .add_option_function<std::vector<double>>(
+          name, [&value](const std::vector<double>& v) { value = Vec3(v[0], v[1], v[2]); }, help)
+      ->expected(3)
+      ->check(check<double>("a finite number", is_good))
+      ->type_name("X Y Z");
+}
+
+}  // namespace halfshade

@@ -1,0 +1,25 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace halfshade {
+
+void add_orientation(CLI::App& app, SceneOptions& options) {
+  app.add_flag("--flip", options.flip, "Reverse all faces of the scene");
+  app.add_flag("--orient", options.orient,
+               "Turn the faces of closed shells: inwards if a light is in it (else the largest),\n"
+               "all others outwards");
+}
+
+void add_force(CLI::App& app, ForcedStages& force) {
+  add_words(
+      app, "--force", {"discontinuities", "eee", "direct-light", "factors", "channels"},
+      [&force](const std::vector<bool>& asked) {
+        force = {asked[0], asked[1], asked[2], asked[3], asked[4]};
+      },
+      "Run stages that the scene does not need, separated by commas: discontinuities, eee,\n"
+      "direct-light, factors, channels; see explain")
+      ->type_name("STAGE,…");
+}
+
+}  // namespace halfshade

@@ -58,6 +58,9 @@ class Search {
   Curves run() {
     report_.silhouette_edges += emitter_scene_.edges.size();
     if (options_.ev) find_vertex_events();
+    // They take little of ordinary scenes and matter most, so that they come before what may use up
+    // the work; by now it is known how much is seen from a point.
+    Curves on_borders = find_border_events();
     const auto edges = static_cast<double>(emitter_scene_.edges.size());
     const double for_each_face =
         SearchBudget::of_swath * edges * edges / static_cast<double>(scene_.surfaces.size());
@@ -68,7 +71,7 @@ class Search {
                 face_swaths(scene_, emitter_scene_, opaque_, r, sink);
             });
     if (options_.eee) find_triples();
-    find_border_events();
+    append(std::move(on_borders), curves_);
     const TraceCounts counts = counts_so_far();
     report_.swaths += counts.swaths;
     report_.pieces += counts.pieces;
@@ -119,22 +122,26 @@ class Search {
     });
   }
 
-  void find_border_events() {
+  Curves find_border_events() {
     const double look = look_work(counts_so_far(), emitter_scene_.edges.size());
     std::size_t contacts = 0;
     for (const Surface& surface : scene_.surfaces) contacts += surface.contacts.size();
+    // In the emitter's plane each limit of its view is seen from each of its corners.
+    const double lines = static_cast<double>(scene_.surfaces.size()) *
+                         static_cast<double>(emitter_scene_.corners.size()) *
+                         static_cast<double>(emitter_scene_.outline.size());
     const bool planes =
-        options_.face &&
-        budget_.allows(CurveKind::face,
-                       plane_looks * look * static_cast<double>(scene_.surfaces.size()));
+        options_.face && budget_.allows(CurveKind::face, plane_looks * look * lines);
     const bool touching =
         options_.contact &&
         budget_.allows(CurveKind::contact, contact_looks * look * static_cast<double>(contacts));
+    Curves found;
     for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
       if (progress_.stopped()) break;
-      if (planes) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, curves_);
-      if (touching) contact_curves(scene_, opaque_, emitter_scene_, r, curves_);
+      if (planes) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, found);
+      if (touching) contact_curves(scene_, opaque_, emitter_scene_, r, found);
     }
+    return found;
   }
 
   TraceCounts counts_so_far() const {
@@ -243,6 +250,7 @@ Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene&
                                      const Progress& progress) {
   Discontinuities result;
   result.sources.assign(sources.begin(), sources.end());
+  result.report.most_work = options.most_work;
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const double share =
         (options.most_work - result.report.work) / static_cast<double>(sources.size() - k);

@@ -9,8 +9,9 @@
 
 namespace halfshade {
 
-/// What a contact line, and the line in the emitter's plane, take, in work of seeing from a point.
-inline constexpr double contact_looks = 64, plane_looks = 8;
+/// What a contact line takes, and a limit of the view along the emitter's plane, in work of seeing
+/// from a point.
+inline constexpr double contact_looks = 64, plane_looks = 1;
 
 /// Work that it takes to see what a point sees of an emitter. It grows with how many faces lie
 /// behind each other, of which the lines that were traced tell, and with the edges among them.

@@ -15,7 +15,7 @@ namespace halfshade {
 namespace {
 
 /// Of the work that a tolerance is worth.
-constexpr double share_to_label = 0.5;
+constexpr double share_to_label = 0.06;
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
@@ -43,7 +43,7 @@ void find_curves(const PreparedScene& prepared, const MeshOptions& options,
     DiscontinuityOptions events = options.events;
     events.irradiance_tolerance = result.irradiance_tolerance;
     events.max_length = options.max_length;
-    events.most_work = affordable_work(options.tolerance);
+    if (!(events.most_work > 0)) events.most_work = affordable_work(options.tolerance);
     result.found =
         find_discontinuities(prepared.scene(), prepared.opaque(), sources, events, progress);
     return result.found.curves.size();

@@ -18,10 +18,10 @@ namespace {
 constexpr int places = 2000;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
-constexpr int few_places = 200;
+constexpr int few_places = 100;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
-constexpr double most_work = 1e7;
+constexpr double most_work = 5e7;
 
 struct Places {
   std::vector<SurfacePoint> points;

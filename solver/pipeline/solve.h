@@ -38,9 +38,10 @@ struct SolveResult {
   std::vector<Warning> warnings;
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
+  /// Estimated, of the irradiance in the L2 norm: of the mesh, of the solver's residual, and of
+  /// factors that are estimates.
   double relative_error = 0;
-  bool interrupted = false;  ///< stopped early: factors not reached count as zero
+  bool interrupted = false;  ///< stopped early; see compute_exchange for factors not reached
 };
 
 /// The main job: makes the scene sound, meshes it along its discontinuities, computes form factors,

@@ -33,16 +33,36 @@ std::optional<SolveMesh> try_mesh(const SoundScene& scene, const Discontinuities
   }
 }
 
-/// Every surface takes an element, and every contact line two sides of three.
-void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
+std::size_t count_contacts(const SoundScene& scene) {
   std::size_t contacts = 0;
   for (const Surface& surface : scene.surfaces) contacts += surface.contacts.size();
-  const std::size_t least = std::max(scene.surfaces.size(), 2 * contacts / 3);
-  if (least > static_cast<std::size_t>(options.max_elements))
-    throw Error(ErrorCode::too_large, "solve",
-                fmt::format("{} surfaces and {} contact lines take at least {} elements, more than "
-                            "{}; --max-elements allows more",
-                            scene.surfaces.size(), contacts, least, options.max_elements));
+  return contacts;
+}
+
+[[noreturn]] void refuse(const SoundScene& scene, const SolveOptions& options) {
+  throw Error(ErrorCode::too_large, "solve",
+              fmt::format("{} surfaces with {} contact lines take more than {} elements{}; "
+                          "--max-elements allows more",
+                          scene.surfaces.size(), count_contacts(scene), options.max_elements,
+                          options.max_length > 0
+                              ? fmt::format(" of at most {} in length", options.max_length)
+                              : ""));
+}
+
+/// Every surface takes an element, and every contact line two sides of three.
+void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
+  const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
+  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
+}
+
+ElementTable mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
+                          const SolveOptions& options, const Progress& progress) {
+  try {
+    return PatchMesh(scene, mesh_options, progress).elements();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    refuse(scene, options);
+  }
 }
 
 /// How the length and the tolerance come to suit the number of elements asked for. Works with the
@@ -116,13 +136,13 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
   mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
   mesh_options.max_length = first_length(scene, options);
   SolveMesh mesh;
-  mesh.elements = PatchMesh(scene, mesh_options, progress).elements();
+  mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
   if (options.max_length > 0 || progress.stopped()) return mesh;
   for (int k = 1; k < attempts; ++k) {
     const double excess = mesh.elements.count() / static_cast<double>(options.elements);
     if (std::abs(excess - 1) <= near_enough) break;
     mesh_options.max_length *= std::sqrt(excess);
-    mesh.elements = PatchMesh(scene, mesh_options, progress).elements();
+    mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
   }
   return mesh;
 }

@@ -2,7 +2,6 @@
 
 #include "meshing/core/plane_frame.h"
 #include "meshing/repair/repair_sentence.h"
-#include "solver/pipeline/plan.h"
 
 #include <fmt/format.h>
 
@@ -100,10 +99,14 @@ const char* name_of(Warning::Kind kind) {
       return "faces_changed";
     case Warning::Kind::curves_left_out:
       return "curves_left_out";
+    case Warning::Kind::contacts_left_out:
+      return "contacts_left_out";
     case Warning::Kind::tolerance_raised:
       return "tolerance_raised";
     case Warning::Kind::elements_exceeded:
       return "elements_exceeded";
+    case Warning::Kind::exchange_estimated:
+      return "exchange_estimated";
     case Warning::Kind::lost_by_factors:
       return "lost_by_factors";
   }
@@ -126,6 +129,14 @@ std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound
   return {{Warning::Kind::faces_changed, text}};
 }
 
+Warning contacts_warning(int max_elements) {
+  return {Warning::Kind::contacts_left_out,
+          fmt::format("elements do not follow the lines along which surfaces touch and cut through "
+                      "each other, for that takes more than {} of them: light gets smeared across "
+                      "there, and closed spaces may count as open; --max-elements allows more",
+                      max_elements)};
+}
+
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance) {
   std::vector<std::string> kinds;
   double work = 0;
@@ -141,7 +152,7 @@ std::vector<Warning> search_warnings(const DiscontinuityReport& report, double t
                    "edges would take about {:.2g} times the work that a tolerance of {:.2g} is "
                    "worth; --tolerance 0 finds all, --events names those to look for",
                    kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), report.silhouette_edges,
-                   work / affordable_work(tolerance), tolerance)}};
+                   (report.work + work) / report.most_work, tolerance)}};
 }
 
 std::vector<Warning> mesh_warnings(const MeshOutcome& outcome) {
@@ -167,6 +178,15 @@ std::vector<Warning> mesh_warnings(const MeshOutcome& outcome) {
                          : fmt::format("follows only curves above {:.2g}", outcome.tolerance),
                      outcome.asked_tolerance)});
   return warnings;
+}
+
+std::vector<Warning> exchange_warnings(const ExchangeReport& report) {
+  if (!(report.estimated_share > 0)) return {};
+  return {{Warning::Kind::exchange_estimated,
+           fmt::format("the form factors were interrupted: a few rays from each element stand for "
+                       "{:.2g} % of the exchange of light, and the estimated error says what that "
+                       "does",
+                       100 * report.estimated_share)}};
 }
 
 std::vector<Warning> light_warnings(const LightOutcome& outcome) {

@@ -15,14 +15,16 @@ namespace halfshade {
 /// What a user should know of before trusting a result that was computed.
 struct Warning {
   enum class Kind {
-    nothing_lit,        ///< no light reaches the front of any surface
-    light_escapes,      ///< nearly all light leaves the scene
-    dark_groups,        ///< some groups receive nothing
-    faces_changed,      ///< faces were dropped or moved, by more than rounding
-    curves_left_out,    ///< kinds of curves were not looked for: it would take too long
-    tolerance_raised,   ///< curves above the tolerance were left out of the mesh
-    elements_exceeded,  ///< the geometry takes more elements than asked for
-    lost_by_factors     ///< light gets lost in a closed space, for factors are off
+    nothing_lit,         ///< no light reaches the front of any surface
+    light_escapes,       ///< nearly all light leaves the scene
+    dark_groups,         ///< some groups receive nothing
+    faces_changed,       ///< faces were dropped or moved, by more than rounding
+    curves_left_out,     ///< kinds of curves were not looked for: it would take too long
+    contacts_left_out,   ///< elements do not follow contact lines: there are too many
+    tolerance_raised,    ///< curves above the tolerance were left out of the mesh
+    elements_exceeded,   ///< the geometry takes more elements than asked for
+    exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
+    lost_by_factors      ///< light gets lost in a closed space, for factors are off
   };
   Kind kind;
   std::string sentence;  ///< without a full stop
@@ -46,6 +48,9 @@ struct LightOutcome {
   const RadiosityReport& radiosity;
 };
 
+/// Of contact lines that would take more elements than allowed.
+Warning contacts_warning(int max_elements);
+
 /// Of curves that were not looked for; nothing if all were.
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance);
 
@@ -59,6 +64,9 @@ struct MeshOutcome {
 };
 
 std::vector<Warning> mesh_warnings(const MeshOutcome& outcome);
+
+/// Of factors that are estimates; nothing if none are.
+std::vector<Warning> exchange_warnings(const ExchangeReport& report);
 
 std::vector<Warning> light_warnings(const LightOutcome& outcome);
 

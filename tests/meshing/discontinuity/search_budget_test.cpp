@@ -1,12 +1,11 @@
 #include "meshing/discontinuity/search_budget.h"
 
 #include "meshing/repair/repair.h"
-#include "tests/support/scenes.h"
+#include "tests/support/triangle_soups.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 namespace halfshade {
 namespace {
@@ -41,23 +40,6 @@ TEST(SearchBudget, WhatIsSeenTakesMoreWorkBehindMoreFaces) {
   EXPECT_GT(look_work(many, 100000), 2 * look_work(many, 1000));
 }
 
-/// Triangles of random corners, the first of them a light.
-Scene soup(int count) {
-  Scene scene;
-  const int dark = test::add_material(scene, 0.5, 0), light = test::add_material(scene, 0, 1);
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> u(0, 1);
-  for (int k = 0; k < count; ++k) {
-    std::vector<Vec3> corners;
-    for (int c = 0; c < 3; ++c) {
-      const double x = u(random), y = u(random), z = u(random);
-      corners.push_back({x, y, z});
-    }
-    test::add_polygon(scene, corners, k == 0 ? light : dark);
-  }
-  return scene;
-}
-
 Discontinuities find(const SoundScene& scene, double most_work) {
   DiscontinuityOptions options;
   options.most_work = most_work;
@@ -65,7 +47,7 @@ Discontinuities find(const SoundScene& scene, double most_work) {
 }
 
 TEST(SearchBudget, LeavesOutKindsThatTakeTooMuchAndNothingElse) {
-  const SoundScene scene = make_sound(soup(12));
+  const SoundScene scene = make_sound(test::unit_soup(12, 5));
   const Discontinuities all = find(scene, 0), enough = find(scene, 1e12);
   ASSERT_GT(all.report.found[static_cast<std::size_t>(CurveKind::eee)], 0u);
   EXPECT_EQ(all.report.left_out, (std::array<double, 4>{}));

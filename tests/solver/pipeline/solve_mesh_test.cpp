@@ -9,6 +9,7 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
+#include "tests/support/triangle_soups.h"
 
 #include <gtest/gtest.h>
 
@@ -171,6 +172,11 @@ TEST(SolveWithLines, SecondarySourcesAddLines) {
   EXPECT_GT(solve(scene, options).curves, without);
 }
 
+bool has_warning(const SolveResult& result, Warning::Kind kind) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(),
+                     [&](const Warning& warning) { return warning.kind == kind; });
+}
+
 TEST(SolveWithLines, RefusesOptionsOutOfRange) {
   SolveOptions negative, none;
   negative.tolerance = -0.1;
@@ -183,9 +189,9 @@ TEST(SolveWithLines, RefusesOptionsOutOfRange) {
 TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
   Scene scene = slats(30);
   SolveOptions options;
-  options.max_elements = 31;
+  options.max_elements = 20;
   test::expect_error([&] { solve(scene, options); }, ErrorCode::too_large,
-                     {"32 surfaces", "--max-elements"});
+                     {"more than 20", "--max-elements"});
 }
 
 TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
@@ -194,9 +200,42 @@ TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
   const SolveResult result = solve(slats(8), options);
   EXPECT_LE(result.elements.count(),
             1.25 * make_solve_mesh(result.scene, options).elements.count());
-  std::vector<Warning::Kind> kinds;
-  for (const Warning& warning : result.warnings) kinds.push_back(warning.kind);
-  EXPECT_NE(std::find(kinds.begin(), kinds.end(), Warning::Kind::tolerance_raised), kinds.end());
+  EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised));
+}
+
+TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
+  const Scene soup = test::unit_soup(40, 2);
+  SolveOptions options;
+  options.elements = 400;
+  options.max_elements = 1000;
+  options.events.most_work = 300;
+  const SolveResult result = solve(soup, options);
+  EXPECT_TRUE(has_warning(result, Warning::Kind::contacts_left_out));
+  for (const Surface& surface : result.scene.surfaces) EXPECT_TRUE(surface.contacts.empty());
+  EXPECT_LE(result.elements.count(), 1000);
+  EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
+  options.max_elements = 30;
+  test::expect_error([&] { solve(soup, options); }, ErrorCode::too_large,
+                     {"40 surfaces", "--max-elements"});
+}
+
+TEST(SolveWithLines, SoupsAreSolvedAndSayWhatIsLeftOut) {
+  for (const Scene& scene : {test::unit_soup(15, 1), test::grid_soup(12, 3, 1)}) {
+    SolveOptions options;
+    options.elements = 500;
+    options.events.most_work = 300;
+    const SolveResult result = solve(scene, options);
+    EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
+    EXPECT_TRUE(result.solution.irradiance.allFinite());
+    EXPECT_GT(*std::max_element(result.discontinuities.left_out.begin(),
+                                result.discontinuities.left_out.end()),
+              0);
+    EXPECT_TRUE(has_warning(result, Warning::Kind::curves_left_out));
+    EXPECT_TRUE(has_warning(result, Warning::Kind::elements_exceeded) ||
+                result.elements.count() <= 1.25 * options.elements);
+    EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised) ||
+                result.discontinuity_tolerance <= options.tolerance);
+  }
 }
 
 }  // namespace

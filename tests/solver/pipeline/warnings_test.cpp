@@ -142,7 +142,8 @@ TEST(Solve, PlatesWithANarrowGapLoseLight) {
 TEST(Warnings, CurvesThatAreNotLookedFor) {
   DiscontinuityReport report;
   EXPECT_TRUE(search_warnings(report, 0.05).empty());
-  report.left_out[3] = 20 * affordable_work(0.05);
+  report.most_work = affordable_work(0.05);
+  report.left_out[3] = 20 * report.most_work;
   const std::vector<Warning> warnings = search_warnings(report, 0.05);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_STREQ(name_of(warnings[0].kind), "curves_left_out");

@@ -65,7 +65,8 @@ TEST_P(InterruptedSolve, IsAsBrightAsACompleteOne) {
   EXPECT_TRUE(part.interrupted);
   EXPECT_FALSE(part.exchange.complete);
   EXPECT_GT(part.exchange.estimated_share, 0);
-  EXPECT_LT(part.exchange.estimated_share, 1.1 - fraction);
+  // Rows shrink towards the last one, and those may be done first.
+  EXPECT_LT(part.exchange.estimated_share, 1.1 - fraction * fraction);
   EXPECT_TRUE(has_warning(part, Warning::Kind::exchange_estimated));
   EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
   // Nothing is left dark.

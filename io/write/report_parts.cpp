@@ -107,7 +107,8 @@ Json exchange_json(const ExchangeReport& report) {
           {"closure_error_max", report.closure_error_max},
           {"closure_error_rms", report.closure_error_rms},
           {"escaping_fraction", report.escaping_fraction},
-          {"complete", report.complete}};
+          {"complete", report.complete},
+          {"estimated_share", report.estimated_share}};
 }
 
 Json radiosity_json(const RadiosityReport& report) {
@@ -129,14 +130,19 @@ Json radiosity_json(const RadiosityReport& report) {
 }
 
 Json search_json(const DiscontinuityReport& report) {
-  Json found;
-  for (std::size_t k = 0; k < report.found.size(); ++k)
-    found[name_of(static_cast<CurveKind>(k))] = report.found[k];
+  Json found, left_out = Json::object();
+  for (std::size_t k = 0; k < report.found.size(); ++k) {
+    const char* const name = name_of(static_cast<CurveKind>(k));
+    found[name] = report.found[k];
+    if (report.left_out[k] > 0) left_out[name] = report.left_out[k];
+  }
   return {{"silhouette_edges", report.silhouette_edges},
           {"swaths", report.swaths},
           {"pieces", report.pieces},
           {"found", found},
           {"merged", report.merged},
+          {"work", report.work},
+          {"work_left_out", left_out},
           {"complete", !report.interrupted}};
 }
 

@@ -31,6 +31,20 @@ std::vector<int> first_of_each_place(std::span<const Vec2> points, double snap) 
   return first;
 }
 
+// Among points nearer to each other than links snap, a chain may turn back, and would double in
+// every round. What it runs to and fro in lies within the radius and is left out.
+std::vector<int> without_loops(const std::vector<int>& chain) {
+  std::vector<int> result;
+  for (const int p : chain) {
+    const auto known = std::find(result.begin(), result.end(), p);
+    if (known == result.end())
+      result.push_back(p);
+    else
+      result.erase(known + 1, result.end());
+  }
+  return result;
+}
+
 class Arranger {
  public:
   Arranger(std::vector<Vec2> points, std::span<const std::array<int, 2>> segments,
@@ -168,7 +182,7 @@ class Arranger {
         }
         longer.push_back(chain[k]);
       }
-      chain = std::move(longer);
+      if (longer.size() > chain.size()) chain = without_loops(longer);
     }
   }
 

@@ -4,12 +4,14 @@
 #include "meshing/discontinuity/border_events.h"
 #include "meshing/discontinuity/merge_curves.h"
 #include "meshing/discontinuity/predict_jump.h"
+#include "meshing/discontinuity/search_budget.h"
 #include "meshing/discontinuity/swath_tracer.h"
 #include "meshing/events/events.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace halfshade {
@@ -38,7 +40,8 @@ using PerThread = tbb::enumerable_thread_specific<Worker>;
 class Search {
  public:
   Search(const SoundScene& scene, const OpaqueScene& opaque, const LightSource& source,
-         const DiscontinuityOptions& options, const Progress& progress, DiscontinuityReport& report)
+         const DiscontinuityOptions& options, double most_work, const Progress& progress,
+         DiscontinuityReport& report)
       : scene_(scene),
         opaque_(opaque),
         emitter_scene_(scene, opaque, source.surface),
@@ -46,6 +49,7 @@ class Search {
         options_(options),
         progress_(progress),
         report_(report),
+        budget_(most_work, emitter_scene_.edges.size()),
         tracers_([this] {
           return SwathTracer(scene_, opaque_, emitter_scene_,
                              {options_.irradiance_tolerance / exitance_, options_.max_length});
@@ -53,28 +57,28 @@ class Search {
 
   Curves run() {
     report_.silhouette_edges += emitter_scene_.edges.size();
-    const auto edge_count = emitter_scene_.edges.size();
-    if (options_.ev) {
-      trace(edge_count, "vertex and edge",
-            [&](int e, const SwathSink& sink) { edge_swaths(emitter_scene_, e, sink); });
-      trace(emitter_scene_.vertices.size(), "edge and vertex",
-            [&](int v, const SwathSink& sink) { vertex_swaths(emitter_scene_, v, sink); });
-    }
+    if (options_.ev) find_vertex_events();
+    // They take little of ordinary scenes and matter most, so that they come before what may use up
+    // the work; by now it is known how much is seen from a point.
+    Curves on_borders = find_border_events();
+    const auto edges = static_cast<double>(emitter_scene_.edges.size());
+    const double for_each_face =
+        SearchBudget::of_swath * edges * edges / static_cast<double>(scene_.surfaces.size());
     if (options_.face)
-      trace(scene_.surfaces.size(), "planes of faces", [&](int r, const SwathSink& sink) {
-        if (r != emitter_scene_.emitter && !scene_.surfaces[at(r)].back)
-          face_swaths(scene_, emitter_scene_, opaque_, r, sink);
-      });
+      trace(CurveKind::face, {scene_.surfaces.size(), for_each_face, "planes of faces"},
+            [&](int r, const SwathSink& sink) {
+              if (r != emitter_scene_.emitter && !scene_.surfaces[at(r)].back)
+                face_swaths(scene_, emitter_scene_, opaque_, r, sink);
+            });
     if (options_.eee) find_triples();
-    for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
-      if (progress_.stopped()) break;
-      if (options_.face) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, curves_);
-      if (options_.contact) contact_curves(scene_, opaque_, emitter_scene_, r, curves_);
-    }
-    for (const SwathTracer& tracer : tracers_) {
-      report_.swaths += tracer.counts().swaths;
-      report_.pieces += tracer.counts().pieces;
-    }
+    append(std::move(on_borders), curves_);
+    const TraceCounts counts = counts_so_far();
+    report_.swaths += counts.swaths;
+    report_.pieces += counts.pieces;
+    report_.work += budget_.used();
+    report_.look_work = std::max(report_.look_work, look_work(counts, emitter_scene_.edges.size()));
+    for (std::size_t k = 0; k < report_.left_out.size(); ++k)
+      report_.left_out[k] += budget_.left_out()[k];
     for (const DiscontinuityCurve& curve : curves_)
       ++report_.found[static_cast<std::size_t>(curve.kind)];
     merge();
@@ -83,28 +87,30 @@ class Search {
   }
 
  private:
-  /// Traces the swaths of `count` generators, in parallel, and keeps the curves in their order.
-  template <class Generate>
-  void trace(std::size_t count, const char* name, const Generate& generate) {
-    std::vector<Curves> found(count);
-    parallel_for(
-        count,
-        [&](std::size_t i) {
-          SwathTracer& tracer = tracers_.local();
-          generate(static_cast<int>(i), [&](const Swath& swath) { tracer.trace(swath, found[i]); });
-        },
-        progress_, name);
-    for (Curves& curves : found) append(std::move(curves), curves_);
+  void find_vertex_events() {
+    const auto edges = emitter_scene_.edges.size(), vertices = emitter_scene_.vertices.size();
+    trace(CurveKind::ev,
+          {edges, SearchBudget::of_test * static_cast<double>(vertices), "vertex and edge"},
+          [&](int e, const SwathSink& sink) { edge_swaths(emitter_scene_, e, sink); });
+    trace(CurveKind::ev, {vertices, SearchBudget::of_test, "edge and vertex"},
+          [&](int v, const SwathSink& sink) { vertex_swaths(emitter_scene_, v, sink); });
   }
 
   void find_triples() {
     const std::size_t count = emitter_scene_.edges.size();
+    const double pairs = 0.5 * static_cast<double>(count) * static_cast<double>(count);
+    if (!budget_.allows(CurveKind::eee, pairs * SearchBudget::of_pair)) return;
     std::vector<std::vector<int>> later(count);
     parallel_for(
         count,
         [&](std::size_t e) { later[e] = later_partners(emitter_scene_, static_cast<int>(e)); },
         progress_, "pairs of edges");
-    trace(count, "three edges", [&](int a, const SwathSink& sink) {
+    double triples = 0;
+    for (const std::vector<int>& partners : later)
+      triples += std::pow(static_cast<double>(partners.size()), 2) / 3;
+    const double for_each =
+        SearchBudget::of_swath * triples / static_cast<double>(std::max<std::size_t>(count, 1));
+    trace(CurveKind::eee, {count, for_each, "three edges"}, [&](int a, const SwathSink& sink) {
       std::vector<int> common;
       for (const int b : later[at(a)]) {
         pair_swaths(emitter_scene_, a, b, sink);
@@ -114,6 +120,85 @@ class Search {
         for (const int c : common) triple_swath(emitter_scene_, a, b, c, sink);
       }
     });
+  }
+
+  Curves find_border_events() {
+    const double look = look_work(counts_so_far(), emitter_scene_.edges.size());
+    std::size_t contacts = 0;
+    for (const Surface& surface : scene_.surfaces) contacts += surface.contacts.size();
+    // In the emitter's plane each limit of its view is seen from each of its corners.
+    const double lines = static_cast<double>(scene_.surfaces.size()) *
+                         static_cast<double>(emitter_scene_.corners.size()) *
+                         static_cast<double>(emitter_scene_.outline.size());
+    const bool planes =
+        options_.face && budget_.allows(CurveKind::face, plane_looks * look * lines);
+    const bool touching =
+        options_.contact &&
+        budget_.allows(CurveKind::contact, contact_looks * look * static_cast<double>(contacts));
+    Curves found;
+    for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
+      if (progress_.stopped()) break;
+      if (planes) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, found);
+      if (touching) contact_curves(scene_, opaque_, emitter_scene_, r, found);
+    }
+    return found;
+  }
+
+  TraceCounts counts_so_far() const {
+    TraceCounts sum;
+    for (const SwathTracer& tracer : tracers_) sum += tracer.counts();
+    return sum;
+  }
+
+  /// What makes swaths, one job after the other.
+  struct Jobs {
+    std::size_t count;
+    double work;  ///< of each, before anything is traced
+    const char* name;
+  };
+
+  /// Traces the swaths of all jobs, in parallel, and keeps the curves in the jobs' order. Does so
+  /// with some of them first, and leaves the others out if all would take too much work.
+  template <class Generate>
+  void trace(CurveKind kind, const Jobs& jobs, const Generate& generate) {
+    std::vector<Curves> found(jobs.count);
+    std::vector<double> work(jobs.count, 0);
+    std::vector<char> is_done(jobs.count, 0);
+    const auto run = [&](std::size_t i, double most) {
+      SwathTracer& tracer = tracers_.local();
+      tracer.begin();
+      const TraceCounts before = tracer.counts();
+      is_done[i] = 1;
+      found[i].clear();
+      generate(static_cast<int>(i), [&](const Swath& swath) {
+        if (progress_.stopped()) return;
+        work[i] = budget_.work_of(tracer.counts() - before, found[i].size());
+        is_done[i] = is_done[i] && work[i] <= most;
+        if (is_done[i]) tracer.trace(swath, found[i]);
+      });
+      work[i] = budget_.work_of(tracer.counts() - before, found[i].size());
+    };
+    const double making = jobs.work * static_cast<double>(jobs.count);
+    if (!budget_.allows(kind, making)) return;
+    const std::vector<std::size_t> sample = budget_.sample(jobs.count);
+    const double most = budget_.most_for_one(jobs.count);
+    parallel_for(
+        sample.size(), [&](std::size_t k) { run(sample[k], most); }, progress_, jobs.name);
+    double tried = 0;
+    for (const std::size_t i : sample) tried += work[i];
+    const bool is_affordable =
+        sample.empty() || budget_.allows(kind, tried * static_cast<double>(jobs.count) /
+                                                   static_cast<double>(sample.size()));
+    if (!is_affordable) return budget_.use(tried + making);
+    parallel_for(
+        jobs.count,
+        [&](std::size_t i) {
+          if (!is_done[i]) run(i, HUGE_VAL);
+        },
+        progress_, jobs.name);
+    for (const double done : work) budget_.use(done);
+    budget_.use(making);
+    for (Curves& curves : found) append(std::move(curves), curves_);
   }
 
   /// Receiver by receiver, each with its own idea of what is the same.
@@ -152,6 +237,7 @@ class Search {
   const DiscontinuityOptions& options_;
   const Progress& progress_;
   DiscontinuityReport& report_;
+  SearchBudget budget_;
   PerThread<SwathTracer> tracers_;
   Curves curves_;
 };
@@ -164,8 +250,13 @@ Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene&
                                      const Progress& progress) {
   Discontinuities result;
   result.sources.assign(sources.begin(), sources.end());
-  for (const LightSource& source : sources) {
-    append(Search(scene, opaque, source, options, progress, result.report).run(), result.curves);
+  result.report.most_work = options.most_work;
+  for (std::size_t k = 0; k < sources.size(); ++k) {
+    const double share =
+        (options.most_work - result.report.work) / static_cast<double>(sources.size() - k);
+    const double most_work = options.most_work > 0 ? std::max(share, 1.) : HUGE_VAL;
+    append(Search(scene, opaque, sources[k], options, most_work, progress, result.report).run(),
+           result.curves);
   }
   sort_by_receiver(result.curves);
   result.report.interrupted = progress.stopped();

@@ -47,6 +47,9 @@ struct DiscontinuityOptions {
   /// less than this. 0: all are.
   double irradiance_tolerance = 0;
   double max_length = 0;  ///< of the elements to come, scene units; see element_size
+  /// Kinds that would take more work, as some of their lines of sight tell, are left out; about
+  /// 1.5 µs on one core, shared evenly by the sources. 0: no limit.
+  double most_work = 0;
 };
 
 /// How the curves came about.
@@ -55,6 +58,10 @@ struct DiscontinuityReport {
   std::size_t swaths = 0;              ///< one-parameter families of lines that could be events
   std::size_t pieces = 0;              ///< of swaths between critical lines, each decided exactly
   std::array<std::size_t, 4> found{};  ///< curves by kind, before merging
+  double most_work = 0;                ///< as DiscontinuityOptions has it
+  double work = 0;                     ///< done
+  double look_work = 0;                ///< of seeing what a point sees of a source
+  std::array<double, 4> left_out{};    ///< work that kinds would have taken, about; 0: none is
   std::size_t merged = 0;              ///< curves that lay on others
   bool interrupted = false;            ///< stopped early: curves are missing
 };

@@ -57,10 +57,16 @@ const std::vector<int>& SightCaster::cast(const SightLine& line) {
 
 void SightCaster::find_crossings(const SightLine& line) {
   crossings_.clear();
+  steps_ = 0;
   const RayBoxTest ray(line);
   walk_tree(
-      faces_, [&](int node) { return ray.misses(faces_.nodes[at(node)].box); },
+      faces_,
+      [&](int node) {
+        ++steps_;
+        return ray.misses(faces_.nodes[at(node)].box);
+      },
       [&](int t) {
+        ++steps_;
         // Seen from the last feature, near which it is decided what blocks and what receives.
         const auto& corner = opaque_.triangles[at(t)].corner;
         const Vec3 a = opaque_.vertices[at(corner[0])] - line.last;

@@ -21,6 +21,11 @@ class SightCaster {
   /// boxes the line meets.
   const std::vector<int>& cast(const SightLine& line);
 
+  /// How many faces the last line meets, after its last feature.
+  std::size_t crossing_count() const { return crossings_.size(); }
+  /// How many boxes and faces were looked at for it.
+  std::size_t step_count() const { return steps_; }
+
  private:
   struct Crossing {
     double distance;  ///< along the line, from its last feature
@@ -39,6 +44,7 @@ class SightCaster {
   std::vector<std::vector<int>> backs_;  ///< plane → surfaces that are backs
   std::vector<Crossing> crossings_;
   std::vector<int> reached_;
+  std::size_t steps_ = 0;
 };
 
 }  // namespace halfshade

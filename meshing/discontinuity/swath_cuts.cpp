@@ -67,18 +67,24 @@ void SwathCuts::add_grazing(const Swath& swath, std::vector<double>& parameters)
     for (const int e : emitter_scene_.vertices[at(swath.corner)].edges) add(e);
 }
 
-void SwathCuts::between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
+std::size_t SwathCuts::between(const Swath& swath, double t0, double t1,
+                               std::vector<double>& cuts) const {
   cuts.assign({t0, t1});
   const int parts = static_cast<int>(std::ceil(parts_per_swath * (t1 - t0)));
+  std::size_t steps = 0;
   for (int k = 0; k < parts; ++k)
-    add_met(swath, t0 + k * (t1 - t0) / parts, t0 + (k + 1) * (t1 - t0) / parts, cuts);
+    steps += add_met(swath, t0 + k * (t1 - t0) / parts, t0 + (k + 1) * (t1 - t0) / parts, cuts);
   std::sort(cuts.begin(), cuts.end());
+  return steps;
 }
 
-void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const {
+std::size_t SwathCuts::add_met(const Swath& swath, double t0, double t1,
+                               std::vector<double>& cuts) const {
   const SwathBounds bounds = bounds_of(swath, t0, t1);
   const double slack = box_slack(swath);
+  std::size_t steps = 0;
   const auto is_missed = [&](const Bounds& box) {
+    ++steps;
     return emitter_scene_.frame.normal.dot(0.5 * (box.low + box.high) -
                                            emitter_scene_.frame.origin) <
                -emitter_scene_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
@@ -86,6 +92,7 @@ void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<do
   };
   std::vector<double> found;
   const auto consider = [&](const Span3& span, double joined) {
+    ++steps;
     if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to),
                      std::max(slack, joined)))
       critical_parameters(swath, span, joined, found);
@@ -105,6 +112,7 @@ void SwathCuts::add_met(const Swath& swath, double t0, double t1, std::vector<do
   walk(contact_tree_, [&](int c) { consider(contacts_[at(c)].span, contacts_[at(c)].joined); });
   for (const double t : found)
     if (t >= t0 && t <= t1) cuts.push_back(t);
+  return steps;
 }
 
 }  // namespace halfshade

@@ -20,12 +20,13 @@ class SwathCuts {
 
   /// Where the lines between two neighbouring limits t0 < t1 meet the edges of the scene and the
   /// lines in which surfaces cut each other; t0 and t1 among them. Sorted; may repeat. Perhaps some
-  /// at which nothing is met. Costs a walk through the trees of edges, a few times.
-  void between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
+  /// at which nothing is met. Costs a walk through the trees of edges, a few times; returns of how
+  /// many steps.
+  std::size_t between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
 
  private:
   void add_grazing(const Swath& swath, std::vector<double>& parameters) const;
-  void add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
+  std::size_t add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
 
   const OpaqueTopology& opaque_;
   const SilhouetteTrees& silhouette_trees_;

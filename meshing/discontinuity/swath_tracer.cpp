@@ -6,6 +6,20 @@
 
 namespace halfshade {
 
+TraceCounts operator-(const TraceCounts& a, const TraceCounts& b) {
+  return {a.swaths - b.swaths, a.pieces - b.pieces, a.decisions - b.decisions, a.steps - b.steps,
+          a.crossings - b.crossings};
+}
+
+TraceCounts& operator+=(TraceCounts& a, const TraceCounts& b) {
+  a.swaths += b.swaths;
+  a.pieces += b.pieces;
+  a.decisions += b.decisions;
+  a.steps += b.steps;
+  a.crossings += b.crossings;
+  return a;
+}
+
 SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
                          const EmitterScene& emitter_scene, const TraceLimits& limits)
     : scene_(scene),
@@ -17,6 +31,7 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
 
 void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
   ++counts_.swaths;
+  counts_.steps += emitter_scene_.outline.size();
   pieces_.clear();
   const std::vector<double> limits = cuts_.limits(swath);
   for (std::size_t i = 1; i < limits.size(); ++i) {
@@ -24,7 +39,7 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     if (!(t1 > t0)) continue;
     const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
     if (!line || !may_be_event(emitter_scene_, swath, *line)) continue;
-    cuts_.between(swath, t0, t1, parameters_);
+    counts_.steps += cuts_.between(swath, t0, t1, parameters_);
     for (std::size_t k = 1; k < parameters_.size(); ++k)
       if (parameters_[k] > parameters_[k - 1])
         trace_piece(swath, parameters_[k - 1], parameters_[k]);
@@ -36,7 +51,10 @@ void SwathTracer::trace_piece(const Swath& swath, double t0, double t1) {
   const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
   if (!line) return;
   ++counts_.pieces;
-  for (const int receiver : caster_.cast(*line)) try_receiver(swath, *line, receiver, t0, t1);
+  const std::vector<int>& receivers = caster_.cast(*line);
+  counts_.steps += caster_.step_count();
+  counts_.crossings += caster_.crossing_count();
+  for (const int receiver : receivers) try_receiver(swath, *line, receiver, t0, t1);
 }
 
 void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0,
@@ -57,6 +75,7 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
   const Vec3 left = target.frame.normal.cross(middle->tangent).normalized();
   const ReceivingPoint place = {middle->point, target.frame.normal, left};
   if (!culling_.may_matter(swath, line, receiver, place)) return;
+  ++counts_.decisions;
   EventEvidence evidence = decider_.decide(place, step, swath.group);
   if (!evidence.differs) return;
   if (swath.source.kind == CurveKind::face) known_.add(receiver, span);

@@ -17,7 +17,13 @@ namespace halfshade {
 struct TraceCounts {
   std::size_t swaths = 0;
   std::size_t pieces = 0;
+  std::size_t decisions = 0;  ///< pieces whose sides were looked at
+  std::size_t steps = 0;      ///< boxes, edges and faces looked at
+  std::size_t crossings = 0;  ///< faces met by lines of sight
 };
+
+TraceCounts operator-(const TraceCounts& a, const TraceCounts& b);
+TraceCounts& operator+=(TraceCounts& a, const TraceCounts& b);
 
 /// Follows swaths of lines to the surfaces they end on and finds the pieces of curve they make
 /// there. A swath is cut wherever its line meets an edge of the scene; between two such lines
@@ -29,6 +35,9 @@ class SwathTracer {
   /// All must outlive the tracer.
   SwathTracer(const SoundScene& scene, const OpaqueScene& opaque, const EmitterScene& emitter_scene,
               const TraceLimits& limits = {});
+
+  /// Forgets what earlier swaths made: what is traced next depends on nothing before.
+  void begin() { known_ = {}; }
 
   /// Appends the pieces of curve that a swath makes.
   void trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves);

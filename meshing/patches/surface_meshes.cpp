@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 
@@ -25,16 +26,11 @@ CurveMesh coarse_mesh(const Outline& outline) {
   return result;
 }
 
-void check_count(std::span<const CurveMesh> meshes, std::size_t allowed) {
-  std::size_t count = 0;
-  for (std::size_t r = 0; r < meshes.size(); ++r) {
-    count += meshes[r].mesh.triangles.size();
-    if (count > allowed)
-      throw Error(ErrorCode::too_large, "PatchMesh",
-                  fmt::format("more than {} elements are needed; surface {} of {} takes the count "
-                              "to {}",
-                              allowed, r + 1, meshes.size(), count));
-  }
+void check_count(std::size_t count, std::size_t surfaces, std::size_t allowed) {
+  if (count > allowed)
+    throw Error(ErrorCode::too_large, "PatchMesh",
+                fmt::format("the {} surfaces take more than the {} elements that are allowed",
+                            surfaces, allowed));
 }
 
 }  // namespace
@@ -61,10 +57,15 @@ SurfaceMeshes mesh_surfaces(const SurfaceMeshInput& input, SharedEdges& shared,
   SurfaceMeshes result;
   std::vector<CurveMesh>& meshes = result.meshes;
   meshes.resize(count);
+  std::atomic<std::size_t> triangles{0};
   const auto mesh = [&](int r) {
+    // What is too large need not be finished: refinement only ever adds triangles.
+    if (triangles > max_triangles) return;
+    triangles -= meshes[at(r)].mesh.triangles.size();
     const Outline outline = shared.outline(r);
     meshes[at(r)] = mesh_with_curves(outline.rings, outline.contacts, input.curves[at(r)],
                                      input.options[at(r)]);
+    triangles += meshes[at(r)].mesh.triangles.size();
   };
   std::vector<int> open(count);
   std::iota(open.begin(), open.end(), 0);
@@ -72,13 +73,16 @@ SurfaceMeshes mesh_surfaces(const SurfaceMeshInput& input, SharedEdges& shared,
     ++result.rounds;
     const bool is_complete = parallel_for(
         open.size(), [&](std::size_t i) { mesh(open[i]); }, progress, "mesh");
+    check_count(triangles, count, max_triangles);
     if (!is_complete || result.rounds == most_rounds) break;
     open = shared.compare(meshes);
   }
   for (std::size_t r = 0; r < count; ++r)
     if (meshes[r].mesh.triangles.empty())
       meshes[r] = coarse_mesh(shared.outline(static_cast<int>(r)));
-  check_count(meshes, max_triangles);
+  std::size_t made = 0;
+  for (const CurveMesh& mesh : meshes) made += mesh.mesh.triangles.size();
+  check_count(made, count, max_triangles);
   return result;
 }
 

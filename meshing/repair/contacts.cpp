@@ -1,9 +1,12 @@
 #include "meshing/repair/contacts.h"
 
 #include "meshing/arrangement/arrangement.h"
+#include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 #include "meshing/geometry/flat_tree.h"
 #include "meshing/repair/intersections.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +15,9 @@
 
 namespace halfshade {
 namespace {
+
+/// Of lines in one surface that may cross: a minute or so.
+constexpr double most_pairs = 4e7;
 
 std::vector<Link> links_of(const std::vector<std::vector<int>>& rings) {
   std::vector<Link> links;
@@ -167,6 +173,17 @@ std::vector<SurfaceEdge> edges_in_plane(const SurfaceDraft& draft,
   return result;
 }
 
+/// Lines in one surface cross each other, so that the pieces grow with the square of their number.
+void require_few_crossings(const std::vector<std::vector<std::array<int, 2>>>& cuts) {
+  double pairs = 0;
+  for (const auto& lines : cuts) pairs += std::pow(static_cast<double>(lines.size()), 2) / 2;
+  if (pairs > most_pairs)
+    throw Error(ErrorCode::too_large, "find_contacts",
+                fmt::format("the {} surfaces cut through each other so often that {:.2g} pairs of "
+                            "the lines may cross in them",
+                            cuts.size(), pairs));
+}
+
 }  // namespace
 
 void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
@@ -176,6 +193,7 @@ void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points)
     for (const int p : edges[i].link) boxes[i].include(points[at(p)]);
   const FlatTree tree = make_flat_tree(boxes, 1);
   const auto cuts = find_intersections(drafts, points);
+  require_few_crossings(cuts);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     std::vector<SurfaceEdge> lines = edges_in_plane(drafts[i], edges, tree, points);
     for (const Link& cut : cuts[i]) lines.push_back({cut, drafts[i].scale});

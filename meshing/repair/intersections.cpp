@@ -1,6 +1,9 @@
 #include "meshing/repair/intersections.h"
 
+#include "meshing/core/error.h"
 #include "meshing/geometry/flat_tree.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +15,9 @@ using Stretch = std::array<double, 2>;
 
 // The sine of the angle between planes below which they have no common line worth speaking of.
 constexpr double parallel = 1e-9;
+
+// What takes some seconds to find, and far longer to make use of.
+constexpr std::size_t most_lines = 2'000'000;
 
 bool lies_on_both_sides(const SurfaceDraft& draft, const PlaneFrame& plane,
                         const std::vector<Vec3>& points, double slack) {
@@ -51,6 +57,7 @@ Bounds box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
 
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
     const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
+  const std::size_t point_count = points.size();
   std::vector<Bounds> boxes;
   for (const SurfaceDraft& draft : drafts) boxes.push_back(box_of(draft, points));
   const FlatTree tree = make_flat_tree(boxes, 1);
@@ -69,6 +76,10 @@ std::vector<std::vector<std::array<int, 2>>> find_intersections(
           !lies_on_both_sides(a, b.frame, points, tolerance.planarity) ||
           !lies_on_both_sides(b, a.frame, points, tolerance.planarity))
         continue;
+      if (points.size() > 2 * most_lines + point_count)
+        throw Error(ErrorCode::too_large, "find_intersections",
+                    fmt::format("the {} surfaces cut through each other along more than {} lines",
+                                drafts.size(), most_lines));
       const Vec3 along = line.normalized();
       // The point of both planes nearest to the origin of the first.
       const Vec3 down = along.cross(a.frame.normal);

@@ -9,6 +9,7 @@ namespace halfshade {
 
 /// For each surface the straight pieces along which others cut through it, as pairs of points,
 /// which are added. What only touches, within the planarity tolerance of the two, does not cut.
+/// Throws Error(too_large) where there are millions of them.
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
     const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points);
 

@@ -72,13 +72,15 @@ class PlaneGrower {
     std::vector<int> near;
     for (std::size_t k = 0; k < members.size(); ++k) {
       near.clear();
-      visit_overlaps(tree_, polygons_[members[k]].box, [&](int i) { near.push_back(i); });
+      visit_overlaps(tree_, polygons_[members[k]].box, [&](int i) {
+        if (is_free_[at(i)] && fits(seed, at(i), extrapolate ? extent : HUGE_VAL))
+          near.push_back(i);
+      });
       std::sort(near.begin(), near.end());
-      for (const int i : near)
-        if (is_free_[at(i)] && fits(seed, at(i), extrapolate ? extent : HUGE_VAL)) {
-          is_free_[at(i)] = false;
-          members.push_back(at(i));
-        }
+      for (const int i : near) {
+        is_free_[at(i)] = false;
+        members.push_back(at(i));
+      }
     }
     return members;
   }

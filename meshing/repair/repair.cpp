@@ -139,7 +139,7 @@ Surface finish(SurfaceDraft&& draft, const std::vector<Vec3>& points) {
 
 }  // namespace
 
-SoundScene make_sound(const Scene& scene) {
+SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   SoundScene sound;
   sound.materials = scene.materials;
   sound.groups = scene.groups;
@@ -151,7 +151,7 @@ SoundScene make_sound(const Scene& scene) {
   if (drafts.empty())
     throw Error(ErrorCode::invalid_input, scene.source,
                 fmt::format("none of its {} faces has an area", scene.faces.size()));
-  find_contacts(drafts, vertices.points);
+  if (options.contacts) find_contacts(drafts, vertices.points);
   for (SurfaceDraft& draft : drafts)
     sound.surfaces.push_back(finish(std::move(draft), vertices.points));
   return sound;

@@ -4,6 +4,10 @@
 
 namespace halfshade {
 
+struct RepairOptions {
+  bool contacts = true;  ///< false: none are looked for, so that meshes do not follow them
+};
+
 /// Turns a valid scene into sound surfaces:
 /// * vertices closer than the tolerance are welded; faces without area and repeated faces are
 /// dropped (of
@@ -18,7 +22,8 @@ namespace halfshade {
 /// lines along which others cut through it;
 /// * two-sided faces become two surfaces.
 /// Throws Error(invalid_input) if nothing with an area is left, or if a polygon crosses itself so
-/// that it has no sound interior. Deterministic.
-SoundScene make_sound(const Scene& scene);
+/// that it has no sound interior; Error(too_large) if surfaces cut through each other along more
+/// lines than can be followed. Deterministic.
+SoundScene make_sound(const Scene& scene, const RepairOptions& options = {});
 
 }  // namespace halfshade

@@ -98,6 +98,7 @@ class Assembly {
         pairs_(scene, visibility, progress),
         run_end_(shapes_.size()),
         upper_(shapes_.size()),
+        is_missing_(shapes_.size(), 1),
         effort_(shapes_.size(), 1) {
     for (std::size_t e = run_end_.size(); e-- > 0;) {
       const bool last = e + 1 == run_end_.size() || elements.surface[e] != elements.surface[e + 1];
@@ -114,6 +115,7 @@ class Assembly {
   }
 
   std::size_t rays() const { return rays_; }
+  const std::vector<char>& is_missing() const { return is_missing_; }
 
   /// Rows that took more rays than others.
   std::size_t refined() const {
@@ -224,6 +226,7 @@ class Assembly {
     std::merge(kept.begin(), kept.end(), row.begin(), row.end(), std::back_inserter(all),
                [](const Factor& p, const Factor& q) { return p.column < q.column; });
     row = std::move(all);
+    is_missing_[at(i)] = 0;
     rays_ += rays;
   }
 
@@ -236,7 +239,8 @@ class Assembly {
   SurfacePairs pairs_;
   std::vector<int> run_end_;  ///< element → end of the run of elements of its surface
   std::vector<std::vector<Factor>> upper_;
-  std::vector<int> effort_;  ///< element → times as many rays
+  std::vector<char> is_missing_;  ///< row of upper_ → not reached
+  std::vector<int> effort_;       ///< element → times as many rays
   std::atomic<std::size_t> rays_ = 0;
 };
 
@@ -251,6 +255,7 @@ AssembledFactors assemble_factors(const SoundScene& scene, const ElementTable& e
   result.rays = assembly.rays();
   result.refined_rows = assembly.refined();
   result.matrix = assembly.matrix();
+  result.is_missing = assembly.is_missing();
   return result;
 }
 

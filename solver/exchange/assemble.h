@@ -5,6 +5,7 @@
 #include "solver/exchange/exchange.h"
 
 #include <cstddef>
+#include <vector>
 
 namespace halfshade {
 
@@ -13,6 +14,7 @@ struct AssembledFactors {
   std::size_t rays = 0;
   std::size_t refined_rows = 0;  ///< that took more rays, for their sums were off
   bool complete = true;          ///< false if stopped
+  std::vector<char> is_missing;  ///< row → its part right of the diagonal was not reached
 };
 
 /// The matrix of compute_exchange before closure is enforced.

@@ -4,6 +4,7 @@
 #include "solver/exchange/assemble.h"
 #include "solver/exchange/cells.h"
 #include "solver/exchange/enclosures.h"
+#include "solver/exchange/estimated_factors.h"
 #include "solver/exchange/scaled_operator.h"
 
 #include <fmt/format.h>
@@ -21,6 +22,8 @@ namespace {
 constexpr double memory_share = 0.7;
 /// Rows that are off by more than this are not put right by scaling: light was lost on the way.
 constexpr double far_off = 0.03;
+/// Estimated rows may be off by so many standard deviations more.
+constexpr double most_deviations = 6;
 /// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
 constexpr double bytes_per_factor = 20;
 
@@ -69,15 +72,24 @@ void report_closure(Exchange& exchange) {
   if (lit_area > 0) report.escaping_fraction /= lit_area;
 }
 
+/// Variance of the share of its light that a row's estimated factors account for.
+Eigen::ArrayXd variance_of_rows(const Exchange& exchange) {
+  if (exchange.variance.nonZeros() == 0) return Eigen::ArrayXd::Zero(exchange.area.size());
+  return multiply(exchange.variance, Eigen::VectorXd::Ones(exchange.area.size())).array() /
+         exchange.area.square();
+}
+
 /// Which rows are to sum to one. Leaves out what scaling would only hide.
 std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
   const Enclosures& enclosures = exchange.enclosures;
   const Eigen::ArrayXd sees =
       multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
+  const Eigen::ArrayXd variance = variance_of_rows(exchange);
   std::vector<bool> is_off(enclosures.closed.size());
   for (std::size_t e = 0; e < enclosures.of_element.size(); ++e) {
     const auto row = static_cast<Eigen::Index>(e);
-    if (sees[row] > 0 && std::abs(sees[row] / exchange.area[row] - 1) > far_off)
+    if (sees[row] > 0 && std::abs(sees[row] / exchange.area[row] - 1) >
+                             far_off + most_deviations * std::sqrt(variance[row]))
       is_off[at(enclosures.of_element[e])] = true;
   }
   for (std::size_t k = 0; k < is_off.size(); ++k)
@@ -91,10 +103,10 @@ std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
   return rows;
 }
 
-void close(Exchange& exchange, Closure closure) {
+void close(Exchange& exchange, Closure closure, bool has_all_rows) {
   const std::vector<bool> rows = closed_rows(exchange, closure);
   ExchangeReport& report = exchange.report;
-  if (report.complete && std::find(rows.begin(), rows.end(), true) != rows.end())
+  if (has_all_rows && std::find(rows.begin(), rows.end(), true) != rows.end())
     report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
   exchange.lost = exchange.area -
                   multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
@@ -104,6 +116,15 @@ void close(Exchange& exchange, Closure closure) {
     if (rows[e] && exchange.lost[static_cast<Eigen::Index>(e)] <
                        far_off * exchange.area[static_cast<Eigen::Index>(e)])
       exchange.lost[static_cast<Eigen::Index>(e)] = 0;
+}
+
+void add_estimates(EstimatedFactors estimates, Exchange& exchange) {
+  const double known = exchange.matrix.sum(), estimated = estimates.matrix.sum();
+  if (estimated > 0) exchange.report.estimated_share = estimated / (known + estimated);
+  exchange.report.rays += estimates.rays;
+  ExchangeMatrix all = exchange.matrix + estimates.matrix;
+  exchange.matrix.swap(all);
+  exchange.variance.swap(estimates.variance);
 }
 
 }  // namespace
@@ -120,16 +141,22 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
                                                    static_cast<Eigen::Index>(elements.area.size()));
   const SpaceCells cells = find_cells(scene, elements);
+  const bool was_stopped = progress.stopped();
   AssembledFactors factors =
       assemble_factors(scene, elements, cells, visibility, options, progress);
   exchange.report.complete = factors.complete;
   exchange.report.rays = factors.rays;
   exchange.report.refined_rows = factors.refined_rows;
   exchange.matrix.swap(factors.matrix);
+  const bool is_cut_short = std::find(factors.is_missing.begin(), factors.is_missing.end(), 1) !=
+                            factors.is_missing.end();
+  if (is_cut_short && !was_stopped)
+    add_estimates(estimate_factors(scene, elements, cells, visibility, factors.is_missing),
+                  exchange);
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
   exchange.enclosures = find_enclosures(scene, elements, cells, exchange.matrix);
   report_closure(exchange);
-  close(exchange, options.closure);
+  close(exchange, options.closure, !(is_cut_short && was_stopped));
   return exchange;
 }
 

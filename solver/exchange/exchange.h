@@ -42,6 +42,9 @@ struct ExchangeReport {
   double closure_error_rms = 0;  ///< the same, root of the area-weighted mean square
   double escaping_fraction = 0;  ///< area-weighted mean of 1 − Σ_j F(i,j) over lit enclosures
   bool complete = true;          ///< false if interrupted
+  /// Of the exchange of light, Σ A_i F(i,j) of pairs that an interrupt left to rays, see
+  /// estimate_factors; 0 if complete.
+  double estimated_share = 0;
 };
 
 /// The groups of elements that exchange light with each other.
@@ -62,7 +65,8 @@ struct Enclosures {
 
 struct Exchange {
   ExchangeMatrix matrix;
-  Eigen::ArrayXd area;  ///< A_i
+  ExchangeMatrix variance;  ///< of entries that are estimates; empty if none are
+  Eigen::ArrayXd area;      ///< A_i
   /// A_i times the share of what leaves i that meets nothing; exactly 0 where closure is enforced.
   /// Errors of factors may make it negative.
   Eigen::ArrayXd lost;
@@ -73,9 +77,9 @@ struct Exchange {
 /// Computes A_i F(i,j) for all pairs of elements, each pair once, so that reciprocity holds by
 /// construction, and none for elements in different cells of space. Rows of closed enclosures that
 /// are off get more rays, and are only scaled once they are near; see enforce_closure. Throws
-/// Error(too_large) if the matrix would not fit into the machine's memory. If
-/// stopped, rows not yet reached stay empty. Cost: n²/2 factors for n elements; 12 bytes a
-/// non-zero.
+/// Error(too_large) if the matrix would not fit into the machine's memory. If stopped on the way,
+/// rows not yet reached are estimated; if stopped before, they stay empty. Cost: n²/2 factors for n
+/// elements; 12 bytes a non-zero.
 Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options = {},
                           const Progress& progress = {});

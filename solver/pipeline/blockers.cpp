@@ -7,6 +7,9 @@
 namespace halfshade {
 namespace {
 
+/// Of bodies that are looked at: it takes the square of it.
+constexpr std::size_t most_faces_of_body = 1000;
+
 std::vector<Vec3> outline(const Surface& surface) {
   std::vector<Vec3> corners;
   for (const Vec2& p : surface.rings.front()) corners.push_back(surface.frame.to_space(p));
@@ -63,6 +66,7 @@ bool is_one_convex_body(const SoundScene& scene, const std::vector<int>& surface
   };
   if (!std::all_of(surfaces.begin(), surfaces.end(), is_convex)) return false;
   if (surfaces.size() <= 1) return true;
+  if (surfaces.size() > most_faces_of_body) return false;
   for (const int r : surfaces) {
     const std::vector<Vec3> corners = outline(scene.surfaces[at(r)]);
     for (std::size_t k = 0; k < corners.size(); ++k)

@@ -116,6 +116,10 @@ class DirectFieldSearch {
     events.eee = events.eee && plan_.no_eee.empty();
     events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
     events.max_length = length_of(scene(), options_);
+    if (options_.force.discontinuities)
+      events.most_work = 0;
+    else if (!(events.most_work > 0))
+      events.most_work = affordable_work(options_.tolerance);
     Discontinuities curves;
     stages_.run("discontinuities", [&] {
       curves = find_discontinuities(scene(), prepared_.opaque(), plan_.sources, events, progress_);
@@ -134,6 +138,7 @@ class DirectFieldSearch {
       return static_cast<std::size_t>(found_.patches->element_count());
     });
     found_.discontinuities = curves.report;
+    add(search_warnings(curves.report, options_.tolerance), found_.warnings);
     found_.curves = curves.curves.size();
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
     fit_on_patches(field_options(options_));

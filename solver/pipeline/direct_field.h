@@ -20,6 +20,7 @@ struct DirectField {
   std::size_t curves = 0;              ///< found, after merging
   DiscontinuityMeshReport mesh;        ///< how many of them elements have edges along
   double discontinuity_tolerance = 0;  ///< share of the mean irradiance; 0 without curves
+  std::vector<Warning> warnings;
 };
 
 /// Exact direct light as polynomials, to options.tolerance in the L2 norm if elements are refined.

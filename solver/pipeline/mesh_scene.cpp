@@ -8,10 +8,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
+
+/// Of the work that a tolerance is worth.
+constexpr double share_to_label = 0.06;
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
@@ -39,21 +43,41 @@ void find_curves(const PreparedScene& prepared, const MeshOptions& options,
     DiscontinuityOptions events = options.events;
     events.irradiance_tolerance = result.irradiance_tolerance;
     events.max_length = options.max_length;
+    if (!(events.most_work > 0)) events.most_work = affordable_work(options.tolerance);
     result.found =
         find_discontinuities(prepared.scene(), prepared.opaque(), sources, events, progress);
     return result.found.curves.size();
   });
 }
 
+/// Refuses what would take too long to label.
+DiscontinuityMesh make_mesh(const PreparedScene& prepared, const MeshOptions& options,
+                            const Progress& progress, const MeshResult& result) {
+  DiscontinuityMeshOptions mesh_options;
+  mesh_options.max_length = options.max_length;
+  mesh_options.irradiance_tolerance = result.irradiance_tolerance;
+  const double for_one =
+      result.found.report.look_work * static_cast<double>(result.found.sources.size() + 1);
+  const double most = share_to_label * affordable_work(options.tolerance) / std::max(for_one, 1.);
+  if (most > 0 && most < static_cast<double>(mesh_options.max_triangles))
+    mesh_options.max_triangles = static_cast<std::size_t>(std::max(most, 1.));
+  try {
+    return mesh_discontinuities(prepared.scene(), result.found, mesh_options, progress);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large || !(most > 0)) throw;
+    throw Error(ErrorCode::too_large, "mesh_scene",
+                fmt::format("the {} surfaces with their contact lines and curves take more than {} "
+                            "elements, which is all that can be labelled in the time that a "
+                            "tolerance is worth; --tolerance 0 takes all the time there is",
+                            prepared.scene().surfaces.size(), mesh_options.max_triangles));
+  }
+}
+
 /// Meshes and labels what was found.
 void make_elements(const PreparedScene& prepared, const MeshOptions& options,
                    const Progress& progress, Stages& stages, MeshResult& result) {
   stages.run("mesh", [&] {
-    DiscontinuityMeshOptions mesh_options;
-    mesh_options.max_length = options.max_length;
-    mesh_options.irradiance_tolerance = result.irradiance_tolerance;
-    const DiscontinuityMesh mesh =
-        mesh_discontinuities(prepared.scene(), result.found, mesh_options, progress);
+    const DiscontinuityMesh mesh = make_mesh(prepared, options, progress, result);
     result.mesh = mesh.report;
     result.elements = mesh.patches.elements();
     return result.elements.corners.size();
@@ -81,6 +105,7 @@ MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,
   auto result = begin_result<MeshResult>(prepared);
   Stages stages(result.stages);
   find_curves(prepared, options, progress, stages, result);
+  add(search_warnings(result.found.report, options.tolerance), result.warnings);
   if (options.with_elements) make_elements(prepared, options, progress, stages, result);
   stages.leave_out_if(!options.with_elements, "mesh", "only the curves were asked for");
   result.interrupted = progress.stopped();

@@ -1,17 +1,74 @@
 #include "solver/pipeline/plan.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
+#include "meshing/triangulation/ring_triangles.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/sources.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace halfshade {
 namespace {
 
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
+/// Where so many lines draw elements of their own, few places must do, for each sees much.
+constexpr std::size_t many_lines = 4000;
+constexpr int few_places = 100;
+
+/// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
+constexpr double most_work = 5e7;
+
+struct Places {
+  std::vector<SurfacePoint> points;
+  std::vector<double> area;  ///< that each stands for
+};
+
+bool has_many_lines(const SoundScene& scene) {
+  std::size_t lines = scene.surfaces.size();
+  for (const Surface& surface : scene.surfaces) lines += surface.contacts.size();
+  return lines > many_lines;
+}
+
+Places mesh_places(const SoundScene& scene, const Progress& progress) {
+  PlanarMeshOptions coarse;
+  coarse.max_length = length_for_count(scene, places);
+  ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
+  return {element_centres(elements), std::move(elements.area)};
+}
+
+/// The fractional part of k times the golden ratio, or of k times the square root of two: evenly
+/// spread for any number of k.
+double spread(int k, double ratio) { return std::fmod(k * ratio, 1.); }
+
+/// As many places for equal areas, whatever the lines between them.
+Places spread_places(const SoundScene& scene) {
+  Places result;
+  double all = 0;
+  for (const Surface& surface : scene.surfaces) all += area(surface);
+  const double each = all / few_places;
+  double passed = 0;
+  for (const Surface& surface : scene.surfaces) {
+    std::vector<Vec2> corners;
+    for (const Ring& ring : surface.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+    for (const auto& [i, j, k] : ring_triangles(surface.rings)) {
+      const Vec2 &a = corners[at(i)], u = corners[at(j)] - a, v = corners[at(k)] - a;
+      passed += 0.5 * std::abs(cross_2d(u, v));
+      while (static_cast<double>(result.points.size()) + 0.5 < passed / each) {
+        const int n = static_cast<int>(result.points.size());
+        double s = spread(n, std::numbers::phi), t = spread(n, std::numbers::sqrt2);
+        if (s + t > 1) s = 1 - s, t = 1 - t;
+        result.points.push_back({surface.frame.to_space(a + s * u + t * v), surface.frame.normal});
+        result.area.push_back(each);
+      }
+    }
+  }
+  return result;
+}
 
 }  // namespace
 
@@ -96,19 +153,20 @@ bool is_convex(const SoundScene& scene) {
   return true;
 }
 
+double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0; }
+
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  PlanarMeshOptions coarse;
-  coarse.max_length = length_for_count(scene, places);
-  const ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
+  const Places at_places =
+      has_many_lines(scene) ? spread_places(scene) : mesh_places(scene, progress);
   const std::vector<DirectLight> light =
-      prepared.direct_light().irradiance(element_centres(elements), progress);
+      prepared.direct_light().irradiance(at_places.points, progress);
   double power = 0, reached = 0;
   for (std::size_t e = 0; e < light.size(); ++e) {
     const double irradiance = light[e].irradiance.maxCoeff();
     if (!(irradiance > 0)) continue;
-    power += elements.area[e] * irradiance;
-    reached += elements.area[e];
+    power += at_places.area[e] * irradiance;
+    reached += at_places.area[e];
   }
   return reached > 0 ? power / reached : 0;
 }

@@ -47,6 +47,10 @@ std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice)
 /// part of anything from anywhere.
 bool is_convex(const SoundScene& scene);
 
+/// The work on finding curves that a tolerance is worth, see DiscontinuityOptions::most_work; 0, no
+/// limit, for a tolerance of 0.
+double affordable_work(double tolerance);
+
 /// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
 /// them (strongest channel), from one exact value at each of about 2000 places. What relative
 /// tolerances refer to. W/m²; 0 if nothing is reached.

@@ -51,13 +51,14 @@ void require_light(const Scene& scene, const SoundScene& sound) {
 
 }  // namespace
 
-PreparedScene::PreparedScene(const Scene& scene, const Progress& progress)
+PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
+                             const RepairOptions& options)
     : cameras_(scene.cameras), unit_(scene.unit), indices_(std::make_unique<Indices>()) {
   validate(scene);
   std::vector<StageReport> reports;
   Stages(reports).run("repair", [&] {
     progress("repair", 0);
-    scene_ = make_sound(scene);
+    scene_ = make_sound(scene, options);
     return scene_.surfaces.size();
   });
   repair_ = reports.front();

@@ -3,6 +3,7 @@
 #include "meshing/core/progress.h"
 #include "meshing/core/scene.h"
 #include "meshing/core/sound_scene.h"
+#include "meshing/repair/repair.h"
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
 
@@ -22,7 +23,8 @@ class PreparedScene {
  public:
   /// Throws Error(invalid_input) unless the scene is valid and has an emitter that the repair
   /// leaves, of an exitance between 1e-200 and 1e200 W/m²; see validate and make_sound.
-  explicit PreparedScene(const Scene& scene, const Progress& progress = {});
+  explicit PreparedScene(const Scene& scene, const Progress& progress = {},
+                         const RepairOptions& options = {});
   ~PreparedScene();
 
   const SoundScene& scene() const { return scene_; }

@@ -1,17 +1,13 @@
 #include "solver/pipeline/solve.h"
 
 #include "meshing/core/error.h"
-#include "solver/adapt/recovery_estimate.h"
-#include "solver/elements/balancing_scale.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_fields.h"
-#include "solver/pipeline/solve_light.h"
-#include "solver/pipeline/solve_mesh.h"
+#include "solver/pipeline/solve_matrix.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -33,39 +29,6 @@ void check(const SolveOptions& options) {
                             options.tolerance, options.secondary));
 }
 
-Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
-                            const SolveOptions& options, const Progress& progress, Stages& stages) {
-  Discontinuities found;
-  stages.leave_out_if(!plan.no_discontinuities.empty(), "discontinuities", plan.no_discontinuities);
-  if (plan.no_discontinuities.empty())
-    stages.run("discontinuities", [&] {
-      DiscontinuityOptions events = options.events;
-      events.eee = events.eee && plan.no_eee.empty();
-      events.irradiance_tolerance = options.tolerance * plan.mean_irradiance;
-      events.max_length = longest_edge(prepared.scene(), options);
-      found =
-          find_discontinuities(prepared.scene(), prepared.opaque(), plan.sources, events, progress);
-      return found.curves.size();
-    });
-  stages.leave_out_if(plan.weak_sources > 0, "curves of weak sources",
-                      fmt::format("{} of them give too little", plan.weak_sources));
-  stages.leave_out_if(!plan.no_eee.empty(), "curves at three edges", plan.no_eee);
-  return found;
-}
-
-/// Meshes the scene, along its discontinuities if it has any.
-SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, const Plan& plan,
-                        const SolveOptions& options, const Progress& progress, Stages& stages) {
-  SolveMesh mesh;
-  stages.run("mesh", [&] {
-    mesh = found.curves.empty()
-               ? make_solve_mesh(scene, options, progress)
-               : make_solve_mesh(scene, found, options, plan.mean_irradiance, progress);
-    return mesh.elements.corners.size();
-  });
-  return mesh;
-}
-
 void find_regions(const PreparedScene& prepared, const Progress& progress, Stages& stages,
                   SolveResult& result) {
   stages.run("regions", [&] {
@@ -76,46 +39,21 @@ void find_regions(const PreparedScene& prepared, const Progress& progress, Stage
   });
 }
 
-void estimate_error(Stages& stages, SolveResult& result) {
-  stages.run("error estimate", [&] {
-    // Squares of light of any size must not over- or underflow.
-    const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
-    const ChannelArray irradiance = scale * result.solution.irradiance;
-    const Eigen::ArrayXd estimate = recovery_estimate(result.elements, irradiance);
-    result.solution.error_estimate = estimate / scale;
-    result.relative_error = relative_error(result.elements, irradiance, estimate);
-    double of_solver = 0;
-    for (const ChannelReport& channel : result.radiosity.channel)
-      of_solver = std::max(of_solver, channel.error);
-    result.relative_error += of_solver;
-    return result.elements.corners.size();
-  });
-}
-
-/// By constant elements and the matrix.
-void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
-                  const Progress& progress, Stages& stages, SolveResult& result) {
-  const Discontinuities found = find_curves(prepared, plan, options, progress, stages);
-  result.discontinuities = found.report;
-  result.curves = found.curves.size();
-
-  SolveMesh mesh = make_elements(prepared.scene(), found, plan, options, progress, stages);
-  result.mesh = mesh.report;
-  result.discontinuity_tolerance = mesh.tolerance;
-  result.elements = std::move(mesh.elements);
-
-  SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
-  result.exchange = light.exchange;
-  result.radiosity = light.radiosity;
-  result.solution = std::move(light.solution);
-  estimate_error(stages, result);
-}
-
 }  // namespace
 
 SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
   check(options);
-  return solve(PreparedScene(scene, progress), options, progress);
+  try {
+    return solve(PreparedScene(scene, progress), options, progress);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+  }
+  // Without contact lines: what nobody modelled, but a scanner or a random generator made, cuts
+  // through itself everywhere.
+  SolveResult result =
+      solve(PreparedScene(scene, progress, {.contacts = false}), options, progress);
+  result.warnings.insert(result.warnings.begin(), contacts_warning(options.max_elements));
+  return result;
 }
 
 SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
@@ -129,9 +67,9 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
   if (options.regions) find_regions(prepared, progress, stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;
-  const std::vector<Warning> warnings = light_warnings(
-      {result.scene, result.elements, result.solution, result.exchange, result.radiosity});
-  result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
+  add(light_warnings(
+          {result.scene, result.elements, result.solution, result.exchange, result.radiosity}),
+      result.warnings);
   return result;
 }
 

@@ -48,7 +48,7 @@ struct SolveResult {
   /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
   double relative_error = 0;
   std::string not_reached;   ///< why the accuracy asked for was not; empty if it was
-  bool interrupted = false;  ///< stopped early: factors not reached count as zero
+  bool interrupted = false;  ///< stopped early; see compute_exchange for factors not reached
 };
 
 /// The main job: makes the scene sound, meshes it along its discontinuities, computes form factors,

@@ -105,6 +105,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
                            : no_direct_field(prepared.scene(), options, progress, stages);
   result.discontinuities = direct.discontinuities;
   result.curves = direct.curves;
+  add(direct.warnings, result.warnings);
   result.mesh = direct.mesh;
   result.discontinuity_tolerance = direct.discontinuity_tolerance;
   result.refinement = direct.light.report;

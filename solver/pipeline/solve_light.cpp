@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "solver/direct/direct_light.h"
 #include "solver/elements/material_arrays.h"
+#include "solver/exchange/estimated_factors.h"
 
 #include <fmt/format.h>
 
@@ -124,6 +125,9 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
     light.solution = solve_radiosity(exchange, materials.rho, materials.exitance, direct_irradiance,
                                      radiosity_options, light.radiosity, progress);
     light.solution.region = std::move(direct.region);
+    const ChannelArray& sent = light.solution.radiosity;
+    light.exchange_error =
+        estimation_error(exchange, is_exact ? ChannelArray(sent - materials.exitance) : sent);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });
   stages.leave_out_if(light.radiosity.unknowns == 0, "interreflection", "no surface reflects");

@@ -13,11 +13,13 @@ struct SolvedLight {
   Solution solution;  ///< without an error estimate
   ExchangeReport exchange;
   RadiosityReport radiosity;
+  /// Standard deviation of the irradiance that estimated factors make, see estimation_error.
+  Eigen::ArrayXd exchange_error;
 };
 
 /// Finds direct light, form factors and radiosity on given elements, as far as the plan does not
 /// leave them out. Of the options it reads `direct_points`, `exchange` and `radiosity`. Adds its
-/// stages to `stages`. If stopped, factors not reached count as zero.
+/// stages to `stages`. If stopped, see compute_exchange.
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
                         const Plan& plan, const SolveOptions& options, const Progress& progress,
                         Stages& stages);

@@ -2,6 +2,8 @@
 
 #include "meshing/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -11,6 +13,8 @@ namespace {
 
 /// Numbers of elements that differ by less than this share count as equal.
 constexpr double near_enough = 0.1;
+/// Share by which a mesh may have more elements than asked for, or than the geometry takes.
+constexpr double most_excess = 0.25;
 
 double first_length(const SoundScene& scene, const SolveOptions& options) {
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
@@ -29,6 +33,38 @@ std::optional<SolveMesh> try_mesh(const SoundScene& scene, const Discontinuities
   }
 }
 
+std::size_t count_contacts(const SoundScene& scene) {
+  std::size_t contacts = 0;
+  for (const Surface& surface : scene.surfaces) contacts += surface.contacts.size();
+  return contacts;
+}
+
+[[noreturn]] void refuse(const SoundScene& scene, const SolveOptions& options) {
+  throw Error(ErrorCode::too_large, "solve",
+              fmt::format("{} surfaces with {} contact lines take more than {} elements{}; "
+                          "--max-elements allows more",
+                          scene.surfaces.size(), count_contacts(scene), options.max_elements,
+                          options.max_length > 0
+                              ? fmt::format(" of at most {} in length", options.max_length)
+                              : ""));
+}
+
+/// Every surface takes an element, and every contact line two sides of three.
+void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
+  const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
+  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
+}
+
+ElementTable mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
+                          const SolveOptions& options, const Progress& progress) {
+  try {
+    return PatchMesh(scene, mesh_options, progress).elements();
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    refuse(scene, options);
+  }
+}
+
 /// How the length and the tolerance come to suit the number of elements asked for. Works with the
 /// inverse square of the length, which the number of elements is nearly linear in: curves make some
 /// of their own, whatever the length.
@@ -37,8 +73,9 @@ class SizeSearch {
   /// `plain` is how many elements it takes without curves.
   SizeSearch(const SoundScene& scene, const SolveOptions& options, int plain)
       : wanted_(std::max(options.elements, plain)),
-        most_(options.max_length > 0 ? options.max_elements
-                                     : std::min<double>(options.max_elements, 2 * wanted_)),
+        most_(options.max_length > 0
+                  ? options.max_elements
+                  : std::min<double>(options.max_elements, (1 + most_excess) * wanted_)),
         is_fixed_(options.max_length > 0),
         longest_(longest_edge(scene, options)),
         density_(1 / std::pow(first_length(scene, options), 2)),
@@ -94,26 +131,25 @@ double longest_edge(const SoundScene& scene, const SolveOptions& options) {
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
                           const Progress& progress) {
   constexpr int attempts = 5;
+  require_few_surfaces(scene, options);
   PlanarMeshOptions mesh_options;
   mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
   mesh_options.max_length = first_length(scene, options);
   SolveMesh mesh;
-  mesh.elements = PatchMesh(scene, mesh_options, progress).elements();
+  mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
   if (options.max_length > 0 || progress.stopped()) return mesh;
   for (int k = 1; k < attempts; ++k) {
     const double excess = mesh.elements.count() / static_cast<double>(options.elements);
     if (std::abs(excess - 1) <= near_enough) break;
     mesh_options.max_length *= std::sqrt(excess);
-    mesh.elements = PatchMesh(scene, mesh_options, progress).elements();
+    mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
   }
   return mesh;
 }
 
-SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
+SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
                           const SolveOptions& options, double mean_irradiance,
                           const Progress& progress) {
-  // Also tells at once if the length is too short.
-  SolveMesh plain = make_solve_mesh(scene, options, progress);
   SizeSearch search(scene, options, plain.elements.count());
   std::optional<SolveMesh> best;
   DiscontinuityMeshOptions mesh_options;
@@ -134,6 +170,7 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
   }
   if (best) return *std::move(best);
   plain.report.culled = found.curves.size();
+  plain.tolerance = search.tolerance();
   return plain;
 }
 

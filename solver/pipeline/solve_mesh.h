@@ -21,10 +21,11 @@ double longest_edge(const SoundScene& scene, const SolveOptions& options);
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
                           const Progress& progress = {});
 
-/// The same along curves. Where they alone make more than twice the elements asked for, or more
-/// than options.max_elements, those with the smallest effect are left out by raising the tolerance.
-/// `mean_irradiance` is what options.tolerance is a share of; W/m².
-SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
+/// The same along curves; `plain` is the mesh without them. Where they make a quarter more than the
+/// elements asked for, or than `plain` if that has more, or more than options.max_elements, those
+/// with the smallest effect are left out by raising the tolerance. `mean_irradiance` is what
+/// options.tolerance is a share of; W/m².
+SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
                           const SolveOptions& options, double mean_irradiance,
                           const Progress& progress = {});
 

@@ -44,7 +44,8 @@ struct SolveOptions {
   double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
   int max_elements = 40000;     ///< refuse to make more; memory grows with the square
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
-  DiscontinuityOptions events;  ///< which curves to look for
+  DiscontinuityOptions
+      events;            ///< which curves to look for; most_work 0: what `tolerance` is worth
   int secondary = 0;     ///< look for those of this many of the brightest reflecting surfaces, too
   bool regions = false;  ///< say what each element sees of each emitter
   DirectLightBy direct_light = DirectLightBy::automatic;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halfshade {
@@ -15,6 +16,12 @@ namespace {
 constexpr double nearly_all = 0.99;
 /// Relative to a face's size or area: what moved by less counts as rounding.
 constexpr double noticeable = 1e-3;
+
+/// Meshes hit the number of elements asked for no better than so.
+constexpr double noticeable_excess = 0.25;
+
+/// In the order of CurveKind, as --events has them.
+constexpr std::array<const char*, 4> kind_names = {"contact", "face", "ev", "eee"};
 
 const char* const way_out =
     "surfaces take part on the side where their corners run counter-clockwise; if they look the "
@@ -90,10 +97,24 @@ const char* name_of(Warning::Kind kind) {
       return "dark_groups";
     case Warning::Kind::faces_changed:
       return "faces_changed";
+    case Warning::Kind::curves_left_out:
+      return "curves_left_out";
+    case Warning::Kind::contacts_left_out:
+      return "contacts_left_out";
+    case Warning::Kind::tolerance_raised:
+      return "tolerance_raised";
+    case Warning::Kind::elements_exceeded:
+      return "elements_exceeded";
+    case Warning::Kind::exchange_estimated:
+      return "exchange_estimated";
     case Warning::Kind::lost_by_factors:
       return "lost_by_factors";
   }
   return "";
+}
+
+void add(const std::vector<Warning>& more, std::vector<Warning>& warnings) {
+  warnings.insert(warnings.end(), more.begin(), more.end());
 }
 
 std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound) {
@@ -106,6 +127,66 @@ std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound
   if (found.size() > 1)
     text += fmt::format("; and {} more like it (--verbose lists them)", found.size() - 1);
   return {{Warning::Kind::faces_changed, text}};
+}
+
+Warning contacts_warning(int max_elements) {
+  return {Warning::Kind::contacts_left_out,
+          fmt::format("elements do not follow the lines along which surfaces touch and cut through "
+                      "each other, for that takes more than {} of them: light gets smeared across "
+                      "there, and closed spaces may count as open; --max-elements allows more",
+                      max_elements)};
+}
+
+std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance) {
+  std::vector<std::string> kinds;
+  double work = 0;
+  for (std::size_t k = 0; k < report.left_out.size(); ++k) {
+    if (!(report.left_out[k] > 0)) continue;
+    kinds.push_back(kind_names[k]);
+    work += report.left_out[k];
+  }
+  if (kinds.empty()) return {};
+  return {
+      {Warning::Kind::curves_left_out,
+       fmt::format("curves of the kind{} {} are left out, in part or all: to find them among {} "
+                   "edges would take about {:.2g} times the work that a tolerance of {:.2g} is "
+                   "worth; --tolerance 0 finds all, --events names those to look for",
+                   kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), report.silhouette_edges,
+                   (report.work + work) / report.most_work, tolerance)}};
+}
+
+std::vector<Warning> mesh_warnings(const MeshOutcome& outcome) {
+  std::vector<Warning> warnings;
+  if (outcome.asked_elements > 0 &&
+      outcome.plain_elements > (1 + noticeable_excess) * outcome.asked_elements) {
+    std::size_t contacts = 0;
+    for (const Surface& surface : outcome.scene.surfaces) contacts += surface.contacts.size();
+    warnings.push_back(
+        {Warning::Kind::elements_exceeded,
+         fmt::format("the {} surfaces and {} contact lines alone take {} elements, more than the "
+                     "{} asked for with --elements",
+                     outcome.scene.surfaces.size(), contacts, outcome.plain_elements,
+                     outcome.asked_elements)});
+  }
+  if (outcome.tolerance > outcome.asked_tolerance)
+    warnings.push_back(
+        {Warning::Kind::tolerance_raised,
+         fmt::format("the mesh {}, not all down to the share of {:.2g} of the mean irradiance "
+                     "asked for with --tolerance: that takes more --elements",
+                     outcome.kept == 0
+                         ? "follows no curves"
+                         : fmt::format("follows only curves above {:.2g}", outcome.tolerance),
+                     outcome.asked_tolerance)});
+  return warnings;
+}
+
+std::vector<Warning> exchange_warnings(const ExchangeReport& report) {
+  if (!(report.estimated_share > 0)) return {};
+  return {{Warning::Kind::exchange_estimated,
+           fmt::format("the form factors were interrupted: a few rays from each element stand for "
+                       "{:.2g} % of the exchange of light, and the estimated error says what that "
+                       "does",
+                       100 * report.estimated_share)}};
 }
 
 std::vector<Warning> light_warnings(const LightOutcome& outcome) {

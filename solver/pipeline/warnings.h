@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/scene.h"
+#include "meshing/discontinuity/discontinuity.h"
 #include "meshing/patches/element_table.h"
 #include "solver/elements/solution.h"
 #include "solver/exchange/exchange.h"
@@ -14,11 +15,16 @@ namespace halfshade {
 /// What a user should know of before trusting a result that was computed.
 struct Warning {
   enum class Kind {
-    nothing_lit,     ///< no light reaches the front of any surface
-    light_escapes,   ///< nearly all light leaves the scene
-    dark_groups,     ///< some groups receive nothing
-    faces_changed,   ///< faces were dropped or moved, by more than rounding
-    lost_by_factors  ///< light gets lost in a closed space, for factors are off
+    nothing_lit,         ///< no light reaches the front of any surface
+    light_escapes,       ///< nearly all light leaves the scene
+    dark_groups,         ///< some groups receive nothing
+    faces_changed,       ///< faces were dropped or moved, by more than rounding
+    curves_left_out,     ///< kinds of curves were not looked for: it would take too long
+    contacts_left_out,   ///< elements do not follow contact lines: there are too many
+    tolerance_raised,    ///< curves above the tolerance were left out of the mesh
+    elements_exceeded,   ///< the geometry takes more elements than asked for
+    exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
+    lost_by_factors      ///< light gets lost in a closed space, for factors are off
   };
   Kind kind;
   std::string sentence;  ///< without a full stop
@@ -26,6 +32,9 @@ struct Warning {
 
 /// "light_escapes" and so on: how reports name a kind.
 const char* name_of(Warning::Kind kind);
+
+/// Appends.
+void add(const std::vector<Warning>& more, std::vector<Warning>& warnings);
 
 /// Of what the repair made of the scene.
 std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound);
@@ -38,6 +47,26 @@ struct LightOutcome {
   const ExchangeReport& exchange;
   const RadiosityReport& radiosity;
 };
+
+/// Of contact lines that would take more elements than allowed.
+Warning contacts_warning(int max_elements);
+
+/// Of curves that were not looked for; nothing if all were.
+std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance);
+
+/// What a mesh was to be like, and what it is.
+struct MeshOutcome {
+  const SoundScene& scene;
+  std::size_t kept;                   ///< curves
+  int plain_elements;                 ///< without any curves
+  int asked_elements;                 ///< 0: a length was asked for
+  double tolerance, asked_tolerance;  ///< shares of the mean irradiance
+};
+
+std::vector<Warning> mesh_warnings(const MeshOutcome& outcome);
+
+/// Of factors that are estimates; nothing if none are.
+std::vector<Warning> exchange_warnings(const ExchangeReport& report);
 
 std::vector<Warning> light_warnings(const LightOutcome& outcome);
 

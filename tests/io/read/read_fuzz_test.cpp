@@ -10,13 +10,13 @@
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
 #include "tests/support/files.h"
+#include "tests/support/fuzz_settings.h"
 #include "tests/support/gltf_samples.h"
 #include "tests/support/mutator.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <string>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -123,16 +123,11 @@ class ReadMutated : public testing::TestWithParam<Seed> {
   int sound_ = 0, refused_ = 0;
 };
 
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::atoi(text) : otherwise;
-}
-
 TEST_P(ReadMutated, GivesWhatItReadsOrAnError) {
   ASSERT_NO_THROW(read()) << "the seed itself";
   using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::seconds(setting("HALFSHADE_FUZZ_SECONDS", 0));
-  test::Mutator mutated(static_cast<unsigned>(setting("HALFSHADE_FUZZ_SEED", 7)));
+  const auto end = Clock::now() + std::chrono::seconds(test::fuzz_seconds());
+  test::Mutator mutated(static_cast<unsigned>(test::fuzz_seed(7)));
   int runs = 0;
   for (; runs < GetParam().runs || Clock::now() < end; ++runs)
     read_mutated(mutated(GetParam().content));

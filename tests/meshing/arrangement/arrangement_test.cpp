@@ -7,6 +7,7 @@
 #include "meshing/patches/face_lookup.h"
 #include "meshing/repair/planes.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -165,6 +166,26 @@ TEST(FaceLookup, FindsTheFaceThatHoldsThePointElseTheNearest) {
   EXPECT_EQ(lookup.face_at({1.5, 0.1}), 3);  // the third holds it, too
   EXPECT_EQ(lookup.face_at({2.9, 0.5}), 9);
   EXPECT_EQ(lookup.face_at({-0.1, 0.5}), 7);
+}
+
+TEST(Arrange, PointsNearerThanLinksSnapDoNotMakeChainsGrowWithoutEnd) {
+  test::Random random(3);
+  std::vector<Vec2> points;
+  std::vector<std::array<int, 2>> segments;
+  for (int k = 0; k < 40; ++k) {
+    points.emplace_back(random(-1e-3, 1e-3), random(-1e-3, 1e-3));
+    points.emplace_back(random(-1e-3, 1e-3) + (k % 2), random(-1e-3, 1e-3));
+    segments.push_back({2 * k, 2 * k + 1});
+  }
+  const Arrangement result = arrange(points, segments, {1e-6, 1e-3});
+  ASSERT_EQ(result.chains.size(), segments.size());
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    std::vector<int> chain = result.chains[s];
+    EXPECT_EQ(chain.front(), segments[s][0]);
+    EXPECT_EQ(chain.back(), segments[s][1]);
+    std::sort(chain.begin(), chain.end());
+    EXPECT_EQ(std::adjacent_find(chain.begin(), chain.end()), chain.end());
+  }
 }
 
 }  // namespace

@@ -9,9 +9,11 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
+#include "tests/support/triangle_soups.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -59,12 +61,17 @@ Found find(const Scene& scene) {
   return found;
 }
 
+SolveMesh mesh_along(const Found& found, const SolveOptions& options) {
+  return make_solve_mesh(found.scene, found.curves, make_solve_mesh(found.scene, options), options,
+                         found.mean);
+}
+
 TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
   const Found found = find(s1());
   for (const int elements : {200, 700, 3000}) {
     SolveOptions options;
     options.elements = elements;
-    const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+    const SolveMesh mesh = mesh_along(found, options);
     EXPECT_NEAR(mesh.elements.count(), elements, 0.2 * elements)
         << "a square is halved again and again, so that not every number is there";
     EXPECT_EQ(mesh.tolerance, options.tolerance);
@@ -76,14 +83,14 @@ TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
   const Found found = find(slats(8));
   SolveOptions options;
   options.elements = 100;
-  const SolveMesh few = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh few = mesh_along(found, options);
   // Ten narrow polygons take more than that without any line.
   const int plain = make_solve_mesh(found.scene, options).elements.count();
-  EXPECT_LE(few.elements.count(), 2 * plain);
+  EXPECT_LE(few.elements.count(), 1.25 * plain);
   EXPECT_GT(few.tolerance, options.tolerance);
   EXPECT_GT(few.report.culled, 0u);
   options.elements = 4000;
-  const SolveMesh many = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh many = mesh_along(found, options);
   EXPECT_EQ(many.tolerance, options.tolerance);
   EXPECT_GT(many.report.kept, few.report.kept);
 }
@@ -92,11 +99,10 @@ TEST(SolveMesh, KeepsToTheLengthAskedFor) {
   const Found found = find(s1());
   SolveOptions options;
   options.max_length = 0.2;
-  const SolveMesh mesh = make_solve_mesh(found.scene, found.curves, options, found.mean);
+  const SolveMesh mesh = mesh_along(found, options);
   EXPECT_LE(summarize_quality(mesh.elements).longest_edge, 0.2);
   options.max_elements = 100;
-  test::expect_error([&] { make_solve_mesh(found.scene, found.curves, options, found.mean); },
-                     ErrorCode::too_large, {"100"});
+  test::expect_error([&] { mesh_along(found, options); }, ErrorCode::too_large, {"100"});
 }
 
 /// Area of the floor's elements that are wholly dark, and of those that are partly so.
@@ -166,6 +172,11 @@ TEST(SolveWithLines, SecondarySourcesAddLines) {
   EXPECT_GT(solve(scene, options).curves, without);
 }
 
+bool has_warning(const SolveResult& result, Warning::Kind kind) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(),
+                     [&](const Warning& warning) { return warning.kind == kind; });
+}
+
 TEST(SolveWithLines, RefusesOptionsOutOfRange) {
   SolveOptions negative, none;
   negative.tolerance = -0.1;
@@ -173,6 +184,58 @@ TEST(SolveWithLines, RefusesOptionsOutOfRange) {
   for (const SolveOptions& options : {negative, none})
     test::expect_error([&] { solve(s1(), options); }, ErrorCode::contract,
                        {"solve", "not negative"});
+}
+
+TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
+  Scene scene = slats(30);
+  SolveOptions options;
+  options.max_elements = 20;
+  test::expect_error([&] { solve(scene, options); }, ErrorCode::too_large,
+                     {"more than 20", "--max-elements"});
+}
+
+TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
+  SolveOptions options;
+  options.elements = 30;
+  const SolveResult result = solve(slats(8), options);
+  EXPECT_LE(result.elements.count(),
+            1.25 * make_solve_mesh(result.scene, options).elements.count());
+  EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised));
+}
+
+TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
+  const Scene soup = test::unit_soup(40, 2);
+  SolveOptions options;
+  options.elements = 400;
+  options.max_elements = 1000;
+  options.events.most_work = 300;
+  const SolveResult result = solve(soup, options);
+  EXPECT_TRUE(has_warning(result, Warning::Kind::contacts_left_out));
+  for (const Surface& surface : result.scene.surfaces) EXPECT_TRUE(surface.contacts.empty());
+  EXPECT_LE(result.elements.count(), 1000);
+  EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
+  options.max_elements = 30;
+  test::expect_error([&] { solve(soup, options); }, ErrorCode::too_large,
+                     {"40 surfaces", "--max-elements"});
+}
+
+TEST(SolveWithLines, SoupsAreSolvedAndSayWhatIsLeftOut) {
+  for (const Scene& scene : {test::unit_soup(15, 1), test::grid_soup(12, 3, 1)}) {
+    SolveOptions options;
+    options.elements = 500;
+    options.events.most_work = 300;
+    const SolveResult result = solve(scene, options);
+    EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
+    EXPECT_TRUE(result.solution.irradiance.allFinite());
+    EXPECT_GT(*std::max_element(result.discontinuities.left_out.begin(),
+                                result.discontinuities.left_out.end()),
+              0);
+    EXPECT_TRUE(has_warning(result, Warning::Kind::curves_left_out));
+    EXPECT_TRUE(has_warning(result, Warning::Kind::elements_exceeded) ||
+                result.elements.count() <= 1.25 * options.elements);
+    EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised) ||
+                result.discontinuity_tolerance <= options.tolerance);
+  }
 }
 
 }  // namespace

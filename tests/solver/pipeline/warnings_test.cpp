@@ -1,5 +1,6 @@
 #include "solver/pipeline/warnings.h"
 
+#include "solver/pipeline/plan.h"
 #include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
@@ -136,6 +137,32 @@ TEST(Solve, PlatesWithANarrowGapLoseLight) {
       EXPECT_NEAR(channel.escaped_power, 1, 1e-6);
     }
   }
+}
+
+TEST(Warnings, CurvesThatAreNotLookedFor) {
+  DiscontinuityReport report;
+  EXPECT_TRUE(search_warnings(report, 0.05).empty());
+  report.most_work = affordable_work(0.05);
+  report.left_out[3] = 20 * report.most_work;
+  const std::vector<Warning> warnings = search_warnings(report, 0.05);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_STREQ(name_of(warnings[0].kind), "curves_left_out");
+  for (const char* part : {"kind eee", "20 times", "--tolerance 0", "--events"})
+    EXPECT_NE(warnings[0].sentence.find(part), std::string::npos) << warnings[0].sentence;
+}
+
+TEST(Warnings, MeshesThatAreNotAsAskedFor) {
+  const SoundScene scene;
+  EXPECT_TRUE(mesh_warnings({scene, 5, 110, 100, 0.01, 0.01}).empty());
+  EXPECT_TRUE(mesh_warnings({scene, 5, 500, 0, 0.01, 0.01}).empty()) << "a length was asked for";
+  const std::vector<Warning> warnings = mesh_warnings({scene, 5, 500, 100, 0.64, 0.01});
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[0].kind, Warning::Kind::elements_exceeded);
+  EXPECT_NE(warnings[0].sentence.find("500 elements, more than the 100"), std::string::npos);
+  EXPECT_EQ(warnings[1].kind, Warning::Kind::tolerance_raised);
+  EXPECT_NE(warnings[1].sentence.find("0.64"), std::string::npos);
+  EXPECT_NE(mesh_warnings({scene, 0, 100, 100, 9, 0.01})[0].sentence.find("no curves"),
+            std::string::npos);
 }
 
 }  // namespace

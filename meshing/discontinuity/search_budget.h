@@ -1,0 +1,52 @@
+#pragma once
+
+#include "meshing/discontinuity/swath_tracer.h"
+#include "meshing/events/critical_event.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace halfshade {
+
+/// What a contact line takes, and a limit of the view along the emitter's plane, in work of seeing
+/// from a point.
+inline constexpr double contact_looks = 64, plane_looks = 1;
+
+/// Work that it takes to see what a point sees of an emitter. It grows with how many faces lie
+/// behind each other, of which the lines that were traced tell, and with the edges among them.
+double look_work(const TraceCounts& counts, std::size_t edges);
+
+/// Says which kinds of curves one source's share of the work affords. Counts instead of times, so
+/// that the answer is always the same.
+class SearchBudget {
+ public:
+  static constexpr double of_test = 0.005;  ///< whether an edge and a vertex can line up
+  static constexpr double of_pair = 0.03;   ///< whether two edges can
+  static constexpr double of_swath = 0.1;   ///< making one, not yet traced
+
+  /// HUGE_VAL: no limit.
+  SearchBudget(double most, std::size_t edges) : most_(most), edges_(edges) {}
+
+  /// Whether so much work is left; notes what is left out if not.
+  bool allows(CurveKind kind, double work);
+  void use(double work) { used_ += work; }
+
+  /// Work that was done by tracing, and that the jumps of the curves found will take.
+  double work_of(const TraceCounts& counts, std::size_t curves) const;
+
+  /// Jobs, evenly spread, that tell what all take; none if there is no need to know.
+  std::vector<std::size_t> sample(std::size_t count) const;
+  /// Work on one of the sample that is enough to know that all take too much.
+  double most_for_one(std::size_t count) const;
+
+  double used() const { return used_; }
+  const std::array<double, 4>& left_out() const { return left_out_; }
+
+ private:
+  double most_, used_ = 0;
+  std::size_t edges_;  ///< that can be silhouettes
+  std::array<double, 4> left_out_{};
+};
+
+}  // namespace halfshade

@@ -1,0 +1,108 @@
+#include "solver/pipeline/solve_matrix.h"
+
+#include "solver/adapt/recovery_estimate.h"
+#include "solver/elements/balancing_scale.h"
+#include "solver/pipeline/solve_light.h"
+#include "solver/pipeline/solve_mesh.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
+                            const SolveOptions& options, const Progress& progress, Stages& stages) {
+  Discontinuities found;
+  stages.leave_out_if(!plan.no_discontinuities.empty(), "discontinuities", plan.no_discontinuities);
+  if (plan.no_discontinuities.empty())
+    stages.run("discontinuities", [&] {
+      DiscontinuityOptions events = options.events;
+      events.eee = events.eee && plan.no_eee.empty();
+      events.irradiance_tolerance = options.tolerance * plan.mean_irradiance;
+      events.max_length = longest_edge(prepared.scene(), options);
+      if (options.force.discontinuities)
+        events.most_work = 0;
+      else if (!(events.most_work > 0))
+        events.most_work = affordable_work(options.tolerance);
+      found =
+          find_discontinuities(prepared.scene(), prepared.opaque(), plan.sources, events, progress);
+      return found.curves.size();
+    });
+  stages.leave_out_if(plan.weak_sources > 0, "curves of weak sources",
+                      fmt::format("{} of them give too little", plan.weak_sources));
+  stages.leave_out_if(!plan.no_eee.empty(), "curves at three edges", plan.no_eee);
+  return found;
+}
+
+/// Meshes the scene along its discontinuities if it has any.
+SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
+                        const Plan& plan, const SolveOptions& options, const Progress& progress,
+                        Stages& stages) {
+  if (found.curves.empty()) return plain;
+  SolveMesh mesh;
+  stages.run("mesh along curves", [&] {
+    mesh = make_solve_mesh(scene, found, std::move(plain), options, plan.mean_irradiance, progress);
+    return mesh.elements.corners.size();
+  });
+  return mesh;
+}
+
+/// `exchange_error` is independent of what the mesh does, in the mean.
+void estimate_error(const Eigen::ArrayXd& exchange_error, Stages& stages, SolveResult& result) {
+  stages.run("error estimate", [&] {
+    // Squares of light of any size must not over- or underflow.
+    const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
+    const ChannelArray irradiance = scale * result.solution.irradiance;
+    const Eigen::ArrayXd of_exchange = scale * exchange_error;
+    const Eigen::ArrayXd estimate =
+        recovery_estimate(result.elements, irradiance)
+            .binaryExpr(of_exchange, [](double a, double b) { return std::hypot(a, b); });
+    result.solution.error_estimate = estimate / scale;
+    result.relative_error = relative_error(result.elements, irradiance, estimate);
+    double of_solver = 0;
+    for (const ChannelReport& channel : result.radiosity.channel)
+      of_solver = std::max(of_solver, channel.error);
+    result.relative_error += of_solver;
+    return result.elements.corners.size();
+  });
+}
+
+}  // namespace
+
+void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+                  const Progress& progress, Stages& stages, SolveResult& result) {
+  // What the geometry alone takes comes before the search for curves, for it may be too much.
+  SolveMesh plain;
+  stages.run("mesh", [&] {
+    plain = make_solve_mesh(prepared.scene(), options, progress);
+    return plain.elements.corners.size();
+  });
+  const int plain_elements = plain.elements.count();
+  const Discontinuities found = find_curves(prepared, plan, options, progress, stages);
+  result.discontinuities = found.report;
+  result.curves = found.curves.size();
+
+  add(search_warnings(found.report, options.tolerance), result.warnings);
+
+  SolveMesh mesh =
+      make_elements(prepared.scene(), found, std::move(plain), plan, options, progress, stages);
+  add(mesh_warnings({prepared.scene(), mesh.report.kept, plain_elements,
+                     options.max_length > 0 ? 0 : options.elements, mesh.tolerance,
+                     options.tolerance}),
+      result.warnings);
+  result.mesh = mesh.report;
+  result.discontinuity_tolerance = mesh.tolerance;
+  result.elements = std::move(mesh.elements);
+
+  SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
+  result.exchange = light.exchange;
+  result.radiosity = light.radiosity;
+  result.solution = std::move(light.solution);
+  estimate_error(light.exchange_error, stages, result);
+  add(exchange_warnings(result.exchange), result.warnings);
+}
+
+}  // namespace halfshade

@@ -1,0 +1,93 @@
+#include "solver/pipeline/solve.h"
+#include "tests/support/cornell.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stop_token>
+
+// What a solve that is stopped at its form factors has to show.
+
+namespace halfshade {
+namespace {
+
+SolveOptions coarse() {
+  SolveOptions options;
+  options.elements = 1500;
+  options.discontinuities = false;
+  return options;
+}
+
+/// Stopped once so much of the form factors is done.
+SolveResult solve_until(const Scene& scene, double fraction) {
+  std::stop_source stop;
+  const auto report = [&](std::string_view stage, double done) {
+    if (stage == "form factors" && done >= fraction) stop.request_stop();
+  };
+  return solve(scene, coarse(), {stop.get_token(), report});
+}
+
+double mean_irradiance(const SolveResult& result) {
+  const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(), result.elements.count());
+  return (area * result.solution.irradiance.rowwise().mean()).sum() / area.sum();
+}
+
+double distance(const SolveResult& a, const SolveResult& b) {
+  const Eigen::Map<const Eigen::ArrayXd> area(a.elements.area.data(), a.elements.count());
+  const ChannelArray difference = a.solution.irradiance - b.solution.irradiance;
+  return std::sqrt((area * difference.square().rowwise().mean()).sum() /
+                   (area * b.solution.irradiance.square().rowwise().mean()).sum());
+}
+
+bool has_warning(const SolveResult& result, Warning::Kind kind) {
+  return std::any_of(result.warnings.begin(), result.warnings.end(),
+                     [&](const Warning& warning) { return warning.kind == kind; });
+}
+
+/// Open, as it comes: light leaves through its front.
+Scene open_room() { return test::cornell_box(); }
+
+/// Half of its light comes back.
+Scene closed_room() {
+  Scene scene = test::l_room(true);
+  scene.materials[1].exitance = Rgb(100, 80, 60);
+  return scene;
+}
+
+class InterruptedSolve : public testing::TestWithParam<std::tuple<bool, double>> {};
+
+TEST_P(InterruptedSolve, IsAsBrightAsACompleteOne) {
+  const auto& [is_open, fraction] = GetParam();
+  const Scene scene = is_open ? open_room() : closed_room();
+  const SolveResult complete = solve(scene, coarse()), part = solve_until(scene, fraction);
+  ASSERT_EQ(part.elements.count(), complete.elements.count());
+  EXPECT_TRUE(part.interrupted);
+  EXPECT_FALSE(part.exchange.complete);
+  EXPECT_GT(part.exchange.estimated_share, 0);
+  // Rows shrink towards the last one, and those may be done first.
+  EXPECT_LT(part.exchange.estimated_share, 1.1 - fraction * fraction);
+  EXPECT_TRUE(has_warning(part, Warning::Kind::exchange_estimated));
+  EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
+  // Nothing is left dark.
+  EXPECT_GT((part.solution.irradiance / complete.solution.irradiance).minCoeff(), 0.3);
+  const double error = distance(part, complete);
+  EXPECT_LT(error, 0.1);
+  EXPECT_GT(part.relative_error, error) << "the estimate knows of it";
+  EXPECT_LT(part.relative_error, complete.relative_error + 5 * error);
+  EXPECT_TRUE((part.solution.error_estimate >= 0).all());
+  for (const ChannelReport& channel : part.radiosity.channel) EXPECT_LT(channel.balance, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Moments, InterruptedSolve,
+                         testing::Combine(testing::Bool(), testing::Values(0., 0.3, 0.7, 0.95)));
+
+TEST(InterruptedSolveEnds, OneThatIsCompleteHasNoEstimates) {
+  const SolveResult result = solve(closed_room(), coarse());
+  EXPECT_TRUE(result.exchange.complete);
+  EXPECT_EQ(result.exchange.estimated_share, 0);
+  EXPECT_FALSE(has_warning(result, Warning::Kind::exchange_estimated));
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -34,7 +34,7 @@ struct ReflectedLight::State {
 namespace {
 
 /// Rays from a node that are kept: strata².
-constexpr int kept_strata = 6;
+constexpr int kept_strata = 10;
 /// With these many elements of order 2 plain rooms come to this error.
 constexpr double usual_elements = 200, usual_error = 0.01;
 constexpr double usual_rays = 200;
@@ -152,12 +152,15 @@ class Rounds {
     return true;
   }
 
-  /// What the final pass changes is reflected on, too: by the rays that are kept.
+  /// What the final pass changes is reflected on, too, by the rays that are kept. Only its means:
+  /// the rest of it is mostly noise.
   void correct(const ReflectedSystem& system, const ReflectedSolution& solution,
                SplitIrradiance& irradiance) const {
     const auto& [mesh, light, exchange, systems] = system;
     ElementField change = irradiance.rest;
     change.coefficients -= solution.irradiance.rest.coefficients;
+    for (int e = 0; e < change.count(); ++e)
+      change.of(e).bottomRows(change.of(e).rows() - 1).setZero();
     const std::vector<Rgb> absorbed = absorptances(light);
     const ChannelArray power = -integrals(mesh, systems, change, &absorbed);
     const ElementField arriving = exchange.apply(mesh, reflected_part(mesh, light, change));
@@ -187,15 +190,15 @@ class Rounds {
       report.end = ReflectedEnd::accurate;
       return false;
     }
-    return prepare_next(estimate, noise, options_.tolerance * options_.tolerance * all);
+    return prepare_next({mesh_, irradiance.rest, noise, estimate},
+                        options_.tolerance * options_.tolerance * all);
   }
 
-  bool prepare_next(const ReflectionEstimate& estimate, const std::vector<double>& noise,
-                    double goal) {
+  bool prepare_next(const RefinementInput& input, double goal) {
     ReflectedReport& report = state_.report;
     report.end = ReflectedEnd::rounds;
     if (report.rounds == options_.max_rounds) return false;
-    RefinementPlan plan = plan_refinement(mesh_, estimate, noise, goal);
+    RefinementPlan plan = plan_refinement(input, goal);
     const int room = options_.max_elements - mesh_.count();
     std::size_t fits = 0;
     for (int made = 0; fits < plan.elements.size(); ++fits)

@@ -87,7 +87,8 @@ class ReflectedLight {
 /// Solves for it. `direct` is not asked if direct light goes through the operator, and is kept for
 /// gather(). The scene may go. Deterministic for any number of threads. Throws Error(contract) for
 /// options out of range, Error(invalid_input) where a closed space reflects everything and light is
-/// put in. Memory: 12 bytes for each of about 36 rays from each node (6 in an element of order 2).
+/// put in. Memory: 12 bytes for each of 100 rays from each node, of which elements of
+/// order 0, 1, 2, 3 have 1, 3, 6, 12.
 ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
                                const ReflectedOptions& options = {}, const Progress& progress = {});
 

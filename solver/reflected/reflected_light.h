@@ -51,8 +51,8 @@ struct ReflectedReport {
   /// The most that a residual may grow to in the result, as seen in the iteration: 1 / the smallest
   /// singular value. What is left of the residual is at most this times it.
   double amplification = 1;
-  /// Estimated error of G in the L2 norm relative to all irradiance, with two standard deviations
-  /// of the estimate added; of the polynomials and of the rays together.
+  /// Estimated error of G in the L2 norm relative to all irradiance: of the polynomials and of the
+  /// rays, two standard deviations of the estimate, and a fifth of that for what is reflected on.
   double error = 0;
   double noise = 0;              ///< the rays' part in it
   double mean_square_total = 0;  ///< of all irradiance, summed over the channels, (W/m²)²

@@ -37,7 +37,7 @@ namespace {
 constexpr int kept_strata = 10;
 /// With these many elements of order 2 plain rooms come to this error.
 constexpr double usual_elements = 200, usual_error = 0.01;
-constexpr double usual_rays = 200;
+constexpr double usual_rays = 300;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
 constexpr double comes_back = 1.2;
@@ -177,7 +177,8 @@ class Rounds {
     const std::vector<double>& noise = now.noise;
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
-    const ReflectionProbes probes{now.leaving, std::clamp(nodes / 3, 800, 4000), rays_, use_};
+    const ReflectionProbes probes{
+        now.leaving, (report.rounds + 1) * std::clamp(nodes / 3, 800, 4000), rays_, use_};
     const ReflectionEstimate estimate =
         estimate_error(state_.reflecting, system, irradiance, probes, progress_);
     if (!estimate.complete) return false;

@@ -14,8 +14,17 @@ struct RefinementPlan {
   double more_rays = 1;     ///< factor for the number of rays from a node
 };
 
-/// `goal` is the ∫ |error|² allowed.
-RefinementPlan plan_refinement(const ReflectedMesh& mesh, const ReflectionEstimate& estimate,
-                               const std::vector<double>& noise, double goal);
+/// What is known of a solution that is not yet right.
+struct RefinementInput {
+  const ReflectedMesh& mesh;
+  const ElementField& irradiance;
+  const std::vector<double>& noise;  ///< see FinalPass
+  const ReflectionEstimate& estimate;
+};
+
+/// `goal` is the ∫ |error|² allowed. The estimate knows how large the error of all elements is, but
+/// of each only by a point or two: half of the error is laid where it was found, half where the
+/// coefficients of the highest degree are large.
+RefinementPlan plan_refinement(const RefinementInput& input, double goal);
 
 }  // namespace halfshade

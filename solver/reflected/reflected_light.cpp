@@ -34,10 +34,13 @@ struct ReflectedLight::State {
 namespace {
 
 /// Rays from a node that are kept: strata².
-constexpr int kept_strata = 6;
+constexpr int kept_strata = 10;
 /// With these many elements of order 2 plain rooms come to this error.
 constexpr double usual_elements = 200, usual_error = 0.01;
-constexpr double usual_rays = 200;
+constexpr double usual_rays = 300;
+
+/// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
+constexpr double comes_back = 1.2;
 
 void check(const ReflectedOptions& options) {
   if (options.order < 0 || options.order > max_reflected_order)
@@ -152,12 +155,15 @@ class Rounds {
     return true;
   }
 
-  /// What the final pass changes is reflected on, too: by the rays that are kept.
+  /// What the final pass changes is reflected on, too, by the rays that are kept. Only its means:
+  /// the rest of it is mostly noise.
   void correct(const ReflectedSystem& system, const ReflectedSolution& solution,
                SplitIrradiance& irradiance) const {
     const auto& [mesh, light, exchange, systems] = system;
     ElementField change = irradiance.rest;
     change.coefficients -= solution.irradiance.rest.coefficients;
+    for (int e = 0; e < change.count(); ++e)
+      change.of(e).bottomRows(change.of(e).rows() - 1).setZero();
     const std::vector<Rgb> absorbed = absorptances(light);
     const ChannelArray power = -integrals(mesh, systems, change, &absorbed);
     const ElementField arriving = exchange.apply(mesh, reflected_part(mesh, light, change));
@@ -171,7 +177,8 @@ class Rounds {
     const std::vector<double>& noise = now.noise;
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
-    const ReflectionProbes probes{now.leaving, std::clamp(nodes / 3, 800, 4000), rays_, use_};
+    const ReflectionProbes probes{
+        now.leaving, (report.rounds + 1) * std::clamp(nodes / 3, 800, 4000), rays_, use_};
     const ReflectionEstimate estimate =
         estimate_error(state_.reflecting, system, irradiance, probes, progress_);
     if (!estimate.complete) return false;
@@ -180,22 +187,22 @@ class Rounds {
     report.rays += estimate.rays;
     const double all = estimate.square_total, found = std::max(estimate.sum, 0.);
     const auto share = [&](double square) { return all > 0 ? std::sqrt(square / all) : 0; };
-    report.error = share(found + 2 * estimate.deviation);
+    report.error = comes_back * share(found + 2 * estimate.deviation);
     report.noise = share(std::accumulate(noise.begin(), noise.end(), 0.));
     report.mean_square_total = all / system.systems.area.sum() / (state_.scale * state_.scale);
     if (report.error <= options_.tolerance) {
       report.end = ReflectedEnd::accurate;
       return false;
     }
-    return prepare_next(estimate, noise, options_.tolerance * options_.tolerance * all);
+    return prepare_next({mesh_, irradiance.rest, noise, estimate},
+                        std::pow(options_.tolerance / comes_back, 2) * all);
   }
 
-  bool prepare_next(const ReflectionEstimate& estimate, const std::vector<double>& noise,
-                    double goal) {
+  bool prepare_next(const RefinementInput& input, double goal) {
     ReflectedReport& report = state_.report;
     report.end = ReflectedEnd::rounds;
     if (report.rounds == options_.max_rounds) return false;
-    RefinementPlan plan = plan_refinement(mesh_, estimate, noise, goal);
+    RefinementPlan plan = plan_refinement(input, goal);
     const int room = options_.max_elements - mesh_.count();
     std::size_t fits = 0;
     for (int made = 0; fits < plan.elements.size(); ++fits)

@@ -51,8 +51,8 @@ struct ReflectedReport {
   /// The most that a residual may grow to in the result, as seen in the iteration: 1 / the smallest
   /// singular value. What is left of the residual is at most this times it.
   double amplification = 1;
-  /// Estimated error of G in the L2 norm relative to all irradiance, with two standard deviations
-  /// of the estimate added; of the polynomials and of the rays together.
+  /// Estimated error of G in the L2 norm relative to all irradiance: of the polynomials and of the
+  /// rays, two standard deviations of the estimate, and a fifth of that for what is reflected on.
   double error = 0;
   double noise = 0;              ///< the rays' part in it
   double mean_square_total = 0;  ///< of all irradiance, summed over the channels, (W/m²)²
@@ -87,7 +87,8 @@ class ReflectedLight {
 /// Solves for it. `direct` is not asked if direct light goes through the operator, and is kept for
 /// gather(). The scene may go. Deterministic for any number of threads. Throws Error(contract) for
 /// options out of range, Error(invalid_input) where a closed space reflects everything and light is
-/// put in. Memory: 12 bytes for each of about 36 rays from each node (6 in an element of order 2).
+/// put in. Memory: 12 bytes for each of 100 rays from each node, of which elements of
+/// order 0, 1, 2, 3 have 1, 3, 6, 12.
 ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
                                const ReflectedOptions& options = {}, const Progress& progress = {});
 

@@ -71,6 +71,14 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
                       "discontinuities", static_cast<double>(plan.weak_sources), "sources", 0});
   if (plan.no_discontinuities.empty())
     stages.push_back({"curves at three edges", plan.no_eee, "eee", 0, "", 0});
+  if (options.method == SolveMethod::fields) {
+    stages.push_back({"mesh", "", "", 0, "as many elements as the tolerance takes", 0});
+    stages.push_back({"exact direct light", plan.no_exact_direct_light, "direct-light", emitters,
+                      "emitters", 0});
+    stages.push_back({"reflected light", plan.no_factors, "factors", 0, "", 0});
+    stages.push_back({"second and third channel", plan.no_channels, "channels", 0, "", 0});
+    return stages;
+  }
   stages.push_back({"mesh", "", "", n, "elements", 0});
   stages.push_back({"exact direct light", plan.no_exact_direct_light, "direct-light", points,
                     "points", points / points_rate});

@@ -60,6 +60,8 @@ ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options
   result.tolerance = reflected_share * options.tolerance;
   result.bounces = options.radiosity.bounces;
   result.through_operator = !plan.no_exact_direct_light.empty();
+  // What arrives straight from emitters arrives by the operator's first application.
+  if (result.through_operator && result.bounces >= 0) ++result.bounces;
   result.max_elements = options.max_elements;
   return result;
 }
@@ -80,6 +82,8 @@ void fill_powers(SolveResult& result) {
   const Eigen::Map<const Eigen::ArrayXd> areas(result.elements.area.data(),
                                                result.elements.count());
   const Solution& solution = result.solution;
+  result.radiosity.systems = result.reflected.systems;
+  result.radiosity.unknowns = static_cast<int>(result.refinement.unknowns);
   for (int c = 0; c < 3; ++c) {
     ChannelReport& channel = result.radiosity.channel[at(c)];
     channel.emitted_power = (areas * solution.exitance.col(c)).sum();

@@ -2,8 +2,8 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/adapt/element_fit.h"
+#include "solver/reflected/element_lookup.h"
 #include "solver/reflected/reflected_mesh.h"
-#include "solver/reflected/triangle_forest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +15,9 @@ namespace {
 /// Direct light at any point of a surface, from its polynomials.
 class DirectLookup {
  public:
-  explicit DirectLookup(const AdaptiveField& light) : forest_(light.elements), light_(light) {}
+  explicit DirectLookup(const AdaptiveField& light) : lookup_(light.elements), light_(light) {}
 
-  ForestPlace place(int surface, const Vec3& position) const {
-    return forest_.leaf_at(surface, position);
-  }
+  auto place(int surface, const Vec3& position) const { return lookup_.find(surface, position); }
   Rgb operator()(int surface, const Vec3& position) const {
     const ForestPlace here = place(surface, position);
     // Where light breaks polynomials may dip below zero.
@@ -28,7 +26,7 @@ class DirectLookup {
   }
 
  private:
-  TriangleForest forest_;
+  ElementLookup lookup_;
   const AdaptiveField& light_;
 };
 
@@ -51,7 +49,7 @@ constexpr int told_order = 2;
 /// Direct light that went the way of reflected light, on given elements.
 ElementField direct_by_operator(const SoundScene& scene, const ElementTable& elements,
                                 ReflectedOptions options, const Progress& progress) {
-  options.bounces = 0;
+  options.bounces = 1;
   const ReflectedLight light = reflected_light(scene, {}, options, progress);
   ElementField field =
       zero_field(std::vector<int>(elements.corners.size(), std::min(told_order, options.order)));

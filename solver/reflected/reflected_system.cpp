@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <set>
+#include <string>
+
 namespace halfshade {
 namespace {
 
@@ -36,14 +40,28 @@ ChannelArray of_closed(const LightSystems& systems, ChannelArray values) {
   return values;
 }
 
-void require_absorption(const LightSystems& systems, const ChannelArray& power) {
+/// The surfaces of a system, the first few.
+std::string surfaces_of(const ReflectedSystem& system, int s) {
+  constexpr std::size_t most = 8;
+  std::set<int> surfaces;
+  for (int e = 0; e < system.mesh.count(); ++e)
+    if (system.systems.of_element[at(e)] == s)
+      surfaces.insert(system.light.surface[at(system.mesh.root(e))]);
+  const std::vector<int> all(surfaces.begin(), surfaces.end());
+  const std::size_t shown = std::min(all.size(), most);
+  return fmt::format("{}{}", fmt::join(all.begin(), all.begin() + static_cast<long>(shown), ", "),
+                     shown < all.size() ? fmt::format(" and {} more", all.size() - shown) : "");
+}
+
+void require_absorption(const ReflectedSystem& system, const ChannelArray& power) {
+  const LightSystems& systems = system.systems;
   for (int s = 0; s < systems.count(); ++s)
     if (systems.closed[at(s)] && (systems.absorption.row(s) <= 0 && power.row(s) > 0).any())
       throw Error(ErrorCode::invalid_input, "reflected_light",
-                  fmt::format("a closed space of area {} reflects everything (reflectance 1) and "
-                              "light of {} W is put in, so that there is no limit; lower a "
-                              "reflectance",
-                              systems.area[s], power.row(s).maxCoeff()));
+                  fmt::format("surfaces {} close in a space that reflects everything (reflectance "
+                              "1), and light of {} W is put in, so its radiosity has no limit; "
+                              "lower a reflectance",
+                              surfaces_of(system, s), power.row(s).maxCoeff()));
 }
 
 /// The operator of the rest, see solve_reflected.
@@ -100,7 +118,7 @@ ElementField ambient_form(const ReflectedSystem& system, const SplitIrradiance& 
 ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
                                   const ChannelArray& power, const ElementField* ambient) {
   const auto& [mesh, light, exchange, systems] = system;
-  require_absorption(systems, power);
+  require_absorption(system, power);
   ReflectedSolution solution;
   SplitIrradiance& irradiance = solution.irradiance;
   irradiance = {of_closed(systems, ratio(power, systems.absorption)), zero_field(mesh)};

@@ -14,6 +14,7 @@ TEST(Gather, MakesUpTheFurnaceTogetherWithDirectLight) {
   Scene scene = test::l_room(true);
   for (Material& m : scene.materials) m.exitance = Rgb::Ones();
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 600;
   const SolveResult solved = solve(scene, options);
   const VisibilityIndex visibility(occluders(solved.scene));
@@ -34,6 +35,7 @@ TEST(Gather, MakesUpTheFurnaceTogetherWithDirectLight) {
 TEST(Gather, IsZeroWhereNothingReflects) {
   Scene scene = test::room({1, 1, 1}, {{{0, 1}, {0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}}});
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 100;
   const SolveResult solved = solve(scene, options);
   const VisibilityIndex visibility(occluders(solved.scene));

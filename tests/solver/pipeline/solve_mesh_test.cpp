@@ -70,6 +70,7 @@ TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
   const Found found = find(s1());
   for (const int elements : {200, 700, 3000}) {
     SolveOptions options;
+    options.method = SolveMethod::matrix;
     options.elements = elements;
     const SolveMesh mesh = mesh_along(found, options);
     EXPECT_NEAR(mesh.elements.count(), elements, 0.2 * elements)
@@ -82,6 +83,7 @@ TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
 TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
   const Found found = find(slats(8));
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 100;
   const SolveMesh few = mesh_along(found, options);
   // Ten narrow polygons take more than that without any line.
@@ -98,6 +100,7 @@ TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
 TEST(SolveMesh, KeepsToTheLengthAskedFor) {
   const Found found = find(s1());
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.max_length = 0.2;
   const SolveMesh mesh = mesh_along(found, options);
   EXPECT_LE(summarize_quality(mesh.elements).longest_edge, 0.2);
@@ -122,6 +125,7 @@ std::pair<double, double> umbra_area(const SolveResult& result) {
 
 TEST(SolveWithLines, TheUmbraIsItsElements) {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 500;
   const SolveResult with = solve(s1(), options);
   EXPECT_NEAR(umbra_area(with).first, 0.25, 1e-9) << "0.5 × 0.5, exactly";
@@ -141,6 +145,7 @@ std::string left_out(const SolveResult& result, const std::string& stage) {
 
 TEST(SolveWithLines, AreLeftOutWhereTheyAreNeedless) {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 100;
   EXPECT_EQ(left_out(solve(s1(), options), "discontinuities"), "");
   const Scene empty =
@@ -166,6 +171,7 @@ TEST(SolveWithLines, SecondarySourcesAddLines) {
                     {{1.8613, -1.9, 0.1}, {1.8613, -1.9, 2}, {1.8613, 1.8, 2}, {1.8613, 1.8, 0.1}},
                     scene.faces.back().material);
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 300;
   const std::size_t without = solve(scene, options).curves;
   options.secondary = 1;
@@ -189,6 +195,7 @@ TEST(SolveWithLines, RefusesOptionsOutOfRange) {
 TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
   Scene scene = slats(30);
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.max_elements = 20;
   test::expect_error([&] { solve(scene, options); }, ErrorCode::too_large,
                      {"more than 20", "--max-elements"});
@@ -196,6 +203,7 @@ TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
 
 TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 30;
   const SolveResult result = solve(slats(8), options);
   EXPECT_LE(result.elements.count(),
@@ -206,6 +214,7 @@ TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
 TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
   const Scene soup = test::unit_soup(40, 2);
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 400;
   options.max_elements = 1000;
   options.events.most_work = 300;
@@ -222,6 +231,7 @@ TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
 TEST(SolveWithLines, SoupsAreSolvedAndSayWhatIsLeftOut) {
   for (const Scene& scene : {test::unit_soup(15, 1), test::grid_soup(12, 3, 1)}) {
     SolveOptions options;
+    options.method = SolveMethod::matrix;
     options.elements = 500;
     options.events.most_work = 300;
     const SolveResult result = solve(scene, options);

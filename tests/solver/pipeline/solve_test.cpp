@@ -33,6 +33,7 @@ void set_all(Scene& scene, double rho, double exitance) {
 
 SolveOptions with_length(double max_length) {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.max_length = max_length;
   options.radiosity.tolerance = 1e-13;
   return options;
@@ -130,6 +131,7 @@ TEST(DirectLight, ByClosedFormsAndByTheMatrixAgreeInTheMean) {
   scene.materials[static_cast<std::size_t>(sheet)].two_sided = true;
   const auto means = [&](DirectLightBy way) {
     SolveOptions options;
+    options.method = SolveMethod::matrix;
     options.elements = 1500;
     options.direct_light = way;
     const SolveResult result = solve(scene, options);
@@ -157,6 +159,7 @@ TEST(ConjugateGradients, IterationsDoNotGrowWithTheMesh) {
   // Triangles half the size of the squares of an n × n grid, and fewer than those of the next.
   for (const int n : {4, 8, 16, 32}) {
     SolveOptions options;
+    options.method = SolveMethod::matrix;
     options.elements = 6 * n * n;
     options.radiosity.tolerance = 1e-10;
     const SolveResult result = solve(scene, options);
@@ -177,6 +180,7 @@ TEST(Solve, RotationScaleAndTranslationDoNotChangeRadiosities) {
     return Eigen::ArrayXd(mean / area);
   };
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 1000;
   const Eigen::ArrayXd expected = face_means(solve(cube(), options));
   const Eigen::Matrix3d R = Eigen::AngleAxisd(0.8, Vec3(3, 1, 2).normalized()).toRotationMatrix();
@@ -193,6 +197,7 @@ TEST(Solve, ReportsItsStagesAndWhatItLeftOut) {
   Scene scene = cube();
   set_all(scene, 0, 1);
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 200;
   const SolveResult result = solve(scene, options);
   ASSERT_FALSE(result.stages.empty());
@@ -207,6 +212,7 @@ TEST(Solve, StopsWithAValidPartialResult) {
   std::stop_source stop;
   stop.request_stop();
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 500;
   const SolveResult result = solve(cube(), options, {stop.get_token(), {}});
   EXPECT_TRUE(result.interrupted);

@@ -14,6 +14,7 @@ namespace {
 
 SolveOptions coarse() {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 200;
   return options;
 }

@@ -1,5 +1,6 @@
 #include "solver/pipeline/direct_field.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
@@ -7,12 +8,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
 
-/// Samples of direct light that take as long as finding the curves of an edge, about.
-constexpr double samples_for_edge = 125;
+/// Finding the curves of a source among n edges, and light along them, takes as long as so many
+/// samples of direct light times a power of n, about: from four edges to some thousand.
+constexpr double samples_for_curves = 12, power_of_edges = 1.7;
 /// Of the tolerance: what curves may do that are left out.
 constexpr double share_of_curves = 0.5;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
@@ -46,12 +49,13 @@ double length_of(const SoundScene& scene, const SolveOptions& options) {
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
 }
 
-/// What finding curves takes, in samples of direct light.
-double samples_for_curves(const SoundScene& scene, const Plan& plan) {
+/// What finding curves and following them takes, in samples of direct light.
+double cost_of_curves(const SoundScene& scene, const Plan& plan) {
   double edges = 0;
   for (const int s : blocking_surfaces(scene))
     for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
-  return samples_for_edge * edges * static_cast<double>(plan.sources.size());
+  return samples_for_curves * std::pow(edges, power_of_edges) *
+         static_cast<double>(plan.sources.size());
 }
 
 PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions& options) {
@@ -92,8 +96,7 @@ class DirectFieldSearch {
 
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
-    const double samples = samples_for_curves(scene(), plan_);
-    fit_without_curves(std::max(samples, 1.));
+    fit_without_curves(std::max(cost_of_curves(scene(), plan_), 1.));
     if (found_.light.report.limit == FieldLimit::samples) return false;
     stages_.leave_out_if(true, "discontinuities",
                          "the tolerance takes less work than finding them");
@@ -131,17 +134,38 @@ class DirectFieldSearch {
     mesh_options.min_angle = least_angle;
     mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
     mesh_options.irradiance_tolerance = events.irradiance_tolerance;
+    found_.discontinuities = curves.report;
+    found_.curves = curves.curves.size();
+    add(search_warnings(curves.report, options_.tolerance), found_.warnings);
+    bool fits = true;
     stages_.run("mesh along curves", [&] {
+      fits = mesh_along(curves, mesh_options);
+      return fits ? static_cast<std::size_t>(found_.patches->element_count()) : 0;
+    });
+    if (!fits) {
+      found_.mesh.culled = found_.curves;
+      found_.warnings.push_back(
+          {Warning::Kind::curves_left_out,
+           fmt::format("elements do not follow the {} curves, for that would take more than the {} "
+                       "that --max-elements allows",
+                       found_.curves, options_.max_elements)});
+      return fit_without_curves(0);
+    }
+    found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
+    fit_on_patches(field_options(options_));
+  }
+
+  /// False if it takes too many elements.
+  bool mesh_along(const Discontinuities& curves, const DiscontinuityMeshOptions& mesh_options) {
+    try {
       DiscontinuityMesh mesh = mesh_discontinuities(scene(), curves, mesh_options, progress_);
       found_.mesh = mesh.report;
       found_.patches = std::make_shared<PatchMesh>(std::move(mesh.patches));
-      return static_cast<std::size_t>(found_.patches->element_count());
-    });
-    found_.discontinuities = curves.report;
-    add(search_warnings(curves.report, options_.tolerance), found_.warnings);
-    found_.curves = curves.curves.size();
-    found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
-    fit_on_patches(field_options(options_));
+      return true;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::too_large) throw;
+      return false;
+    }
   }
 
   void fit_on_patches(const AdaptiveFieldOptions& fit) {

@@ -68,7 +68,9 @@ std::vector<DirectLight> direct_light(const DirectLightIndex& index,
 void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
                    std::span<const SurfacePoint> points, const Progress& progress,
                    std::vector<DirectLight>& light) {
-  const SolveResult solved = solve(prepared, options, progress);
+  SolveOptions with_matrix = options;
+  with_matrix.method = SolveMethod::matrix;  // gathering reads constant elements
+  const SolveResult solved = solve(prepared, with_matrix, progress);
   if (solved.interrupted) return light.clear();
   const std::size_t done = in_blocks(
       points.first(light.size()), progress,

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
 #include <set>
 #include <span>
 
@@ -109,6 +110,31 @@ Json exchange_json(const ExchangeReport& report) {
           {"escaping_fraction", report.escaping_fraction},
           {"complete", report.complete},
           {"estimated_share", report.estimated_share}};
+}
+
+Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
+  std::map<int, int> orders;
+  for (const int order : field.order) ++orders[order];
+  Json by_order = Json::object();
+  for (const auto& [order, count] : orders) by_order[std::to_string(order)] = count;
+  return {{"elements_by_order", by_order},
+          {"unknowns", report.unknowns},
+          {"samples", report.samples},
+          {"rounds", report.rounds},
+          {"estimated_relative_error", report.relative_error}};
+}
+
+Json reflected_json(const ReflectedReport& report) {
+  return {{"elements", report.elements},
+          {"rounds", report.rounds},
+          {"rays", report.rays},
+          {"systems", report.systems},
+          {"closed_systems", report.closed_systems},
+          {"iterations", report.iterations},
+          {"residual", report.residual},
+          {"amplification", report.amplification},
+          {"estimated_relative_error", report.error},
+          {"estimated_relative_error_of_rays", report.noise}};
 }
 
 Json radiosity_json(const RadiosityReport& report) {

@@ -4,6 +4,7 @@
 #include "meshing/patches/discontinuity_mesh.h"
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
+#include "solver/pipeline/solve.h"
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
 
@@ -36,6 +37,9 @@ Json along_curves_json(const DiscontinuityMeshReport& report);
 
 Json exchange_json(const ExchangeReport& report);
 /// One channel where all are equal.
+/// Of direct light as polynomials, and of reflected light on its own mesh.
+Json direct_json(const AdaptiveFieldReport& report, const ElementField& field);
+Json reflected_json(const ReflectedReport& report);
 Json radiosity_json(const RadiosityReport& report);
 
 }  // namespace halfshade::detail

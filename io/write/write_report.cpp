@@ -119,6 +119,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
   require_consistent(result, "write_report");
   Json json = scene_head(result, run);
   json["estimated_relative_error"] = result.relative_error;
+  json["accuracy_not_reached_because"] = result.not_reached;
   json["scene"] = scene_json(result.scene, result.cameras);
   json["repairs"] = repairs_json(result.scene);
   json["warnings"] = warnings_json(result.warnings);
@@ -128,7 +129,12 @@ void write_report(const SolveResult& result, const RunInfo& run,
   discontinuities.update(along_curves_json(result.mesh));
   json["mesh"] = mesh_json(result.elements);
   json["stages"] = stages_json(result.stages);
-  json["exchange"] = exchange_json(result.exchange);
+  if (result.direct.count() > 0) {
+    json["direct_light"] = direct_json(result.refinement, result.direct);
+    json["reflected_light"] = reflected_json(result.reflected);
+  } else {
+    json["exchange"] = exchange_json(result.exchange);
+  }
   json["radiosity"] = radiosity_json(result.radiosity);
   json["groups"] = groups_json(result);
   json["outputs"] = to_json(run.outputs);

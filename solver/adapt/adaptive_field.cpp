@@ -58,6 +58,13 @@ int first_order(const AdaptiveFieldOptions& options) {
                     std::min(options.highest_order, 5));
 }
 
+/// How many orders fewer elements begin with that have a small share of the mean area: most matter
+/// little, and in clutter there are many.
+int modesty(double share) {
+  constexpr double small = 0.25, tiny = 0.025;
+  return share < tiny ? 2 : share < small ? 1 : 0;
+}
+
 /// Evenly spread over the triangle, different for each index (Roberts' sequence).
 TrianglePlace spread_place(std::size_t index) {
   constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
@@ -73,8 +80,12 @@ class Adaptation {
              const Progress& progress)
       : mesh_(mesh), field_(field), options_(options), progress_(progress) {
     take_elements();
+    double area = 0;
+    for (const Element& element : elements_) area += element.area;
     for (Element& element : elements_) {
-      element.fit.order = first_order(options);
+      const double share = element.area * static_cast<double>(elements_.size()) / area;
+      element.fit.order =
+          options.order >= 0 ? options.order : std::max(first_order(options) - modesty(share), 0);
       element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
     }
   }
@@ -235,8 +246,10 @@ class Adaptation {
   /// The order that an element should have; its own if it should be split.
   int better_order(const Element& element) const {
     const double shrinks = decay(element.fit);
-    if (options_.order >= 0 || element.fit.order >= options_.highest_order || shrinks > smooth)
+    if (options_.order >= 0 || element.fit.order >= options_.highest_order)
       return element.fit.order;
+    if (element.fit.order < first_order(options_)) return first_order(options_);
+    if (shrinks > smooth) return element.fit.order;
     const double target =
         std::sqrt(share_left_alone * allowed() / static_cast<double>(elements_.size()));
     const double missing =

@@ -179,15 +179,17 @@ class DirectFieldSearch {
   void find_regions() {
     const ElementTable& elements = found_.light.elements;
     found_.region.assign(elements.corners.size(), Region::away);
-    std::vector<TrianglePlace> places = gauss_rule(2).places;
-    places.emplace_back(1. / 3, 1. / 3);
+    std::vector<TrianglePlace> places = {TrianglePlace(1. / 3, 1. / 3)};
+    for (const TrianglePlace& place : gauss_rule(2).places) places.push_back(place);
     stages_.run("regions", [&] {
       parallel_for(
           elements.corners.size(),
           [&](std::size_t e) {
             const auto triangle = elements.triangle(static_cast<int>(e));
             Region& region = found_.region[e];
-            for (std::size_t k = 0; k < places.size(); ++k) {
+            // Where the light hardly changes, one place will do.
+            const std::size_t count = found_.light.field.order[e] == 0 ? 1 : places.size();
+            for (std::size_t k = 0; k < count; ++k) {
               const Region here =
                   prepared_.direct_light()
                       .irradiance({position(triangle, places[k]), elements.normal[e]})

@@ -156,6 +156,8 @@ class Painter {
     const auto p = corners(hit);
     double nearest = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
+      if (!mesh_.is_border.empty() && !mesh_.is_border[static_cast<std::size_t>(hit.triangle)][k])
+        continue;
       const Vec3 line = (p[k] - view_.origin)
                             .stableNormalized()
                             .cross((p[(k + 1) % 3] - view_.origin).stableNormalized());

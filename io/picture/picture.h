@@ -17,6 +17,8 @@ namespace halfshade {
 struct ShadedMesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
+  /// [k]: whether the edge from corner k to k+1 is one of an element; empty: all are.
+  std::vector<std::array<bool, 3>> is_border;
   std::vector<Rgb> point_radiosity;     ///< W/m²
   std::vector<Rgb> triangle_radiosity;  ///< W/m²
   std::vector<std::uint8_t> emits;  ///< 1 for triangles with exitance; the exposure ignores them

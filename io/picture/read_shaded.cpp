@@ -111,6 +111,7 @@ void cut_curved(const std::vector<std::vector<int>>& cells, const std::vector<in
   mesh.points = std::move(pieces.points);
   mesh.point_radiosity = std::move(pieces.value);
   mesh.triangles = std::move(pieces.corners);
+  mesh.is_border = std::move(pieces.is_border);
 }
 
 std::vector<double> field_numbers(vtkFieldData* data, const char* name, int components) {

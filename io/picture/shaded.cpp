@@ -22,6 +22,7 @@ ShadedMesh shaded(const SolveResult& result) {
   const LinearResult linear = linear_result(result);
   mesh.points = linear.elements.points;
   mesh.triangles = linear.elements.corners;
+  mesh.is_border = linear.is_border;
   mesh.cameras = result.cameras;
   for (Eigen::Index i = 0; i < linear.radiosity.rows(); ++i)
     mesh.point_radiosity.emplace_back(linear.radiosity.row(i));

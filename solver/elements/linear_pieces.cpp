@@ -37,8 +37,10 @@ LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
     for (int j = 0; j < n; ++j)
       for (int i = 0; i + j < n; ++i) {
         out.corners.push_back({point(i, j), point(i + 1, j), point(i, j + 1)});
-        if (i + j + 1 < n)
-          out.corners.push_back({point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+        out.is_border.push_back({j == 0, i + j + 1 == n, i == 0});
+        if (i + j + 1 == n) continue;
+        out.corners.push_back({point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
+        out.is_border.push_back({false, false, false});
       }
     out.pieces.push_back(n * n);
     out.element.resize(out.corners.size(), e);

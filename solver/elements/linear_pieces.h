@@ -14,6 +14,8 @@ struct LinearPieces {
   std::vector<Rgb> value;  ///< at each point
   std::vector<int> element_of_point;
   std::vector<std::array<int, 3>> corners;
+  /// [k]: whether the edge from corner k to k+1 lies on the element's border.
+  std::vector<std::array<bool, 3>> is_border;
   std::vector<int> element;  ///< that each piece is of
   std::vector<int> pieces;   ///< that each element has
 };

@@ -56,6 +56,7 @@ LinearResult cut(const SolveResult& result) {
   LinearPieces pieces = linear_pieces(triangles, result.irradiance, allowed_error(result));
   LinearResult out;
   out.elements = piece_table(result.elements, pieces);
+  out.is_border = std::move(pieces.is_border);
   out.solution = piece_solution(result.solution, pieces.element);
   const std::size_t emitters = result.emitters.size();
   for (const int e : pieces.element)
@@ -98,9 +99,12 @@ NodeValues node_values(const SolveResult& result) {
 
 LinearResult linear_result(const SolveResult& result) {
   if (result.irradiance.count() > 0) return cut(result);
-  return {result.elements, result.solution,
+  return {result.elements,
+          {},
+          result.solution,
           values_at_points(result.elements, result.solution.irradiance),
-          values_at_points(result.elements, result.solution.radiosity), result.regions};
+          values_at_points(result.elements, result.solution.radiosity),
+          result.regions};
 }
 
 }  // namespace halfshade

@@ -2,6 +2,7 @@
 
 #include "solver/pipeline/solve.h"
 
+#include <array>
 #include <vector>
 
 namespace halfshade {
@@ -9,6 +10,8 @@ namespace halfshade {
 /// A result for those who know triangles with values at corners only.
 struct LinearResult {
   ElementTable elements;
+  /// See LinearPieces; empty if elements were not cut.
+  std::vector<std::array<bool, 3>> is_border;
   Solution solution;                   ///< of each triangle
   ChannelArray irradiance, radiosity;  ///< at points, W/m²
   std::vector<Region> regions;         ///< as those of SolveResult

@@ -36,6 +36,7 @@ struct Element {
   double area = 0;
   ElementFit fit;
   bool is_fitted = false, is_checked = false;
+  bool is_broken = false;  ///< its samples overlook something
 
   double square_error() const { return area * fit.error * fit.error; }
 };
@@ -77,8 +78,8 @@ TrianglePlace spread_place(std::size_t index) {
 class Adaptation {
  public:
   Adaptation(PatchMesh& mesh, const FieldAt& field, const AdaptiveFieldOptions& options,
-             const Progress& progress)
-      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+             const Progress& progress, std::span<const WatchedPlace> watched)
+      : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
     double area = 0;
     for (const Element& element : elements_) area += element.area;
@@ -149,6 +150,7 @@ class Adaptation {
         element.fit = whole.fit;
         element.is_fitted = whole.is_fitted;
         element.is_checked = whole.is_checked;
+        element.is_broken = whole.is_broken;
         continue;
       }
       std::array<TrianglePlace, 3> corners;
@@ -206,7 +208,7 @@ class Adaptation {
         points.push_back(point_at(element, places.back()));
       }
     const std::vector<Rgb> values = sample(points);
-    if (values.empty()) return points.empty();
+    if (values.empty() && !points.empty()) return false;
     const double before = square_error_;
     Eigen::VectorXd basis(basis_size(max_order));
     std::size_t next = 0;
@@ -224,8 +226,44 @@ class Adaptation {
       if (square > noticeably * noticeably * element.fit.error * element.fit.error)
         element.fit.error = std::sqrt(square);
     }
+    if (!check_watched()) return false;
     sum_up();
     return square_error_ <= std::max(before, allowed());
+  }
+
+  /// The same at the places that are watched. False if it was stopped.
+  bool check_watched() {
+    if (watched_values_.empty() && !watched_.empty()) {
+      std::vector<FieldPoint> points;
+      for (const WatchedPlace& watched : watched_) points.push_back(watched.place);
+      watched_values_ = sample(points);
+      if (watched_values_.empty()) return false;
+    }
+    std::vector<std::vector<int>> of_surface;
+    for (int e = 0; e < static_cast<int>(elements_.size()) && !watched_.empty(); ++e) {
+      const std::size_t surface = at(elements_[at(e)].surface);
+      if (surface >= of_surface.size()) of_surface.resize(surface + 1);
+      of_surface[surface].push_back(e);
+    }
+    for (std::size_t k = 0; k < watched_.size(); ++k) {
+      const FieldPoint& point = watched_[k].place;
+      for (const int e : of_surface[at(point.surface)]) {
+        Element& element = elements_[at(e)];
+        const TrianglePlace place = place_of(element.triangle, point.point.position);
+        if (place.minCoeff() < 0 || place.sum() > 1) continue;
+        Eigen::VectorXd phi(element.fit.coefficients.rows());
+        basis_at(element.fit.order, place, phi);
+        const Rgb off =
+            watched_values_[k] - (element.fit.coefficients.matrix().transpose() * phi).array();
+        const double share = std::min(watched_[k].area / element.area, 1.);
+        const double error = std::sqrt(share) * off.matrix().norm();
+        if (error > noticeably * element.fit.error) {
+          element.fit.error = error;
+          element.is_broken = true;
+        }
+      }
+    }
+    return true;
   }
 
   /// The elements that matter most, the worst first.
@@ -246,7 +284,7 @@ class Adaptation {
   /// The order that an element should have; its own if it should be split.
   int better_order(const Element& element) const {
     const double shrinks = decay(element.fit);
-    if (options_.order >= 0 || element.fit.order >= options_.highest_order)
+    if (options_.order >= 0 || element.fit.order >= options_.highest_order || element.is_broken)
       return element.fit.order;
     if (element.fit.order < first_order(options_)) return first_order(options_);
     if (shrinks > smooth) return element.fit.order;
@@ -359,6 +397,8 @@ class Adaptation {
   const FieldAt& field_;
   const AdaptiveFieldOptions& options_;
   const Progress& progress_;
+  std::span<const WatchedPlace> watched_;
+  std::vector<Rgb> watched_values_;
   ElementTable table_;
   std::vector<Element> elements_;
   std::unordered_map<int, int> index_of_node_;
@@ -371,9 +411,10 @@ class Adaptation {
 }  // namespace
 
 AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
-                             const AdaptiveFieldOptions& options, const Progress& progress) {
+                             const AdaptiveFieldOptions& options, const Progress& progress,
+                             std::span<const WatchedPlace> watched) {
   check(options);
-  return Adaptation(mesh, field, options, progress).run();
+  return Adaptation(mesh, field, options, progress, watched).run();
 }
 
 }  // namespace halfshade

@@ -17,6 +17,12 @@ struct FieldPoint {
   int surface;
 };
 
+/// Where something small may be that samples overlook.
+struct WatchedPlace {
+  FieldPoint place;
+  double area;  ///< of it, squared scene units
+};
+
 /// A field on surfaces, W/m²: its values at points. It must be the same for the same points.
 using FieldAt = std::function<std::vector<Rgb>(std::span<const FieldPoint>, const Progress&)>;
 
@@ -53,13 +59,14 @@ struct AdaptiveField {
 /// Fits polynomials to a field on the elements of a mesh, until the estimated error is within the
 /// tolerance: raises the order of elements where the coefficients decay, splits the others (hp
 /// adaptivity; Babuška and Suri 1994), and lowers orders again where that costs nothing noticeable.
-/// The estimate comes of samples within each element, at Gauss's places, and is checked at others
-/// before it is believed. Breaks that elements do not follow are met by splitting. The mesh is left
-/// as the elements are.
+/// The estimate comes of samples within each element, at Gauss's places, and is checked at others,
+/// and at those `watched`, before it is believed. Breaks that elements do not follow are met by
+/// splitting. The mesh is left as the elements are.
 ///
 /// If stopped, the elements keep what the last whole round gave. Throws Error(contract) for options
 /// out of range. The same for any number of threads.
 AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
-                             const AdaptiveFieldOptions& options, const Progress& progress = {});
+                             const AdaptiveFieldOptions& options, const Progress& progress = {},
+                             std::span<const WatchedPlace> watched = {});
 
 }  // namespace halfshade

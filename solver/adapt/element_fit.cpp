@@ -7,6 +7,9 @@
 namespace halfshade {
 namespace {
 
+/// What degrees beyond those sampled may add to an error, at most, as a factor of it.
+constexpr double most_unseen = 1.6;
+
 /// Per order, the basis of the next one at the places of its sampling rule.
 struct SamplingBases {
   std::array<Eigen::MatrixXd, max_order + 1> of_order;
@@ -40,6 +43,9 @@ ElementFit fit_element(int order, const ChannelArray& samples) {
   const Eigen::MatrixXd rest = samples.matrix() - basis.leftCols(size) * all.topRows(size);
   const auto places = static_cast<double>(weights.size());
   fit.error = std::sqrt(weights.dot(rest.rowwise().squaredNorm()) * places / (places - size));
+  // Degrees beyond those that samples tell, if they go on to shrink as they do.
+  const double shrinks = order > 0 ? decay(fit) : 0;
+  fit.error *= std::min(1 / std::sqrt(std::max(1 - shrinks * shrinks, 1e-9)), most_unseen);
   return fit;
 }
 

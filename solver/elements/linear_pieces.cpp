@@ -12,7 +12,13 @@ constexpr int most_along_edge = 16;
 int pieces_along_edge(const ElementField& field, int element, double allowed) {
   const auto coefficients = field.of(element).matrix();
   if (coefficients.rows() <= basis_size(1)) return 1;
-  const double bent = coefficients.bottomRows(coefficients.rows() - basis_size(1)).norm();
+  // By how much a straight triangle misses the polynomials of a degree, at most, in the mean.
+  constexpr std::array<double, max_order + 1> bends = {0, 0, 3, 7, 14, 25, 41, 57, 86};
+  double square = 0;
+  for (int degree = 2; degree <= field.order[at(element)]; ++degree)
+    square += std::pow(bends[at(degree)], 2) *
+              coefficients.middleRows(basis_size(degree - 1), degree + 1).squaredNorm();
+  const double bent = std::sqrt(square);
   if (!(bent > allowed)) return 1;
   return static_cast<int>(
       std::clamp(std::ceil(std::sqrt(bent / allowed)), 1., static_cast<double>(most_along_edge)));

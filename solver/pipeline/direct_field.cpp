@@ -4,6 +4,7 @@
 #include "meshing/core/parallel.h"
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/shadow_places.h"
 
 #include <fmt/format.h>
 
@@ -75,7 +76,8 @@ class DirectFieldSearch {
         options_(options),
         progress_(progress),
         stages_(stages),
-        direct_light_(direct_light_at(prepared.direct_light())) {}
+        direct_light_(direct_light_at(prepared.direct_light())),
+        watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {}
 
   DirectField run() {
     const bool no_curves = !plan_.no_discontinuities.empty();
@@ -170,7 +172,7 @@ class DirectFieldSearch {
 
   void fit_on_patches(const AdaptiveFieldOptions& fit) {
     stages_.run("direct light", [&] {
-      found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_);
+      found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched_);
       return found_.light.report.unknowns;
     });
   }
@@ -208,6 +210,7 @@ class DirectFieldSearch {
   const Progress& progress_;
   Stages& stages_;
   FieldAt direct_light_;
+  std::vector<WatchedPlace> watched_;
   DirectField found_;
 };
 

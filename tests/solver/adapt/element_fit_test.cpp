@@ -73,7 +73,7 @@ TEST(ElementFit, OneDegreeMoreIsAllError) {
     EXPECT_LT(fit.coefficients.matrix().norm(), 1e-12) << order;
     EXPECT_NEAR(fit.layer[at(order + 1)], c.norm(), 1e-12) << order;
     EXPECT_GE(fit.error, 0.999 * c.norm()) << order;
-    EXPECT_LE(fit.error, 2.1 * c.norm()) << order;
+    EXPECT_LE(fit.error, 3.4 * c.norm()) << order;
   }
 }
 
@@ -83,7 +83,7 @@ TEST(ElementFit, TheErrorOfSmoothFunctionsIsClose) {
       const ElementFit of = fit(order, f);
       const double ratio = of.error / true_error(of, f, 2);
       EXPECT_GE(ratio, 0.9) << order;
-      EXPECT_LE(ratio, 1.6) << order;
+      EXPECT_LE(ratio, 2) << order;
     }
 }
 
@@ -108,7 +108,7 @@ TEST(ElementFit, TheErrorOfKinksIsClose) {
   for (int order = 0; order <= max_order; ++order) {
     const double ratio = error_ratio_of_breaks(order, 4, [](double d) { return std::abs(d); });
     EXPECT_GE(ratio, 0.8) << order;
-    EXPECT_LE(ratio, 1.6) << order;
+    EXPECT_LE(ratio, 2) << order;
   }
 }
 

@@ -194,5 +194,27 @@ TEST(SolveFields, BytesDoNotDependOnThreads) {
   }
 }
 
+TEST(SolveFields, ASmallThingJustAboveTheFloorIsNotOverlooked) {
+  for (const double size : {0.1, 0.05})
+    for (const double tolerance : {1e-2, 1e-3}) {
+      Scene scene;
+      const int black = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);
+      test::add_polygon(scene, reversed(square_at(-.5, .5, 2)), light);
+      test::add_polygon(scene, square_at(-2, 2, 0), black);
+      const Vec3 low(0.613, 0.422, 0.1 * size);
+      for (const auto& face : test::box_faces(low, low + Vec3(size, size, 0.9 * size), false))
+        test::add_polygon(scene, face, black);
+      const SolveResult result = solve(scene, within(tolerance));
+      EXPECT_LE(fine_error(result, 4), tolerance) << size;
+    }
+}
+
+TEST(SolveFields, FewElementsAreALimitNotAFailure) {
+  SolveOptions options = within(1e-4);
+  options.max_elements = 20;
+  const SolveResult few = solve(soft_shadow(), options);
+  EXPECT_NE(few.not_reached.find("--max-elements"), std::string::npos) << few.not_reached;
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -1,0 +1,78 @@
+// Is the accuracy given that was asked for, and at what cost? Direct light of scenes in data/ and
+// of a soft shadow, with curves (as solve decides) and without, for tolerances from 1e-2 to 1e-6:
+// elements, unknowns, estimated and true error (exact values at random points), seconds.
+
+#include "io/read/read_scene.h"
+#include "solver/direct/direct_light.h"
+#include "solver/pipeline/solve.h"
+#include "tests/support/random.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+namespace halfshade {
+namespace {
+
+constexpr int points = 10000;
+
+/// Relative L2 error of the polynomials, at points spread evenly over the area.
+double true_error(const SolveResult& result) {
+  const DirectLightIndex index(result.scene);
+  std::vector<double> sums;
+  double area = 0;
+  for (const double a : result.elements.area) sums.push_back(area += a);
+  test::Random random(1);
+  double square_error = 0, square = 0;
+  for (int k = 0; k < points; ++k) {
+    const double at_area = (k + random(0, 1)) / points * area;
+    const auto found = std::lower_bound(sums.begin(), sums.end() - 1, at_area);
+    const int e = static_cast<int>(found - sums.begin());
+    TrianglePlace place(random(0, 1), random(0, 1));
+    if (place.sum() > 1) place = TrianglePlace(1, 1) - place;
+    const Rgb exact = index
+                          .irradiance({position(result.elements.triangle(e), place),
+                                       result.elements.normal[at(e)]})
+                          .irradiance;
+    square_error += (value_at(result.direct, e, place) - exact).matrix().squaredNorm();
+    square += exact.matrix().squaredNorm();
+  }
+  return std::sqrt(square_error / square);
+}
+
+void measure(const std::string& name, const Scene& scene, double tolerance, bool with_curves) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  options.radiosity.bounces = 0;
+  options.discontinuities = with_curves;
+  options.max_elements = 200000;
+  options.max_unknowns = 4000000;
+  const auto start = std::chrono::steady_clock::now();
+  const SolveResult result = solve(scene, options);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  const double error = true_error(result);
+  fmt::print("{},{:.0e},{},{},{},{:.3g},{:.3g},{:.2f},{:.2f},{}\n", name, tolerance,
+             with_curves ? (result.curves > 0 ? "followed" : "not worth it") : "left out",
+             result.elements.count(), result.refinement.unknowns, result.relative_error, error,
+             result.relative_error / error, elapsed.count(),
+             result.not_reached.empty() ? "reached" : "limit");
+}
+
+}  // namespace
+}  // namespace halfshade
+
+int main(int argc, char** argv) {
+  using namespace halfshade;
+  fmt::print("scene,tolerance,curves,elements,unknowns,estimated,true,ratio,seconds,outcome\n");
+  std::vector<std::string> names(argv + 1, argv + argc);
+  if (names.empty()) names = {"s1", "bars", "skew_bars", "holed_light", "table_and_chairs"};
+  for (const std::string& name : names) {
+    const Scene scene = read_scene(std::filesystem::path(HALFSHADE_DATA) / (name + ".obj")).scene;
+    for (const bool with_curves : {true, false})
+      for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6})
+        if (with_curves || tolerance > 1e-5) measure(name, scene, tolerance, with_curves);
+  }
+}

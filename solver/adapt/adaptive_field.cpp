@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/adapt/element_fit.h"
+#include "solver/adapt/field_beginnings.h"
 #include "solver/elements/balancing_scale.h"
 
 #include <fmt/format.h>
@@ -50,29 +51,6 @@ void check(const AdaptiveFieldOptions& options) {
         fmt::format("tolerance ({}), order ({}), max_elements ({}) or max_unknowns ({}) is "
                     "out of range",
                     options.tolerance, options.order, options.max_elements, options.max_unknowns));
-}
-
-/// Low orders where they will do; what is too high is dropped in the end.
-int first_order(const AdaptiveFieldOptions& options) {
-  if (options.order >= 0) return options.order;
-  return std::clamp(static_cast<int>(std::lround(-0.75 * std::log10(options.tolerance))), 2,
-                    std::min(options.highest_order, 5));
-}
-
-/// How many orders fewer elements begin with that have a small share of the mean area: most matter
-/// little, and in clutter there are many.
-int modesty(double share) {
-  constexpr double small = 0.25, tiny = 0.025;
-  return share < tiny ? 2 : share < small ? 1 : 0;
-}
-
-/// Evenly spread over the triangle, different for each index (Roberts' sequence).
-TrianglePlace spread_place(std::size_t index) {
-  constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
-  double s = std::fmod(0.5 + static_cast<double>(index + 1) / root, 1.);
-  double t = std::fmod(0.5 + static_cast<double>(index + 1) / (root * root), 1.);
-  if (s + t > 1) s = 1 - s, t = 1 - t;
-  return {s, t};
 }
 
 class Adaptation {

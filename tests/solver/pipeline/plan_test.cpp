@@ -104,6 +104,7 @@ bool is_left_out(const SolveResult& result, const std::string& name) {
 /// Solves with and without forcing; the stage must be left out in the first case only.
 double forced_difference(const Scene& scene, const ForcedStages& force, const std::string& name) {
   SolveOptions options;
+  options.method = SolveMethod::matrix;
   options.elements = 300;
   options.radiosity.tolerance = 1e-13;
   const SolveResult planned = solve(scene, options);

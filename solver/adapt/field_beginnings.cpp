@@ -1,0 +1,27 @@
+#include "solver/adapt/field_beginnings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+
+int first_order(const AdaptiveFieldOptions& options) {
+  if (options.order >= 0) return options.order;
+  return std::clamp(static_cast<int>(std::lround(-0.75 * std::log10(options.tolerance))), 2,
+                    std::min(options.highest_order, 5));
+}
+
+int modesty(double share) {
+  constexpr double small = 0.25, tiny = 0.025;
+  return share < tiny ? 2 : share < small ? 1 : 0;
+}
+
+TrianglePlace spread_place(std::size_t index) {
+  constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
+  double s = std::fmod(0.5 + static_cast<double>(index + 1) / root, 1.);
+  double t = std::fmod(0.5 + static_cast<double>(index + 1) / (root * root), 1.);
+  if (s + t > 1) s = 1 - s, t = 1 - t;
+  return {s, t};
+}
+
+}  // namespace halfshade

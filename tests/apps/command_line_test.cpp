@@ -212,8 +212,8 @@ TEST(CommandLine, ThreadsDoNotChangeTheBytes) {
 TEST(CommandLine, InterruptWritesAMarkedPartialResult) {
   const test::TempDir folder;
   const test::Outcome outcome =
-      halfshade({"solve", (data / "cornell_box.obj").string(), "--method", "matrix", "--elements", "20000", "-o",
-                 "out.vtu", "-o", "marked.png", "--json", "report.json"},
+      halfshade({"solve", (data / "cornell_box.obj").string(), "--method", "matrix", "--elements",
+                 "20000", "-o", "out.vtu", "-o", "marked.png", "--json", "report.json"},
                 folder.path(), std::chrono::milliseconds(1500));
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;

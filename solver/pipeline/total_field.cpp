@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/adapt/element_fit.h"
+#include "solver/elements/balancing_scale.h"
 #include "solver/reflected/element_lookup.h"
 #include "solver/reflected/reflected_mesh.h"
 
@@ -69,6 +70,64 @@ ElementField direct_by_operator(const SoundScene& scene, const ElementTable& ele
 /// Coefficients of two polynomials on one element, added.
 void add(const ChannelArray& from, Eigen::Ref<ChannelArray> to) { to.topRows(from.rows()) += from; }
 
+/// The elements of direct light that others are parts of, and where in them.
+struct Wholes {
+  std::vector<int> element;
+  std::vector<std::array<TrianglePlace, 3>> corners;
+};
+
+Wholes find_wholes(const ElementTable& parts, const AdaptiveField& light,
+                   const DirectLookup& lookup) {
+  Wholes wholes;
+  for (int e = 0; e < parts.count(); ++e) {
+    const auto triangle = parts.triangle(e);
+    const int whole =
+        lookup.place(parts.surface[at(e)], (triangle[0] + triangle[1] + triangle[2]) / 3).triangle;
+    const auto of_whole = light.elements.triangle(whole);
+    wholes.element.push_back(whole);
+    auto& corners = wholes.corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) corners[k] = place_of(of_whole, triangle[k]);
+  }
+  return wholes;
+}
+
+/// Direct light on the elements of `extra`, and both together; `total` has those elements.
+void add_fields(const DirectField& direct, const AdaptiveField& extra, const Wholes& wholes,
+                TotalField& total) {
+  const ElementField& light = direct.light.field;
+  std::vector<int> direct_order, order;
+  for (int e = 0; e < extra.field.count(); ++e) {
+    direct_order.push_back(light.order[at(wholes.element[at(e)])]);
+    order.push_back(std::max(extra.field.order[at(e)], direct_order.back()));
+  }
+  total.direct = zero_field(direct_order);
+  total.irradiance = zero_field(std::move(order));
+  total.error.resize(extra.field.count());
+  for (int e = 0; e < extra.field.count(); ++e) {
+    const int whole = wholes.element[at(e)];
+    total.direct.of(e) =
+        (restriction(direct_order[at(e)], wholes.corners[at(e)]) * light.of(whole).matrix())
+            .array();
+    add(total.direct.of(e), total.irradiance.of(e));
+    add(extra.field.of(e), total.irradiance.of(e));
+    total.error[e] = std::hypot(direct.light.error[whole], extra.error[e]);
+    if (!direct.region.empty()) total.region.push_back(direct.region[at(whole)]);
+  }
+}
+
+/// Of the error on the elements and that of reflected light, relative to the light.
+double joint_error(const TotalField& total, double of_reflected) {
+  // Squares of light of any size must not over- or underflow.
+  const double scale = balancing_scale(total.irradiance.coefficients.abs().maxCoeff());
+  double square_error = 0, square = 0;
+  for (int e = 0; e < total.elements.count(); ++e) {
+    const double area = total.elements.area[at(e)];
+    square_error += area * std::pow(scale * total.error[e], 2);
+    square += area * (scale * total.irradiance.of(e).matrix()).squaredNorm();
+  }
+  return square > 0 ? std::sqrt(square_error / square + of_reflected * of_reflected) : 0;
+}
+
 }  // namespace
 
 TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
@@ -91,7 +150,7 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   stages.run("values of reflected light", [&] {
     AdaptiveFieldOptions fit;
     fit.tolerance = options.values_tolerance;
-    fit.norm = norm;
+    fit.norm = std::isfinite(norm) ? norm : 0;
     fit.highest_order = max_reflected_order;
     on_elements = fit_adaptively(*direct.patches, values_of(*reflected), fit, progress);
     return on_elements.elements.corners.size();
@@ -100,43 +159,10 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   TotalField total;
   total.reflected = reflected->report();
   total.elements = std::move(on_elements.elements);
-  const ElementField& extra = on_elements.field;
-  std::vector<int> order, whole;
-  std::vector<std::array<TrianglePlace, 3>> corners;
-  for (int e = 0; e < extra.count(); ++e) {
-    const auto triangle = total.elements.triangle(e);
-    const int parent =
-        lookup.place(total.elements.surface[at(e)], (triangle[0] + triangle[1] + triangle[2]) / 3)
-            .triangle;
-    whole.push_back(parent);
-    order.push_back(std::max(extra.order[at(e)], light.field.order[at(parent)]));
-    const auto parent_triangle = light.elements.triangle(parent);
-    auto& places = corners.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) places[k] = place_of(parent_triangle, triangle[k]);
-  }
-  std::vector<int> direct_order;
-  for (const int parent : whole) direct_order.push_back(light.field.order[at(parent)]);
-  total.direct = zero_field(direct_order);
-  total.irradiance = zero_field(std::move(order));
-  total.error.resize(extra.count());
-  double square_error = 0;
-  for (int e = 0; e < extra.count(); ++e) {
-    const int parent = whole[at(e)];
-    total.direct.of(e) =
-        (restriction(direct_order[at(e)], corners[at(e)]) * light.field.of(parent).matrix())
-            .array();
-    add(total.direct.of(e), total.irradiance.of(e));
-    add(extra.of(e), total.irradiance.of(e));
-    total.error[e] = std::hypot(light.error[parent], on_elements.error[e]);
-    square_error += total.elements.area[at(e)] * total.error[e] * total.error[e];
-    if (!direct.region.empty()) total.region.push_back(direct.region[at(parent)]);
-  }
+  add_fields(direct, on_elements, find_wholes(total.elements, light, lookup), total);
   if (options.reflected.through_operator)
     total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);
-  const double of_reflected = reflected->report().error;
-  const double square = square_integral(total.irradiance, total.elements);
-  total.relative_error =
-      square > 0 ? std::sqrt(square_error / square + of_reflected * of_reflected) : 0;
+  total.relative_error = joint_error(total, total.reflected.error);
   return total;
 }
 

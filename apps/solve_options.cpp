@@ -49,7 +49,7 @@ void add_light(CLI::App& app, SolveOptions& options) {
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
   add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
-            "Visibility rays for a pair of elements, on average")
+            "Visibility rays for a pair of elements, on average, with --method matrix")
       ->capture_default_str();
   add_choice(
       app, "--closure", {"auto", "enforce", "leave"},
@@ -57,7 +57,8 @@ void add_light(CLI::App& app, SolveOptions& options) {
         options.exchange.closure =
             std::array{Closure::automatic, Closure::enforce, Closure::leave}.at(k);
       },
-      "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave'");
+      "Scale form factors so that rows sum to 1: 'auto' in closed scenes, 'enforce', 'leave';\n"
+      "with --method matrix");
   add_choice(
       app, "--direct-light", {"auto", "exact", "matrix"},
       [&options](std::size_t k) {

@@ -4,6 +4,7 @@
 #include "solver/adapt/element_fit.h"
 #include "solver/adapt/field_beginnings.h"
 #include "solver/elements/balancing_scale.h"
+#include "solver/elements/element_lookup.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ constexpr int most_rounds = 60;
 /// Coefficients that shrink faster from degree to degree are worth more of them: with this decay,
 /// one more order and four smaller elements gain alike per unknown.
 constexpr double smooth = 0.45;
-constexpr int most_orders_at_once = 3;
+constexpr double most_orders_at_once = 3;
 /// Of the square of the error allowed: what may come of elements left alone, and of dropping
 /// orders.
 constexpr double share_left_alone = 0.25, share_after_dropping = 0.8;
@@ -48,9 +49,10 @@ void check(const AdaptiveFieldOptions& options) {
       !(options.norm >= 0) || options.max_elements < 1 || options.max_unknowns < 1)
     throw Error(
         ErrorCode::contract, "fit_adaptively",
-        fmt::format("tolerance ({}), order ({}), max_elements ({}) or max_unknowns ({}) is "
-                    "out of range",
-                    options.tolerance, options.order, options.max_elements, options.max_unknowns));
+        fmt::format("tolerance ({}), norm ({}), order ({}), highest_order ({}), max_elements ({}) "
+                    "or max_unknowns ({}) is out of range",
+                    options.tolerance, options.norm, options.order, options.highest_order,
+                    options.max_elements, options.max_unknowns));
 }
 
 class Adaptation {
@@ -176,6 +178,13 @@ class Adaptation {
     }
   }
 
+  /// Value less polynomial.
+  static Rgb off_at(const Element& element, const TrianglePlace& place, const Rgb& value) {
+    Eigen::VectorXd phi(element.fit.coefficients.rows());
+    basis_at(element.fit.order, place, phi);
+    return value - (element.fit.coefficients.matrix().transpose() * phi).array();
+  }
+
   /// Looks at places that the fits do not know. True if the estimates stand.
   bool check_new() {
     std::vector<FieldPoint> points;
@@ -188,18 +197,12 @@ class Adaptation {
     const std::vector<Rgb> values = sample(points);
     if (values.empty() && !points.empty()) return false;
     const double before = square_error_;
-    Eigen::VectorXd basis(basis_size(max_order));
     std::size_t next = 0;
     for (Element& element : elements_) {
       if (element.is_checked) continue;
       double square = 0;
-      for (int k = 0; k < checks; ++k, ++next) {
-        auto phi = basis.head(element.fit.coefficients.rows());
-        basis_at(element.fit.order, places[next], phi);
-        const Rgb off =
-            values[next] - (element.fit.coefficients.matrix().transpose() * phi).array();
-        square += off.matrix().squaredNorm() / checks;
-      }
+      for (int k = 0; k < checks; ++k, ++next)
+        square += off_at(element, places[next], values[next]).matrix().squaredNorm() / checks;
       element.is_checked = true;
       if (square > noticeably * noticeably * element.fit.error * element.fit.error)
         element.fit.error = std::sqrt(square);
@@ -217,28 +220,19 @@ class Adaptation {
       watched_values_ = sample(points);
       if (watched_values_.empty()) return false;
     }
-    std::vector<std::vector<int>> of_surface;
-    for (int e = 0; e < static_cast<int>(elements_.size()) && !watched_.empty(); ++e) {
-      const std::size_t surface = at(elements_[at(e)].surface);
-      if (surface >= of_surface.size()) of_surface.resize(surface + 1);
-      of_surface[surface].push_back(e);
-    }
+    if (watched_.empty()) return true;
+    const ElementLookup lookup(table_);
     for (std::size_t k = 0; k < watched_.size(); ++k) {
       const FieldPoint& point = watched_[k].place;
-      for (const int e : of_surface[at(point.surface)]) {
-        Element& element = elements_[at(e)];
-        const TrianglePlace place = place_of(element.triangle, point.point.position);
-        if (place.minCoeff() < 0 || place.sum() > 1) continue;
-        Eigen::VectorXd phi(element.fit.coefficients.rows());
-        basis_at(element.fit.order, place, phi);
-        const Rgb off =
-            watched_values_[k] - (element.fit.coefficients.matrix().transpose() * phi).array();
-        const double share = std::min(watched_[k].area / element.area, 1.);
-        const double error = std::sqrt(share) * off.matrix().norm();
-        if (error > noticeably * element.fit.error) {
-          element.fit.error = error;
-          element.is_broken = true;
-        }
+      const ForestPlace found = lookup.find(point.surface, point.point.position);
+      if (found.triangle < 0) continue;
+      Element& element = elements_[at(found.triangle)];
+      const double share = std::min(watched_[k].area / element.area, 1.);
+      const double error =
+          std::sqrt(share) * off_at(element, found.place, watched_values_[k]).matrix().norm();
+      if (error > noticeably * element.fit.error) {
+        element.fit.error = error;
+        element.is_broken = true;
       }
     }
     return true;
@@ -265,13 +259,14 @@ class Adaptation {
     if (options_.order >= 0 || element.fit.order >= options_.highest_order || element.is_broken)
       return element.fit.order;
     if (element.fit.order < first_order(options_)) return first_order(options_);
-    if (shrinks > smooth) return element.fit.order;
+    // Without coefficients there is nothing that shrinks: something was overlooked.
+    if (shrinks > smooth || shrinks == 0) return element.fit.order;
     const double target =
         std::sqrt(share_left_alone * allowed() / static_cast<double>(elements_.size()));
     const double missing =
-        std::log(std::sqrt(element.square_error()) / target) / -std::log(std::max(shrinks, 1e-3));
-    const int more = std::clamp(static_cast<int>(std::ceil(missing)), 1, most_orders_at_once);
-    return std::min(element.fit.order + more, options_.highest_order);
+        std::log(std::sqrt(element.square_error()) / target) / -std::log(shrinks);
+    const double more = std::clamp(std::ceil(missing), 1., most_orders_at_once);
+    return std::min(element.fit.order + static_cast<int>(more), options_.highest_order);
   }
 
   /// False, with a limit set, if nothing can be done.
@@ -322,7 +317,7 @@ class Adaptation {
       mesh_.bisect(to_split);
       take_elements();
     }
-    progress_(fmt::format("direct light, round {}: {} elements, {} unknowns, error {:.2g}",
+    progress_(fmt::format("refinement, round {}: {} elements, {} unknowns, error {:.2g}",
                           report_.rounds + 1, elements_.size(), static_cast<long>(unknowns),
                           std::sqrt(square_error_ / square_)),
               0);

@@ -45,7 +45,7 @@ ElementFit fit_element(int order, const ChannelArray& samples) {
   fit.error = std::sqrt(weights.dot(rest.rowwise().squaredNorm()) * places / (places - size));
   // Degrees beyond those that samples tell, if they go on to shrink as they do.
   const double shrinks = order > 0 ? decay(fit) : 0;
-  fit.error *= std::min(1 / std::sqrt(std::max(1 - shrinks * shrinks, 1e-9)), most_unseen);
+  fit.error *= std::min(1 / std::sqrt(1 - shrinks * shrinks), most_unseen);
   return fit;
 }
 

@@ -1,6 +1,7 @@
 #include "solver/exchange/estimated_factors.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/exchange/element_soup.h"
 #include "solver/exchange/ray_sequence.h"
 #include "solver/exchange/scaled_operator.h"
 
@@ -15,17 +16,6 @@ namespace {
 constexpr std::size_t all_rays = 2'000'000, least_rays = 16, most_rays = 256;
 
 using Entries = std::vector<Eigen::Triplet<double>>;
-
-TriangleSoup element_soup(const SoundScene& scene, const ElementTable& elements) {
-  TriangleSoup soup;
-  soup.points = elements.points;
-  soup.triangles = elements.corners;
-  for (int e = 0; e < elements.count(); ++e) {
-    soup.owner.push_back(e);
-    soup.plane.push_back(scene.surfaces[at(elements.surface[at(e)])].plane);
-  }
-  return soup;
-}
 
 class Estimation {
  public:

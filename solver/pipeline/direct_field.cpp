@@ -35,16 +35,6 @@ FieldAt direct_light_at(const DirectLightIndex& index) {
   };
 }
 
-AdaptiveFieldOptions field_options(const SolveOptions& options) {
-  AdaptiveFieldOptions result;
-  result.tolerance = options.tolerance;
-  result.order = options.order;
-  result.split = options.refine == Refinement::adaptive;
-  result.max_elements = options.max_elements;
-  result.max_unknowns = options.max_unknowns;
-  return result;
-}
-
 double length_of(const SoundScene& scene, const SolveOptions& options) {
   if (options.refine == Refinement::adaptive) return 0;
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
@@ -99,9 +89,13 @@ class DirectFieldSearch {
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
     fit_without_curves(std::max(cost_of_curves(scene(), plan_), 1.));
-    if (found_.light.report.limit == FieldLimit::samples) return false;
-    stages_.leave_out_if(true, "discontinuities",
-                         "the tolerance takes less work than finding them");
+    const FieldLimit limit = found_.light.report.limit;
+    if (limit == FieldLimit::samples) return false;
+    stages_.leave_out_if(
+        true, "discontinuities",
+        limit == FieldLimit::none      ? "the tolerance takes less work than finding them"
+        : limit == FieldLimit::stopped ? "interrupted before it was known if they pay"
+                                       : "limits were reached before it was known if they pay");
     return true;
   }
 
@@ -215,6 +209,16 @@ class DirectFieldSearch {
 };
 
 }  // namespace
+
+AdaptiveFieldOptions field_options(const SolveOptions& options) {
+  AdaptiveFieldOptions result;
+  result.tolerance = options.tolerance;
+  result.order = options.order;
+  result.split = options.refine == Refinement::adaptive;
+  result.max_elements = options.max_elements;
+  result.max_unknowns = options.max_unknowns;
+  return result;
+}
 
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const SolveOptions& options, const Progress& progress,

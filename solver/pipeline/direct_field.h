@@ -31,6 +31,9 @@ DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const SolveOptions& options, const Progress& progress,
                               Stages& stages);
 
+/// What `options` say of a field on elements.
+AdaptiveFieldOptions field_options(const SolveOptions& options);
+
 /// No light on elements that are as large as the surfaces allow: where direct light is found like
 /// reflected light.
 DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options,

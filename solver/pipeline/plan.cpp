@@ -3,13 +3,13 @@
 #include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/triangulation/ring_triangles.h"
+#include "solver/adapt/field_beginnings.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/sources.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -41,10 +41,6 @@ Places mesh_places(const SoundScene& scene, const Progress& progress) {
   return {element_centres(elements), std::move(elements.area)};
 }
 
-/// The fractional part of k times the golden ratio, or of k times the square root of two: evenly
-/// spread for any number of k.
-double spread(int k, double ratio) { return std::fmod(k * ratio, 1.); }
-
 /// As many places for equal areas, whatever the lines between them.
 Places spread_places(const SoundScene& scene) {
   Places result;
@@ -59,10 +55,9 @@ Places spread_places(const SoundScene& scene) {
       const Vec2 &a = corners[at(i)], u = corners[at(j)] - a, v = corners[at(k)] - a;
       passed += 0.5 * std::abs(cross_2d(u, v));
       while (static_cast<double>(result.points.size()) + 0.5 < passed / each) {
-        const int n = static_cast<int>(result.points.size());
-        double s = spread(n, std::numbers::phi), t = spread(n, std::numbers::sqrt2);
-        if (s + t > 1) s = 1 - s, t = 1 - t;
-        result.points.push_back({surface.frame.to_space(a + s * u + t * v), surface.frame.normal});
+        const TrianglePlace place = spread_place(result.points.size());
+        result.points.push_back(
+            {surface.frame.to_space(a + place.x() * u + place.y() * v), surface.frame.normal});
         result.area.push_back(each);
       }
     }

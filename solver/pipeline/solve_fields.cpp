@@ -3,6 +3,7 @@
 #include "solver/elements/material_arrays.h"
 #include "solver/pipeline/direct_field.h"
 #include "solver/pipeline/total_field.h"
+#include "solver/reflected/reflected_mesh.h"
 
 #include <fmt/format.h>
 
@@ -66,6 +67,14 @@ ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options
   return result;
 }
 
+AdaptiveFieldOptions values_options(const SolveOptions& options) {
+  AdaptiveFieldOptions result = field_options(options);
+  result.tolerance = values_share * options.tolerance;
+  result.order = -1;
+  result.highest_order = max_reflected_order;
+  return result;
+}
+
 void fill_solution(const SoundScene& scene, const Eigen::ArrayXd& error, SolveResult& result) {
   const MaterialArrays materials = material_arrays(scene, result.elements);
   Solution& solution = result.solution;
@@ -118,11 +127,13 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   stages.leave_out_if(!plan.no_channels.empty(), "second and third channel", plan.no_channels);
 
   Eigen::ArrayXd error;
+  std::string of_values;
   if (reflects) {
     TotalField total = add_reflected_light(
         prepared.scene(), std::move(direct),
-        {reflected_options(plan, options), values_share * options.tolerance}, progress, stages);
+        {reflected_options(plan, options), values_options(options)}, progress, stages);
     result.reflected = total.reflected;
+    of_values = reason(total.values.limit);
     result.relative_error = total.relative_error;
     result.elements = std::move(total.elements);
     result.direct = std::move(total.direct);
@@ -137,8 +148,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     result.solution.region = std::move(direct.region);
     error = std::move(direct.light.error);
   }
-  result.not_reached =
-      not_reached(result, options, {reason(result.refinement.limit), reason(result.reflected.end)});
+  result.not_reached = not_reached(
+      result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   fill_solution(prepared.scene(), error, result);
   fill_powers(result);
 }

@@ -3,8 +3,7 @@
 #include "meshing/core/parallel.h"
 #include "solver/adapt/element_fit.h"
 #include "solver/elements/balancing_scale.h"
-#include "solver/reflected/element_lookup.h"
-#include "solver/reflected/reflected_mesh.h"
+#include "solver/elements/element_lookup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -148,16 +147,15 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
 
   AdaptiveField on_elements;
   stages.run("values of reflected light", [&] {
-    AdaptiveFieldOptions fit;
-    fit.tolerance = options.values_tolerance;
+    AdaptiveFieldOptions fit = options.values;
     fit.norm = std::isfinite(norm) ? norm : 0;
-    fit.highest_order = max_reflected_order;
     on_elements = fit_adaptively(*direct.patches, values_of(*reflected), fit, progress);
     return on_elements.elements.corners.size();
   });
 
   TotalField total;
   total.reflected = reflected->report();
+  total.values = on_elements.report;
   total.elements = std::move(on_elements.elements);
   add_fields(direct, on_elements, find_wholes(total.elements, light, lookup), total);
   if (options.reflected.through_operator)

@@ -9,8 +9,9 @@ namespace halfshade {
 
 struct TotalFieldOptions {
   ReflectedOptions reflected;
-  double values_tolerance = 0.01;  ///< of reflected light as polynomials on the elements of direct
-                                   ///< light, in the L2 norm, relative to all irradiance
+  /// Of reflected light as polynomials on the elements of direct light; its norm is that of all
+  /// irradiance.
+  AdaptiveFieldOptions values;
 };
 
 /// Direct and reflected light together, on the elements of direct light and parts of them.
@@ -20,6 +21,7 @@ struct TotalField {
   Eigen::ArrayXd error;  ///< root mean square over each element, the channels' squares summed; W/m²
   std::vector<Region> region;
   ReflectedReport reflected;
+  AdaptiveFieldReport values;
   double relative_error = 0;  ///< of the whole, estimated, in the L2 norm
 };
 

@@ -150,7 +150,8 @@ std::vector<Warning> search_warnings(const DiscontinuityReport& report, double t
       {Warning::Kind::curves_left_out,
        fmt::format("curves of the kind{} {} are left out, in part or all: to find them among {} "
                    "edges would take about {:.2g} times the work that a tolerance of {:.2g} is "
-                   "worth; --tolerance 0 finds all, --events names those to look for",
+                   "worth; --force discontinuities (solve) or --tolerance 0 (mesh) finds all, "
+                   "--events names those to look for",
                    kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), report.silhouette_edges,
                    (report.work + work) / report.most_work, tolerance)}};
 }

@@ -3,6 +3,7 @@
 #include "meshing/core/plane_frame.h"
 #include "meshing/geometry/mix_bits.h"
 #include "meshing/patches/patch_mesh.h"
+#include "solver/exchange/element_soup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,17 +11,6 @@
 
 namespace halfshade {
 namespace {
-
-TriangleSoup soup_of(const SoundScene& scene, const ElementTable& roots) {
-  TriangleSoup soup;
-  soup.points = roots.points;
-  soup.triangles = roots.corners;
-  for (int e = 0; e < roots.count(); ++e) {
-    soup.owner.push_back(e);
-    soup.plane.push_back(scene.surfaces[at(roots.surface[at(e)])].plane);
-  }
-  return soup;
-}
 
 /// The unit square to the unit disc, equal areas to equal areas (Shirley and Chiu 1997).
 Vec2 on_disc(double u, double v) {
@@ -65,7 +55,7 @@ ReflectingScene make_reflecting_scene(const SoundScene& scene, const Progress& p
   std::vector<bool> two_sided;
   for (const int s : roots.surface)
     two_sided.push_back(scene.materials[at(scene.surfaces[at(s)].material)].two_sided);
-  VisibilityIndex visibility(soup_of(scene, roots));
+  VisibilityIndex visibility(element_soup(scene, roots));
   return {std::move(roots), std::move(cells), std::move(two_sided), std::move(visibility)};
 }
 

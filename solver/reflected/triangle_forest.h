@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/reflected/element_lookup.h"
+#include "solver/elements/element_lookup.h"
 
 #include <array>
 #include <vector>

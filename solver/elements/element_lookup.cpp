@@ -1,4 +1,4 @@
-#include "solver/reflected/element_lookup.h"
+#include "solver/elements/element_lookup.h"
 
 #include "meshing/core/plane_frame.h"
 

@@ -180,7 +180,7 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
 TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
   const test::TempDir folder;
   const test::Outcome outcome =
-      halfshade({"solve", (data / "furnace_cube.obj").string(), "--elements", "200", "-q", "-o",
+      halfshade({"solve", (data / "s1.obj").string(), "--elements", "200", "-q", "-o",
                  "out.ply", "--json", "report.json"},
                 folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
@@ -189,7 +189,7 @@ TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
   EXPECT_GT(report.at("mesh").at("elements").get<int>(), 100);
   EXPECT_FALSE(report.at("interrupted").get<bool>());
   const test::Outcome talk = halfshade(
-      {"solve", (data / "furnace_cube.obj").string(), "--elements", "200", "-o", "out.ply"},
+      {"solve", (data / "s1.obj").string(), "--elements", "200", "-o", "out.ply"},
       folder.path());
   EXPECT_NE(talk.out.find("out.ply"), std::string::npos);
   EXPECT_EQ(talk.err, "") << "no progress bar without a terminal";

@@ -49,8 +49,11 @@ void print_fields(const SolveResult& result, std::FILE* out) {
              result.refinement.rounds);
   const ReflectedReport& reflected = result.reflected;
   if (reflected.elements > 0)
-    fmt::print(out, "reflected    {} elements, {} rays, {} iterations, error {:.2g}\n",
-               reflected.elements, reflected.rays, reflected.iterations, reflected.error);
+    fmt::print(
+        out, "reflected    {} elements, {}, {} iterations, error {:.2g}\n", reflected.elements,
+        reflected.is_exact ? fmt::format("exactly visible parts in {} rounds", reflected.rounds)
+                           : fmt::format("{} rays", reflected.rays),
+        reflected.iterations, reflected.error);
 }
 
 void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {

@@ -48,6 +48,15 @@ void add_light(CLI::App& app, SolveOptions& options) {
             "reflection (default: all)");
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
+  add_choice(
+      app, "--visibility", {"auto", "exact", "sampled"},
+      [&options](std::size_t k) {
+        options.visibility = std::array{ReflectedVisibility::automatic, ReflectedVisibility::exact,
+                                        ReflectedVisibility::sampled}
+                                 .at(k);
+      },
+      "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
+      "by whichever takes less time ('auto')");
   add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
             "Visibility rays for a pair of elements, on average, with --method matrix")
       ->capture_default_str();

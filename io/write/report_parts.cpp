@@ -127,7 +127,10 @@ Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
 Json reflected_json(const ReflectedReport& report) {
   return {{"elements", report.elements},
           {"rounds", report.rounds},
+          {"visibility", report.is_exact ? "exact" : "sampled"},
           {"rays", report.rays},
+          {"moments", report.moments},
+          {"largest_row_error", report.row_error},
           {"systems", report.systems},
           {"closed_systems", report.closed_systems},
           {"iterations", report.iterations},

@@ -58,6 +58,7 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
 
 ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options) {
   ReflectedOptions result;
+  result.visibility = options.visibility;
   result.tolerance = reflected_share * options.tolerance;
   result.bounces = options.radiosity.bounces;
   result.through_operator = !plan.no_exact_direct_light.empty();

@@ -3,6 +3,7 @@
 #include "meshing/discontinuity/discontinuity.h"
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
+#include "solver/reflected/reflected_light.h"
 
 namespace halfshade {
 
@@ -49,6 +50,7 @@ struct SolveOptions {
   int secondary = 0;     ///< look for those of this many of the brightest reflecting surfaces, too
   bool regions = false;  ///< say what each element sees of each emitter
   DirectLightBy direct_light = DirectLightBy::automatic;
+  ReflectedVisibility visibility = ReflectedVisibility::automatic;  ///< of reflected light
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;
   RadiosityOptions radiosity;

@@ -1,39 +1,12 @@
 #include "solver/reflected/light_systems.h"
 
-#include "meshing/core/error.h"
-#include "meshing/core/parallel.h"
 #include "solver/exchange/shells.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 namespace halfshade {
-namespace {
-
-/// Points at which direct light is asked for, over all surfaces.
-constexpr double mean_points = 20000;
-
-Rgb sampled_mean(const ReflectedMesh& mesh, const FirstLight& light, int element, int strata) {
-  const int triangle = mesh.triangle[at(element)];
-  const std::uint64_t seed = ray_seed(triangle, 0, 1);
-  Rgb sum = Rgb::Zero();
-  std::uint64_t number = 0;
-  for (int i = 0; i < strata; ++i)
-    for (int j = 0; j < strata; ++j, number += 2) {
-      const double across = std::sqrt((i + random_number(seed, number)) / strata);
-      const double along = (j + random_number(seed, number + 1)) / strata;
-      sum += light.direct_at(mesh.root(element),
-                             mesh.position(element, {across * (1 - along), across * along}));
-    }
-  return sum / (strata * strata);
-}
-
-}  // namespace
-
 LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
-                          const ReflectedMesh& mesh, const RayExchange& exchange) {
+                          const ReflectedMesh& mesh, const IrradianceOperator& exchange) {
   JoinedSets sets(mesh.count());
   std::vector<int> of_cell(at(scene.cells.count()), -1);
   for (int e = 0; e < mesh.count(); ++e) {
@@ -61,30 +34,17 @@ LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
   return systems;
 }
 
-void DirectMeans::update(const ReflectedMesh& mesh, const FirstLight& light) {
-  of_triangle_.resize(at(mesh.forest.count()));
-  double total = 0;
-  for (int e = 0; e < mesh.count(); ++e) total += mesh.area(e);
-  parallel_for(at(mesh.count()), [&](std::size_t e) {
-    auto& mean = of_triangle_[at(mesh.triangle[e])];
-    if (mean) return;
-    const double points = mean_points * mesh.area(static_cast<int>(e)) / total;
-    const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(points))));
-    mean = std::make_unique<Rgb>(sampled_mean(mesh, light, static_cast<int>(e), strata));
-  });
-}
-
-ChannelArray DirectMeans::power(const ReflectedMesh& mesh, const FirstLight& light,
-                                const LightSystems& systems) const {
+ChannelArray power_put_in(const ReflectedMesh& mesh, const FirstLight& light,
+                          const DirectProjection& direct, const LightSystems& systems) {
   ChannelArray emitted = ChannelArray::Zero(systems.count(), 3), arriving = emitted;
   ChannelArray reflected = emitted;
   for (int e = 0; e < mesh.count(); ++e) {
     const int s = systems.of_element[at(e)];
     const std::size_t root = at(mesh.root(e));
-    const Rgb direct = mesh.area(e) * *of_triangle_[at(mesh.triangle[at(e)])];
+    const Rgb falling = mesh.area(e) * direct.mean(mesh, e);
     emitted.row(s) += mesh.area(e) * light.exitance[root].transpose();
-    arriving.row(s) += direct.transpose();
-    reflected.row(s) += (light.rho[root] * direct).transpose();
+    arriving.row(s) += falling.transpose();
+    reflected.row(s) += (light.rho[root] * falling).transpose();
   }
   if (light.through_operator) return emitted;
   return (arriving > 0).select(reflected * emitted / arriving, 0.);

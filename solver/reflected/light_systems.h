@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/reflected/direct_projection.h"
 #include "solver/reflected/lockstep_gmres.h"
 #include "solver/reflected/ray_exchange.h"
 
@@ -20,24 +21,13 @@ struct LightSystems {
   int count() const { return static_cast<int>(closed.size()); }
 };
 
-/// A closed cell of space is one; in an open one it is what rays connect. Without power.
+/// A closed cell of space is one; in an open one it is what sees each other. Without power.
 LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
-                          const ReflectedMesh& mesh, const RayExchange& exchange);
+                          const ReflectedMesh& mesh, const IrradianceOperator& exchange);
 
-/// Means of direct light over the elements, by a fixed number of random points over all surfaces,
-/// stratified: what power is put into a system. Kept for elements that do not change.
-class DirectMeans {
- public:
-  /// Asks for the light on new elements.
-  void update(const ReflectedMesh& mesh, const FirstLight& light);
-
-  /// ∫ S over each closed system. Direct light is scaled so that all that is emitted arrives.
-  ChannelArray power(const ReflectedMesh& mesh, const FirstLight& light,
-                     const LightSystems& systems) const;
-
- private:
-  std::vector<std::unique_ptr<Rgb>> of_triangle_;
-};
+/// ∫ S over each closed system. Direct light is scaled so that all that is emitted arrives.
+ChannelArray power_put_in(const ReflectedMesh& mesh, const FirstLight& light,
+                          const DirectProjection& direct, const LightSystems& systems);
 
 /// ∫ of a field over each system; with `weight` of each root, if given.
 ChannelArray integrals(const ReflectedMesh& mesh, const LightSystems& systems,

@@ -28,6 +28,9 @@ class QuickField {
     }
   }
 
+  /// Of an element: the coefficients of 1, s, t, s², st, t², s³, s²t, st², t³, up to its order.
+  const Rgb* powers(int element) const { return powers_.data() + first_[at(element)]; }
+
  private:
   std::vector<int> order_, first_;
   std::vector<Rgb> powers_;

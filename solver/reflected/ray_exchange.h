@@ -2,6 +2,7 @@
 
 #include "meshing/core/progress.h"
 #include "solver/reflected/first_light.h"
+#include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/quick_field.h"
 #include "solver/reflected/reflected_mesh.h"
 
@@ -22,23 +23,16 @@ struct NodeRays {
 
 /// K, irradiance from leaving light, by a few rays from each node that are traced once and kept.
 /// Only the elements that change are traced anew.
-class RayExchange {
+class RayExchange : public IrradianceOperator {
  public:
   /// Both must outlive it.
   RayExchange(const ReflectingScene& scene, const FirstLight& light, int strata)
       : scene_(scene), light_(light), strata_(strata) {}
 
-  /// Traces what is missing. False if stopped before all was.
-  bool update(const ReflectedMesh& mesh, const Progress& progress);
-
-  /// K S.
-  ElementField source(const ReflectedMesh& mesh) const;
-
-  /// K B.
-  ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const;
-
-  /// The elements that the rays from an element end on, as often as they do.
-  std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const;
+  bool update(const ReflectedMesh& mesh, const Progress& progress) override;
+  ElementField source(const ReflectedMesh& mesh) const override;
+  ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
+  std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
 
   std::size_t rays() const { return traced_; }
 

@@ -17,7 +17,15 @@ namespace halfshade {
 /// reflects.
 using DirectIrradiance = std::function<Rgb(int surface, const Vec3& position)>;
 
+/// How irradiance at a place follows from what leaves all others.
+enum class ReflectedVisibility {
+  automatic,  ///< whichever is expected to take less time
+  exact,   ///< by exactly visible parts: nothing is random; for some tens or hundreds of surfaces
+  sampled  ///< by rays over hemispheres
+};
+
 struct ReflectedOptions {
+  ReflectedVisibility visibility = ReflectedVisibility::automatic;
   int order = 2;            ///< of the elements, 0…3
   double tolerance = 0.01;  ///< of G, relative to all irradiance in the L2 norm, > 0
   double max_length = 0;    ///< of elements to begin with, scene units; 0: by the tolerance
@@ -43,7 +51,12 @@ struct ReflectedReport {
   ReflectedEnd end = ReflectedEnd::nothing;
   int elements = 0;
   int rounds = 0;
+  bool is_exact = false;  ///< by exactly visible parts
   std::size_t rays = 0;
+  std::size_t moments = 0;  ///< of exactly visible parts, kept in the last round
+  /// The most by which integrals over exactly visible parts missed a point's form factors, and
+  /// these, in closed systems, one, before that was put right.
+  double row_error = 0;
   int systems = 0;         ///< parts that exchange no light
   int closed_systems = 0;  ///< of them, those that no light leaves: their power is balanced
   int iterations = 0;      ///< of the linear solver, in the last round

@@ -84,6 +84,12 @@ void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<
   number_elements(mesh);
 }
 
+ReflectedMesh bisected(ReflectedMesh mesh, int times) {
+  for (const int t : mesh.triangle) split(mesh, t, times);
+  number_elements(mesh);
+  return mesh;
+}
+
 ElementField zero_field(const ReflectedMesh& mesh) {
   std::vector<int> order;
   for (const int t : mesh.triangle) order.push_back(mesh.order[at(t)]);

@@ -40,6 +40,9 @@ ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int 
 /// halves again where `twice` says so. One entry of it a wanted element.
 void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<bool>& twice);
 
+/// Every element bisected that many times, and its parts as well.
+ReflectedMesh bisected(ReflectedMesh mesh, int times);
+
 /// Zero on all elements.
 ElementField zero_field(const ReflectedMesh& mesh);
 

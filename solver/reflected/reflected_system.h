@@ -8,7 +8,7 @@ namespace halfshade {
 struct ReflectedSystem {
   const ReflectedMesh& mesh;
   const FirstLight& light;
-  const RayExchange& exchange;
+  const IrradianceOperator& exchange;
   const LightSystems& systems;
 };
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "meshing/core/progress.h"
+#include "solver/reflected/probe_places.h"
 #include "solver/reflected/reflected_system.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -18,6 +20,9 @@ struct ReflectionEstimate {
   double square_total = 0;  ///< ∫ |H_d + G|²
   std::size_t rays = 0;
   bool complete = true;
+
+  /// What was found at places.
+  void add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes);
 };
 
 struct ReflectionProbes {

@@ -24,6 +24,9 @@ class TriangleForest {
   /// Cuts a leaf from the middle of its longest edge to the corner opposite.
   void bisect(int triangle);
 
+  /// The edge from this corner to the next is the one that bisect() cuts.
+  int cut(int triangle) const { return triangles_[at(triangle)].cut; }
+
   /// The first half of a triangle that is no leaf; the second follows it.
   int first_half(int triangle) const { return triangles_[at(triangle)].child; }
 

@@ -1,0 +1,96 @@
+#include "solver/reflected/exact_exchange.h"
+
+#include "meshing/core/parallel.h"
+#include "solver/reflected/forest_field.h"
+#include "solver/reflected/ray_exchange.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& elements) {
+  if (mesh.forest.is_leaf(triangle)) {
+    elements.push_back(mesh.element[at(triangle)]);
+    return;
+  }
+  const int half = mesh.forest.first_half(triangle);
+  add_leaves(mesh, half, elements);
+  add_leaves(mesh, half + 1, elements);
+}
+
+}  // namespace
+
+IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
+                         const Vec3& position, std::span<const Sighted> targets) {
+  IrradianceRow row = maker.row({position, scene.roots.normal[at(root)]}, targets);
+  if (!scene.cells.closed[at(scene.cells.before(root))] || !(row.sum > 0)) return row;
+  row.off = std::max(row.off, std::abs(row.sum - 1));
+  for (double& m : row.moments) m /= row.sum;
+  return row;
+}
+
+bool ExactExchange::fits(const ReflectedMesh& mesh) const {
+  if (rows_.size() != at(mesh.count())) return false;
+  for (std::size_t e = 0; e < rows_.size(); ++e)
+    if (rows_[e].size() != element_nodes_of(mesh.order[at(mesh.triangle[e])]).places.size())
+      return false;
+  return true;
+}
+
+bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
+  if (fits(mesh)) return true;
+  const RowMaker maker(sight_, mesh, accuracy_);
+  rows_.assign(at(mesh.count()), {});
+  return parallel_for(
+      at(mesh.count()),
+      [&](std::size_t i) {
+        const int e = static_cast<int>(i), t = mesh.triangle[i], root = mesh.root(e);
+        const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
+        for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
+          rows_[i].push_back(closed_row(maker, scene_, root, mesh.position(e, place), targets));
+      },
+      progress, "exact parts of reflected light");
+}
+
+ElementField ExactExchange::source(const ReflectedMesh& mesh) const {
+  return apply(mesh, direct_.leaving(mesh, light_));
+}
+
+ElementField ExactExchange::apply(const ReflectedMesh& mesh, const ElementField& leaving) const {
+  const QuickField quick(forest_field(mesh, leaving));
+  ElementField result = zero_field(mesh);
+  parallel_for(at(mesh.count()), [&](std::size_t e) {
+    const std::vector<IrradianceRow>& rows = rows_[e];
+    Eigen::MatrixXd values(static_cast<Eigen::Index>(rows.size()), 3);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      values.row(static_cast<Eigen::Index>(k)) = irradiance(rows[k], quick).matrix().transpose();
+    const int order = mesh.order[at(mesh.triangle[e])];
+    result.of(static_cast<int>(e)) = (element_nodes_of(order).fit * values).array();
+  });
+  return result;
+}
+
+std::vector<int> ExactExchange::seen_from(const ReflectedMesh& mesh, int element) const {
+  std::vector<int> seen;
+  for (const IrradianceRow& row : rows_[at(element)])
+    for (const int t : row.triangle) add_leaves(mesh, t, seen);
+  return seen;
+}
+
+double ExactExchange::row_error() const {
+  double most = 0;
+  for (const auto& rows : rows_)
+    for (const IrradianceRow& row : rows) most = std::max(most, row.off);
+  return most;
+}
+
+std::size_t ExactExchange::moments() const {
+  std::size_t count = 0;
+  for (const auto& rows : rows_)
+    for (const IrradianceRow& row : rows) count += row.moments.size();
+  return count;
+}
+
+}  // namespace halfshade

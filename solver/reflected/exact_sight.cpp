@@ -1,0 +1,130 @@
+#include "solver/reflected/exact_sight.h"
+
+#include "meshing/backprojection/edge_sum.h"
+#include "meshing/backprojection/opaque_scene.h"
+
+#include <tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+
+namespace halfshade {
+namespace {
+
+struct Target {
+  std::vector<std::vector<Vec3>> rings;
+  std::vector<int> roots, cells;
+};
+
+/// What each thread keeps between calls.
+struct Sighter {
+  VisiblePartFinder finder;
+  VisiblePart part;
+};
+
+bool reaches_above(std::span<const Vec3> corners, const Vec3& origin, const Vec3& normal) {
+  return std::any_of(corners.begin(), corners.end(),
+                     [&](const Vec3& p) { return normal.dot(p - origin) > 0; });
+}
+
+/// The part of a ring above a horizon (Sutherland and Hodgman 1974), in the frame of its plane.
+Ring clip(const std::vector<Vec3>& ring, const SurfacePoint& point, const PlaneFrame& frame) {
+  Ring result;
+  const auto height = [&](const Vec3& p) { return point.normal.dot(p - point.position); };
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec3 &a = ring[k], &b = ring[(k + 1) % ring.size()];
+    const double at_a = height(a), at_b = height(b);
+    if (at_a >= 0) result.push_back(frame.to_plane(a));
+    if ((at_a >= 0) != (at_b >= 0))
+      result.push_back(frame.to_plane(a + at_a / (at_a - at_b) * (b - a)));
+  }
+  return result;
+}
+
+}  // namespace
+
+struct ExactSight::Impl {
+  const SoundScene& scene;
+  const ReflectingScene& reflecting;
+  OpaqueScene opaque;
+  std::vector<Target> targets;  // by surface
+  tbb::enumerable_thread_specific<Sighter> sighters;
+
+  Impl(const SoundScene& s, const ReflectingScene& r)
+      : scene(s), reflecting(r), opaque(s), targets(s.surfaces.size()), sighters([this] {
+          return Sighter{VisiblePartFinder(opaque), {}};
+        }) {
+    for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
+      for (const Ring& ring : scene.surfaces[k].rings) {
+        auto& corners = targets[k].rings.emplace_back();
+        for (const Vec2& q : ring) corners.push_back(scene.surfaces[k].frame.to_space(q));
+      }
+    for (int root = 0; root < reflecting.roots.count(); ++root) {
+      Target& target = targets[at(reflecting.roots.surface[at(root)])];
+      target.roots.push_back(root);
+      target.cells.push_back(reflecting.cells.before(root));
+    }
+  }
+
+  void see_unobstructed(const SurfacePoint& point, int surface, SeenPart& seen) const {
+    const Target& target = targets[at(surface)];
+    seen.factor = unobstructed_factor(point.position, point.normal, target.rings);
+    const auto& outer = target.rings.front();
+    seen.is_whole = std::all_of(outer.begin(), outer.end(), [&](const Vec3& p) {
+      return point.normal.dot(p - point.position) >= 0;
+    });
+    if (seen.is_whole) return;
+    for (const auto& ring : target.rings)
+      if (Ring part = clip(ring, point, scene.surfaces[at(surface)].frame); part.size() > 2)
+        seen.rings.push_back(std::move(part));
+  }
+};
+
+ExactSight::ExactSight(const SoundScene& scene, const ReflectingScene& reflecting)
+    : impl_(std::make_unique<Impl>(scene, reflecting)) {}
+ExactSight::~ExactSight() = default;
+
+const SoundScene& ExactSight::scene() const { return impl_->scene; }
+
+const std::vector<int>& ExactSight::roots(int surface) const {
+  return impl_->targets[at(surface)].roots;
+}
+
+std::vector<Sighted> ExactSight::may_see(const std::array<Vec3, 3>& part, int root) const {
+  const auto& [scene, reflecting, opaque, targets, sighters] = *impl_;
+  const int own = reflecting.roots.surface[at(root)], cell = reflecting.cells.before(root);
+  std::vector<Sighted> result;
+  for (int s = 0; s < static_cast<int>(targets.size()); ++s) {
+    const Target& target = targets[at(s)];
+    const PlaneFrame& frame = scene.surfaces[at(s)].frame;
+    if (s == own || target.roots.empty() ||
+        !reaches_above(target.rings.front(), part[0], reflecting.roots.normal[at(root)]) ||
+        !reaches_above(part, frame.origin, frame.normal) ||
+        std::find(target.cells.begin(), target.cells.end(), cell) == target.cells.end())
+      continue;
+    const std::vector<int> between = reflecting.visibility.candidates(part, target.rings.front());
+    const bool is_clear = std::all_of(between.begin(), between.end(), [&](int r) {
+      const int surface = reflecting.roots.surface[at(r)];
+      return surface == own || surface == s;
+    });
+    result.push_back({s, is_clear});
+  }
+  return result;
+}
+
+void ExactSight::see(const SurfacePoint& point, const Sighted& target, SeenPart& seen) const {
+  seen = {};
+  const PlaneFrame& frame = impl_->scene.surfaces[at(target.surface)].frame;
+  if (!(frame.height(point.position) > 0)) return;
+  if (target.is_clear) return impl_->see_unobstructed(point, target.surface, seen);
+  auto& [finder, part] = impl_->sighters.local();
+  finder.find(point.position, point.normal, target.surface, part);
+  if (part.region == Region::lit) return impl_->see_unobstructed(point, target.surface, seen);
+  if (part.region != Region::penumbra) return;
+  seen.factor = enclosed_factor(point.position, point.normal, part.pieces);
+  for (const auto& ring : visible_rings(part, point.position, frame)) {
+    Ring& flat = seen.rings.emplace_back();
+    for (const Vec3& p : ring) flat.push_back(frame.to_plane(p));
+  }
+}
+
+}  // namespace halfshade

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "solver/elements/element_field.h"
+#include "solver/reflected/reflected_mesh.h"
+
+namespace halfshade {
+
+/// Order of the polynomial that stands for what the leaves below a triangle of the forest carry.
+int forest_order(const ReflectedMesh& mesh, int triangle);
+
+/// A field on all triangles of the forest, one entry a triangle: on leaves it is the given one, on
+/// others its projection, which keeps the mean and, by the highest order of the mesh, that many
+/// moments.
+ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field);
+
+/// The same polynomials on the elements of a mesh whose elements are parts of the first one's, of
+/// the same orders.
+ElementField restricted(const ReflectedMesh& mesh, const ElementField& field,
+                        const ReflectedMesh& fine);
+
+}  // namespace halfshade

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "solver/reflected/reflected_mesh.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// K, irradiance from leaving light, between the elements of a mesh. All of one call belong to the
+/// mesh of the last update.
+class IrradianceOperator {
+ public:
+  virtual ~IrradianceOperator() = default;
+
+  /// Makes what is missing for this mesh. False if stopped before all was.
+  virtual bool update(const ReflectedMesh& mesh, const Progress& progress) = 0;
+
+  /// K S.
+  virtual ElementField source(const ReflectedMesh& mesh) const = 0;
+
+  /// K B.
+  virtual ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const = 0;
+
+  /// The elements that are seen from an element; some more than once.
+  virtual std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const = 0;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,166 @@
+#include "solver/reflected/irradiance_row.h"
+
+#include "meshing/core/planar.h"
+#include "solver/reflected/forest_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// Parts whose area is this share of a triangle's or more are all of it, and 1 − this nothing.
+constexpr double nearly_all = 1 - 1e-11;
+/// Moments are scaled to form factors only if they are about right.
+constexpr double most_off = 0.2;
+
+double signed_area(const Ring& ring) {
+  double twice = 0;
+  for (std::size_t k = 2; k < ring.size(); ++k)
+    twice += cross_2d(ring[k - 1] - ring[0], ring[k] - ring[0]);
+  return 0.5 * twice;
+}
+
+/// The part on the left of the line from a to b (Sutherland and Hodgman 1974).
+Ring left_of(const Vec2& a, const Vec2& b, const Ring& ring) {
+  Ring result;
+  const Vec2 along = b - a;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 &p = ring[k], &q = ring[(k + 1) % ring.size()];
+    const double at_p = cross_2d(along, p - a), at_q = cross_2d(along, q - a);
+    if (at_p >= 0) result.push_back(p);
+    if ((at_p >= 0) != (at_q >= 0)) result.push_back(p + at_p / (at_p - at_q) * (q - p));
+  }
+  return result;
+}
+
+std::vector<Ring> clip(const std::vector<Ring>& rings, const std::array<Vec2, 3>& triangle) {
+  std::vector<Ring> result;
+  for (Ring ring : rings) {
+    for (std::size_t k = 0; k < 3 && ring.size() > 2; ++k)
+      ring = left_of(triangle[k], triangle[(k + 1) % 3], ring);
+    if (ring.size() > 2) result.push_back(std::move(ring));
+  }
+  return result;
+}
+
+/// The walk through the triangles of one surface.
+class Walk {
+ public:
+  Walk(const ReflectedMesh& mesh, std::span<const std::array<Vec2, 3>> corners,
+       const RowAccuracy& accuracy, const PointAbovePlane& from, IrradianceRow& row)
+      : mesh_(mesh), corners_(corners), accuracy_(accuracy), from_(from), row_(row) {}
+
+  /// All of a triangle is seen.
+  void whole(int t) {
+    if (!mesh_.forest.is_leaf(t) && !can_stand(t, true)) return halves(t, [&](int h) { whole(h); });
+    KernelMoments moments(from_, corners_[at(t)], forest_order(mesh_, t), accuracy_.moments);
+    const auto& [a, b, c] = corners_[at(t)];
+    moments.add(a, b, c);
+    keep(t, moments);
+  }
+
+  /// What of a triangle lies in rings is seen.
+  void cut(int t, const std::vector<Ring>& rings) {
+    const std::vector<Ring> inside = clip(rings, corners_[at(t)]);
+    double area = 0;
+    for (const Ring& ring : inside) area += signed_area(ring);
+    const double all = mesh_.forest.area(t);
+    if (area <= (1 - nearly_all) * all) return;
+    if (area >= nearly_all * all) return whole(t);
+    if (!mesh_.forest.is_leaf(t) && !can_stand(t, false))
+      return halves(t, [&](int h) { cut(h, inside); });
+    KernelMoments moments(from_, corners_[at(t)], forest_order(mesh_, t), accuracy_.moments);
+    for (const Ring& ring : inside) moments.add(ring);
+    keep(t, moments);
+  }
+
+  double sum() const { return sum_; }
+
+ private:
+  template <typename Visit>
+  void halves(int t, const Visit& visit) {
+    const int half = mesh_.forest.first_half(t);
+    visit(half);
+    visit(half + 1);
+  }
+
+  /// Whether the leaves below a triangle are too small to tell apart. Where all of it is seen, what
+  /// the projection on it loses meets only what of the kernel it cannot take; where it is cut, it
+  /// has to be near what leaves the leaves.
+  bool can_stand(int t, bool is_whole) const {
+    const auto& [a, b, c] = corners_[at(t)];
+    const Vec2 centre = (a + b + c) / 3;
+    const double size = std::sqrt(std::max(
+        {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
+    const double distance = std::hypot((centre - from_.foot).norm(), from_.height);
+    constexpr double too_close = 0.7;
+    if (size > too_close * distance) return false;
+    const double factor = std::min(1., mesh_.forest.area(t) / (M_PI * distance * distance));
+    const double share = size / (is_whole ? distance : accuracy_.length);
+    return factor * std::pow(share, mesh_.highest_order + 1) < accuracy_.collapse;
+  }
+
+  void keep(int t, const KernelMoments& moments) {
+    const auto values = moments.values();
+    row_.triangle.push_back(t);
+    row_.first.push_back(static_cast<int>(row_.moments.size()));
+    row_.moments.insert(row_.moments.end(), values.begin(), values.end());
+    sum_ += values[0];
+  }
+
+  const ReflectedMesh& mesh_;
+  std::span<const std::array<Vec2, 3>> corners_;
+  const RowAccuracy& accuracy_;
+  PointAbovePlane from_;
+  IrradianceRow& row_;
+  double sum_ = 0;
+};
+
+}  // namespace
+
+Rgb irradiance(const IrradianceRow& row, const QuickField& leaving) {
+  Rgb sum = Rgb::Zero();
+  for (std::size_t k = 0; k < row.triangle.size(); ++k) {
+    const Rgb* powers = leaving.powers(row.triangle[k]);
+    for (int i = row.first[k]; i < row.first[k + 1]; ++i) sum += row.moments[at(i)] * *powers++;
+  }
+  return sum;
+}
+
+RowMaker::RowMaker(const ExactSight& sight, const ReflectedMesh& mesh, const RowAccuracy& accuracy)
+    : sight_(sight), mesh_(mesh), accuracy_(accuracy) {
+  std::vector<int> surface(at(mesh.forest.root_count()));
+  for (int s = 0; s < static_cast<int>(sight.scene().surfaces.size()); ++s)
+    for (const int root : sight.roots(s)) surface[at(root)] = s;
+  for (int t = 0; t < mesh.forest.count(); ++t) {
+    const auto& [a, b, c] = mesh.forest.corners(t);
+    const PlaneFrame& frame = sight.scene().surfaces[at(surface[at(mesh.forest.root(t))])].frame;
+    corners_.push_back({frame.to_plane(a), frame.to_plane(b), frame.to_plane(c)});
+  }
+}
+
+IrradianceRow RowMaker::row(const SurfacePoint& point, std::span<const Sighted> targets) const {
+  IrradianceRow row;
+  SeenPart seen;
+  for (const Sighted& target : targets) {
+    sight_.see(point, target, seen);
+    if (!(seen.factor > 0)) continue;
+    const std::size_t begin = row.moments.size();
+    Walk walk(mesh_, corners_, accuracy_,
+              above_plane(point.position, point.normal,
+                          sight_.scene().surfaces[at(target.surface)].frame),
+              row);
+    for (const int root : sight_.roots(target.surface))
+      seen.is_whole ? walk.whole(root) : walk.cut(root, seen.rings);
+    row.sum += seen.factor;
+    row.off += std::abs(walk.sum() - seen.factor);
+    const double scale = seen.factor / walk.sum();
+    if (std::abs(scale - 1) < most_off)
+      for (std::size_t i = begin; i < row.moments.size(); ++i) row.moments[i] *= scale;
+  }
+  row.first.push_back(static_cast<int>(row.moments.size()));
+  return row;
+}
+
+}  // namespace halfshade

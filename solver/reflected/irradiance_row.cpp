@@ -93,7 +93,8 @@ class Walk {
     const Vec2 centre = (a + b + c) / 3;
     const double size = std::sqrt(std::max(
         {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
-    const double distance = std::hypot((centre - from_.foot).norm(), from_.height);
+    const double distance =
+        std::sqrt((centre - from_.foot).squaredNorm() + from_.height * from_.height);
     constexpr double too_close = 0.7;
     if (size > too_close * distance) return false;
     const double factor = std::min(1., mesh_.forest.area(t) / (M_PI * distance * distance));

@@ -3,7 +3,9 @@
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace halfshade {
@@ -51,13 +53,66 @@ double planarity_limit(const Polygon& polygon, const LocalScale& plane, const Ve
   return polygon.frame.normal.dot(normal) > 0 ? tolerance.planarity : tolerance.length;
 }
 
+/// Finds polygons that are near another one and parallel to it. Sorted by their normals first: of
+/// large ones that fill the same space all are near each other, but few are parallel.
+class ParallelNeighbours {
+ public:
+  explicit ParallelNeighbours(const std::vector<Polygon>& polygons) : polygons_(polygons) {
+    for (std::size_t i = 0; i < polygons.size(); ++i)
+      buckets_[cell_of(polygons[i].frame.normal)].polygons.push_back(static_cast<int>(i));
+    for (auto& [cell, bucket] : buckets_) {
+      std::vector<Bounds> boxes;
+      boxes.reserve(bucket.polygons.size());
+      for (const int i : bucket.polygons) boxes.push_back(polygons[at(i)].box);
+      bucket.tree = make_flat_tree(boxes, 1);
+    }
+  }
+
+  /// Calls use(polygon) for all whose boxes meet that of `i`, and whose normals are its own or
+  /// opposite to it within twice the tolerance, and perhaps for others.
+  template <class Use>
+  void visit(int i, Use&& use) const {
+    const Polygon& polygon = polygons_[at(i)];
+    for (const double sign : {1., -1.}) {
+      const Cell low = cell_of(sign * polygon.frame.normal - reach());
+      const Cell high = cell_of(sign * polygon.frame.normal + reach());
+      for (int x = low[0]; x <= high[0]; ++x)
+        for (int y = low[1]; y <= high[1]; ++y)
+          for (int z = low[2]; z <= high[2]; ++z) {
+            const auto found = buckets_.find({x, y, z});
+            if (found == buckets_.end()) continue;
+            visit_overlaps(found->second.tree, polygon.box,
+                           [&](int item) { use(found->second.polygons[at(item)]); });
+          }
+    }
+  }
+
+ private:
+  using Cell = std::array<int, 3>;
+  struct Bucket {
+    std::vector<int> polygons;
+    FlatTree tree;  ///< over them
+  };
+  /// Far above the tolerance, so that a normal and what it may agree with mostly share a cell.
+  static constexpr double cell_width = 0.01;
+
+  static Vec3 reach() { return Vec3::Constant(2 * normal_tolerance); }
+  static Cell cell_of(const Vec3& normal) {
+    Cell cell{};
+    for (std::size_t k = 0; k < 3; ++k)
+      cell[k] = static_cast<int>(std::floor(normal[static_cast<int>(k)] / cell_width));
+    return cell;
+  }
+
+  const std::vector<Polygon>& polygons_;
+  std::map<Cell, Bucket> buckets_;
+};
+
 /// Collects polygons that lie in the plane of a first one and are near each other.
 class PlaneGrower {
  public:
   explicit PlaneGrower(const std::vector<Polygon>& polygons)
-      : polygons_(polygons),
-        tree_(make_flat_tree(boxes_of(polygons), 1)),
-        is_free_(polygons.size(), false) {}
+      : polygons_(polygons), neighbours_(polygons), is_free_(polygons.size(), false) {}
 
   void release(std::size_t polygon) { is_free_[polygon] = true; }
   bool is_free(std::size_t polygon) const { return is_free_[polygon]; }
@@ -72,7 +127,7 @@ class PlaneGrower {
     std::vector<int> near;
     for (std::size_t k = 0; k < members.size(); ++k) {
       near.clear();
-      visit_overlaps(tree_, polygons_[members[k]].box, [&](int i) {
+      neighbours_.visit(static_cast<int>(members[k]), [&](int i) {
         if (is_free_[at(i)] && fits(seed, at(i), extrapolate ? extent : HUGE_VAL))
           near.push_back(i);
       });
@@ -86,13 +141,6 @@ class PlaneGrower {
   }
 
  private:
-  static std::vector<Bounds> boxes_of(const std::vector<Polygon>& polygons) {
-    std::vector<Bounds> boxes;
-    boxes.reserve(polygons.size());
-    for (const Polygon& polygon : polygons) boxes.push_back(polygon.box);
-    return boxes;
-  }
-
   const Vec3& origin(std::size_t i) const { return polygons_[i].frame.origin; }
 
   bool fits(std::size_t seed, std::size_t i, double extent) const {
@@ -105,7 +153,7 @@ class PlaneGrower {
   }
 
   const std::vector<Polygon>& polygons_;
-  FlatTree tree_;
+  ParallelNeighbours neighbours_;
   std::vector<bool> is_free_;
 };
 

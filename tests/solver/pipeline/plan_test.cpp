@@ -128,6 +128,61 @@ TEST(ForcedStages, GiveTheSameAnswer) {
             1e-12);
 }
 
+SolveResult solve_with_factors(const Scene& scene, Closure closure) {
+  SolveOptions options;
+  options.method = SolveMethod::matrix;
+  options.elements = 300;
+  options.exchange.closure = closure;
+  return solve(scene, options);
+}
+
+double mean_irradiance(const SolveResult& result) {
+  double power = 0, area = 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    power += result.elements.area[at(e)] * result.solution.irradiance(e, 0);
+    area += result.elements.area[at(e)];
+  }
+  return power / area;
+}
+
+/// Rays have no switch: something dark that can come between, and is too small to be seen.
+TEST(ForcedStages, RaysFindNothingWhereNothingComesBetween) {
+  Scene scene = test::lit_cube({.5, .5, .5, .5, .5, 0});
+  const SolveResult planned = solve_with_factors(scene, Closure::automatic);
+  EXPECT_TRUE(is_left_out(planned, "visibility rays"));
+  const int dark = test::add_material(scene, 0, 0);
+  test::add_polygon(scene, {{.5, .5, .5}, {.5001, .5, .5}, {.5, .5001, .5}}, dark);
+  const SolveResult forced = solve_with_factors(scene, Closure::automatic);
+  EXPECT_FALSE(is_left_out(forced, "visibility rays"));
+  EXPECT_NEAR(mean_irradiance(planned), mean_irradiance(forced), 1e-3 * mean_irradiance(planned));
+}
+
+/// What gets out by a hole a thousandth as wide as a room is within the tolerance, so that rows
+/// made to sum to 1 give the same light.
+TEST(ForcedStages, ClosureAgreesWhereHardlyAnyLightGetsOut) {
+  Scene scene = test::lit_cube({.5, .5, .5, .5, .5, 0});
+  const int wall = scene.faces.front().material;
+  for (std::size_t f = 0; f < scene.faces.size(); ++f)
+    if (scene.faces[f].material == wall) {
+      // One wall in four strips round a hole.
+      std::vector<Vec3> c = face_corners(scene, static_cast<int>(f));
+      const Vec3 o = c[0], u = c[1] - c[0], v = c[3] - c[0];
+      const auto p = [&](double x, double y) { return Vec3(o + x * u + y * v); };
+      scene.faces.erase(scene.faces.begin() + static_cast<std::ptrdiff_t>(f));
+      const double a = .5, b = .501;
+      test::add_polygon(scene, {p(0, 0), p(1, 0), p(1, a), p(0, a)}, wall);
+      test::add_polygon(scene, {p(0, b), p(1, b), p(1, 1), p(0, 1)}, wall);
+      test::add_polygon(scene, {p(0, a), p(a, a), p(a, b), p(0, b)}, wall);
+      test::add_polygon(scene, {p(b, a), p(1, a), p(1, b), p(b, b)}, wall);
+      break;
+    }
+  const SolveResult planned = solve_with_factors(scene, Closure::automatic);
+  EXPECT_TRUE(is_left_out(planned, "closure"));
+  const SolveResult forced = solve_with_factors(scene, Closure::enforce);
+  EXPECT_FALSE(is_left_out(forced, "closure"));
+  EXPECT_NEAR(mean_irradiance(planned), mean_irradiance(forced), 0.01 * mean_irradiance(planned));
+}
+
 TEST(ForcedStages, ExactDirectLightAgreesWithTheMatrix) {
   Scene furnace = test::lit_cube({.5, .5, .5, .5, .5, .5});
   for (Material& material : furnace.materials) material.exitance = Rgb::Constant(0.5);

@@ -89,7 +89,7 @@ ReferenceLight reference_light(const SoundScene& scene, std::span<const Referenc
   const bool all = parallel_for(
       points.size(),
       [&](std::size_t k) {
-        const std::uint64_t seed = mix_bits(mix_bits(options.seed) + k);
+        const std::uint64_t seed = mix_bits(mix_bits(options.seed) + options.first + k);
         const BatchStatistics found = light_at(paths, points[k], seed, options, progress);
         if (found.count == 0) {
           each = false;

@@ -26,7 +26,8 @@ struct ReferenceOptions {
   int samples = 1024;  ///< paths from a point, ≥ 1; rounded up to `batches` times a power of two
   int batches = 32;    ///< ≥ 2, independent of each other: they tell the standard error
   int bounces = -1;    ///< −1: all; n ≥ 0: light that arrives after at most n reflections
-  std::uint64_t seed = 0;  ///< others give independent results
+  std::uint64_t seed = 0;   ///< others give independent results
+  std::uint64_t first = 0;  ///< number of the first point, for lists that are worked on in parts
 };
 
 struct ReferenceLight {
@@ -46,7 +47,7 @@ struct ReferenceLight {
 /// error follows Student's distribution with batches − 1 degrees of freedom, as far as the means of
 /// batches are normal: where light comes from few paths (a small emitter seen only by reflection)
 /// it takes more samples.
-/// On all threads; what a point gets depends on its place in the list, and not on their number.
+/// On all threads; what a point gets depends on its number, and not on that of the threads.
 /// About 1 µs a ray, two a bounce. Throws Error(contract) for options out of range, and
 /// Error(invalid_input) where light is never absorbed.
 ReferenceLight reference_light(const SoundScene& scene, std::span<const ReferencePoint> points,

@@ -244,6 +244,9 @@ TEST(ReferenceLight, DoesNotDependOnThreadsNorOnOtherPoints) {
       EXPECT_TRUE((one.values[k].total == other->values[k].total).all());
       EXPECT_TRUE((one.standard_errors[k].direct == other->standard_errors[k].direct).all());
     }
+  const ReferenceLight rest =
+      reference_light(room, std::span(points).subspan(5), {.samples = 64, .first = 5});
+  EXPECT_TRUE((rest.values[1].total == one.values[6].total).all());
   const ReferenceLight seeded = reference_light(room, points, {.samples = 64, .seed = 1});
   EXPECT_FALSE((one.values[0].total == seeded.values[0].total).any());
 }

@@ -22,6 +22,7 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common);
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common);
 void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common);
 void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& common);
+void add_study(CLI::App& program, StudyCommand& command, CommonOptions& common);
 
 /// What several of them have.
 void add_common(CLI::App& app, CommonOptions& common);
@@ -47,6 +48,9 @@ CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::arr
                         const char* help);
 CLI::Option* add_positive(CLI::App& app, const char* name, double& value, const char* help);
 CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, const char* help);
+/// Several, separated by commas.
+CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>& values,
+                           const char* help);
 CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
                         const char* help);
 

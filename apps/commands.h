@@ -2,6 +2,7 @@
 
 #include "io/picture/curve_picture.h"
 #include "io/picture/picture.h"
+#include "io/study/study.h"
 #include "io/write/write_result.h"
 #include "meshing/core/progress.h"
 #include "meshing/repair/orientation.h"
@@ -51,7 +52,9 @@ struct SolveCommand {
   std::filesystem::path scene;
   std::filesystem::path materials;
   std::vector<std::filesystem::path>
-      outputs;  ///< empty: the scene's name with .vtu, in the current folder
+      outputs;  ///< empty: the scene's name with .vtu, in the current folder; none with `values`
+  std::filesystem::path points;  ///< at which the solution is told; empty: none
+  std::filesystem::path values;  ///< a table of what it is there
   SolveOptions options;
   ResultOptions result_options;
 };
@@ -86,6 +89,8 @@ struct ProbeCommand {
   double spacing = 0;            ///< of the grid, in scene units
   std::filesystem::path output;  ///< "-": a table to the standard output
   bool direct_only = false;      ///< no interreflection
+  bool reference = false;        ///< by random walks instead
+  int samples = 1024;            ///< of them, from each point
   SolveOptions options;          ///< of the solution that interreflection is gathered from
 };
 
@@ -95,11 +100,18 @@ struct ExplainCommand {
   SolveOptions options;  ///< of the solution that is explained
 };
 
+struct StudyCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  StudyOptions options;
+};
+
 /// Each does its job and returns what the program ends with; errors are thrown as Error.
 ExitCode run(const SolveCommand& command, const Context& context);
 ExitCode run(const MeshCommand& command, const Context& context);
 ExitCode run(const RenderCommand& command, const Context& context);
 ExitCode run(const ProbeCommand& command, const Context& context);
 ExitCode run(const ExplainCommand& command, const Context& context);
+ExitCode run(const StudyCommand& command, const Context& context);
 
 }  // namespace halfshade

@@ -46,6 +46,7 @@ struct Commands {
   RenderCommand render;
   ProbeCommand probe;
   ExplainCommand explain;
+  StudyCommand study;
 };
 
 /// What a command line asks for.
@@ -66,6 +67,7 @@ Parsed parse(int argc, char** argv, Commands& commands, CommonOptions& common) {
   add_render(program, commands.render, common);
   add_probe(program, commands.probe, common);
   add_explain(program, commands.explain, common);
+  add_study(program, commands.study, common);
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -83,6 +85,7 @@ ExitCode run(const std::string& command, const Commands& commands, const Context
   if (command == "mesh") return run(commands.mesh, context);
   if (command == "probe") return run(commands.probe, context);
   if (command == "explain") return run(commands.explain, context);
+  if (command == "study") return run(commands.study, context);
   return run(commands.render, context);
 }
 
@@ -102,7 +105,8 @@ int run_program(int argc, char** argv) {
                         bar.update(stage, fraction);
                       }};
   context.progress_ends = [&bar] { bar.clear(); };
-  if (is_standard_stream(context.common.json) || is_standard_stream(commands.probe.output))
+  if (is_standard_stream(context.common.json) || is_standard_stream(commands.probe.output) ||
+      is_standard_stream(commands.solve.values))
     context.summary = stderr;
   return run(parsed.command, commands, context);
 }

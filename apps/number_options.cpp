@@ -63,6 +63,17 @@ CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, co
                   help);
 }
 
+CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>& values,
+                           const char* help) {
+  const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
+  return app.add_option(name, values, help)
+      ->delimiter(',')
+      ->check(check<double>("a number above zero", is_good))
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NUMBER,…");
+}
+
 CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
                         const char* help) {
   const auto is_good = [](double v) { return std::isfinite(v); };

@@ -83,6 +83,28 @@ void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
   light.resize(done);
 }
 
+ReferenceLight reference_light(const ProbeCommand& command, const SoundScene& scene,
+                               std::span<const SurfacePoint> points, const Progress& progress) {
+  std::vector<ReferencePoint> places;
+  for (const SurfacePoint& point : points) places.push_back({point.position, point.normal});
+  ReferenceLight light;
+  in_blocks(points, progress,
+            [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+              ReferenceOptions options;
+              options.samples = command.samples;
+              options.bounces = command.direct_only ? 0 : -1;
+              options.first = first;
+              const ReferenceLight next =
+                  reference_light(scene, std::span(places).subspan(first, some.size()), options, p);
+              if (!next.complete) return;
+              light.values.insert(light.values.end(), next.values.begin(), next.values.end());
+              light.standard_errors.insert(light.standard_errors.end(),
+                                           next.standard_errors.begin(),
+                                           next.standard_errors.end());
+            });
+  return light;
+}
+
 CommandFiles checked_files(const ProbeCommand& command, const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
   files.inputs.push_back({"--points", command.points});
@@ -99,39 +121,49 @@ PointTable get_points(const ProbeCommand& command, const std::optional<PointTabl
   return given ? *given : point_table(surface_grid(scene, command.group, command.spacing));
 }
 
-/// Writes table and report.
-void write(const ProbeCommand& command, const PointTable& table,
-           const std::vector<DirectLight>& light, ExitCode code, const Context& context) {
+/// Writes table and report, and says so.
+template <class Light>
+ExitCode finish(const ProbeCommand& command, const PointTable& table, const Light& light,
+                std::size_t done, const Context& context) {
+  const std::size_t points = table.points.size();
+  const ExitCode code = done == points ? exit_done : exit_interrupted;
+  if (done == 0 && code == exit_interrupted) return end_without_results();
   write_points(table, light, command.output);
   if (!context.common.json.empty())
-    write_report(ProbeReport{table.points.size(), light.size(), command.direct_only},
+    write_report(ProbeReport{points, done, command.direct_only},
                  run_info(context, code, {command.output}), context.common.json);
-}
-
-ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
-                      const std::optional<PointTable>& given, const PreparedScene& prepared,
-                      const Context& context) {
-  const PointTable table = get_points(command, given, prepared.scene());
-  std::vector<DirectLight> light =
-      direct_light(prepared.direct_light(), table.points, context.progress);
-  if (!command.direct_only)
-    add_reflected(prepared, command.options, table.points, context.progress, light);
-  context.progress_ends();
-  print_warnings(file, prepared.warnings(), context);
-  const std::size_t points = table.points.size();
-  const ExitCode code = light.size() == points ? exit_done : exit_interrupted;
-  if (light.empty() && code == exit_interrupted) return end_without_results();
-  write(command, table, light, code, context);
   if (!context.common.quiet) {
-    fmt::print(context.summary, "points       {}\n", light.size());
+    fmt::print(context.summary, "points       {}\n", done);
     if (context.common.verbose)
       fmt::print(context.summary, "{:<12} {:.2f} s\n", "probe",
                  run_info(context, code, {}).seconds);
     print_outputs(context, {command.output});
   }
   if (code == exit_interrupted)
-    complain("interrupted: {} of {} points were computed and written\n", light.size(), points);
+    complain("interrupted: {} of {} points were computed and written\n", done, points);
   return code;
+}
+
+ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
+                      const std::optional<PointTable>& given, const PreparedScene& prepared,
+                      const Context& context) {
+  const PointTable table = get_points(command, given, prepared.scene());
+  const auto end = [&] {
+    context.progress_ends();
+    print_warnings(file, prepared.warnings(), context);
+  };
+  if (command.reference) {
+    const ReferenceLight light =
+        reference_light(command, prepared.scene(), table.points, context.progress);
+    end();
+    return finish(command, table, light, light.values.size(), context);
+  }
+  std::vector<DirectLight> light =
+      direct_light(prepared.direct_light(), table.points, context.progress);
+  if (!command.direct_only)
+    add_reflected(prepared, command.options, table.points, context.progress, light);
+  end();
+  return finish(command, table, light, light.size(), context);
 }
 
 }  // namespace

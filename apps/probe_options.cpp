@@ -29,13 +29,22 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   add_scene(app, command.scene);
   add_points(app, command);
   add_file(app, "-o,--output", command.output,
-           "Result: .csv (the same rows with H_r,H_g,H_b,visible) or .vtp; '-': .csv to stdout")
+           "Result: .csv (the same rows with H_r,H_g,H_b,visible; with --method reference also\n"
+           "standard errors H_r_error, …, and direct light D_r, …) or .vtp; '-': .csv to stdout")
       ->required();
   app.add_flag("--direct", command.direct_only,
                "Only light straight from the emitters; else interreflection is gathered from a\n"
                "solution by closed-form factors, with visibility by rays");
   add_elements(app, command.options.elements,
                "About how many elements to solve with, without --direct");
+  add_choice(
+      app, "--method", {"solution", "reference"},
+      [&command](std::size_t k) { command.reference = k == 1; },
+      "Exact direct light and a solution, or random walks (Monte Carlo) that share nothing with\n"
+      "them but the scene, with standard errors");
+  add_whole(app, "--samples", command.samples, {1, 1000000000},
+            "Random walks from each point, with --method reference")
+      ->capture_default_str();
   add_materials(app, command.materials, "Materials file, as for solve");
   add_orientation(app, common.orientation);
   add_common(app, common);
@@ -44,7 +53,9 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
       "  halfshade probe data/s1.obj --points data/s1_points.csv -o s1.csv --direct\n"
       "  halfshade probe data/bars.obj --grid floor --spacing 0.05 -o bars.vtp --direct\n"
       "  halfshade probe data/cornell_box.obj --grid floor --spacing 40 -o cornell.csv --elements "
-      "1000\n\n"));
+      "1000\n"
+      "  halfshade probe data/s1.obj --points data/s1_points.csv -o walks.csv --method "
+      "reference\n\n"));
 }
 
 }  // namespace halfshade

@@ -1,6 +1,9 @@
 #include "apps/command_files.h"
 #include "apps/console.h"
 #include "apps/run_end.h"
+#include "io/files/same_file.h"
+#include "io/read/read_points.h"
+#include "io/write/write_points.h"
 #include "meshing/repair/repair_sentence.h"
 
 #include <fmt/format.h>
@@ -103,16 +106,29 @@ void print_ending(ExitCode code, const SolveResult& result) {
         "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
 }
 
+CommandFiles checked_files(const SolveCommand& command,
+                           const std::vector<std::filesystem::path>& outputs,
+                           const CommonOptions& common) {
+  CommandFiles files = scene_files(command.scene, command.materials, common);
+  files.inputs.push_back({"--points", command.points});
+  add_outputs(files, "-o", outputs);
+  add_outputs(files, "--values", {command.values});
+  require_apart(files);
+  require_place(common.json);
+  for (const auto& path : outputs) check_output(path, solve_formats);
+  if (!is_standard_stream(command.values)) check_output(command.values, value_formats);
+  return files;
+}
+
 }  // namespace
 
 ExitCode run(const SolveCommand& command, const Context& context) {
   std::vector<std::filesystem::path> outputs = command.outputs;
-  if (outputs.empty()) outputs.push_back(command.scene.stem().replace_extension(".vtu"));
-  CommandFiles files = scene_files(command.scene, command.materials, context.common);
-  add_outputs(files, "-o", outputs);
-  require_apart(files);
-  require_place(context.common.json);
-  for (const auto& path : outputs) check_output(path, solve_formats);
+  if (outputs.empty() && command.values.empty())
+    outputs.push_back(command.scene.stem().replace_extension(".vtu"));
+  const CommandFiles files = checked_files(command, outputs, context.common);
+  PointTable table;
+  if (!command.points.empty()) table = read_points(command.points);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
   const SolveResult result = solve(file.scene, command.options, context.progress);
@@ -120,6 +136,10 @@ ExitCode run(const SolveCommand& command, const Context& context) {
   print_warnings(file, result.warnings, context);
   if (!is_worth_writing(result)) return end_without_results();
   for (const auto& path : outputs) write(result, command, context, path);
+  if (!command.values.empty()) {
+    write_points(table, light_at_points(result, table.points), command.values);
+    outputs.push_back(command.values);
+  }
   const ExitCode code = exit_code(result);
   if (!context.common.json.empty())
     write_report(result, run_info(context, code, outputs), context.common.json);

@@ -94,6 +94,13 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
               "Result: .vtu, .vtp, .ply or .png; may repeat (default: SCENE.vtu in this folder)");
   add_materials(app, command.materials,
                 "JSON: object, group or material name -> reflectance, exitance, two_sided");
+  CLI::Option* points =
+      add_file(app, "--points", command.points, "Points on surfaces, a table as for probe");
+  CLI::Option* values = add_file(app, "--values", command.values,
+                                 "What the solution is at these points (.csv): H_r,H_g,H_b all\n"
+                                 "irradiance, D_r,D_g,D_b direct; then no other output is needed");
+  points->needs(values);
+  values->needs(points);
   app.add_flag("--linear", command.result_options.linear,
                "Straight triangles in .vtu, for readers that know no polynomials");
   add_accuracy(app, command.options);

@@ -2,19 +2,21 @@
 
 #include <fmt/format.h>
 
-#include <cstdint>
-
 namespace halfshade::detail {
 namespace {
 
-/// The comment for what precedes it. FNV-1a in 64 bits: against accidents, not against forgers.
+/// The comment for what precedes it.
 std::string comment(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-  return fmt::format("<!-- halfshade checksum {:016x} -->\n", hash);
+  return fmt::format("<!-- halfshade checksum {:016x} -->\n", checksum(bytes));
 }
 
 }  // namespace
+
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
 
 std::string seal(std::string xml) {
   const std::string end = comment(xml);

@@ -23,6 +23,13 @@ LineCanvas::LineCanvas(int width, int height, const Rgb& background)
       colours_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), background),
       covered_(colours_.size(), 0) {}
 
+void LineCanvas::blend(int x, int y, double share, const Rgb& colour) {
+  if (x < 0 || y < 0 || x >= width_ || y >= height_) return;
+  Rgb& pixel = colours_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                        static_cast<std::size_t>(x)];
+  pixel += share * (colour - pixel);
+}
+
 void LineCanvas::line(std::span<const Vec2> points, double width, const Rgb& colour) {
   for (std::size_t k = 0; k + 1 < points.size(); ++k) cover(points[k], points[k + 1], width);
   for (const std::size_t pixel : touched_) {

@@ -21,6 +21,9 @@ class LineCanvas {
 
   void set(std::size_t pixel, const Rgb& colour) { colours_[pixel] = colour; }
 
+  /// Mixes a share of a colour into a pixel; nothing outside the picture.
+  void blend(int x, int y, double share, const Rgb& colour);
+
   /// A polyline, blended once however often it meets a pixel. `width` in pixels, > 0.
   void line(std::span<const Vec2> points, double width, const Rgb& colour);
 

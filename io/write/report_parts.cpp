@@ -92,6 +92,7 @@ Json stages_json(const std::vector<StageReport>& stages) {
   for (const StageReport& stage : stages)
     json.push_back({{"name", stage.name},
                     {"seconds", stage.seconds},
+                    {"cpu_seconds", stage.cpu_seconds},
                     {"count", stage.count},
                     {"left_out_because",
                      stage.left_out_because.empty() ? Json() : Json(stage.left_out_because)}});

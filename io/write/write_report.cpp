@@ -170,6 +170,15 @@ void write_report(const ProbeReport& report, const RunInfo& run,
   write(json, path);
 }
 
+void write_report(const StudyReport& report, const RunInfo& run,
+                  const std::filesystem::path& path) {
+  Json json = head_json(run);
+  json["cases"] = report.cases;
+  json["interrupted"] = !report.complete;
+  json["outputs"] = to_json(run.outputs);
+  write(json, path);
+}
+
 void write_report(const RenderReport& report, const RunInfo& run,
                   const std::filesystem::path& path) {
   Json json = head_json(run);

@@ -36,6 +36,15 @@ struct ProbeReport {
 /// Throws Error(unwritable).
 void write_report(const ProbeReport& report, const RunInfo& run, const std::filesystem::path& path);
 
+/// How a study went.
+struct StudyReport {
+  std::size_t cases = 0;
+  bool complete = true;
+};
+
+/// Writes what every report begins with, cases, interrupted, outputs. Throws Error(unwritable).
+void write_report(const StudyReport& report, const RunInfo& run, const std::filesystem::path& path);
+
 /// How a picture was drawn.
 struct RenderReport {
   int width = 0, height = 0;  ///< pixels

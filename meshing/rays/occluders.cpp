@@ -3,12 +3,13 @@
 #include "meshing/triangulation/ring_triangles.h"
 
 namespace halfshade {
+namespace {
 
-TriangleSoup occluders(const SoundScene& scene) {
+TriangleSoup triangles_of(const SoundScene& scene, bool with_backs) {
   TriangleSoup soup;
   for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
     const Surface& surface = scene.surfaces[r];
-    if (surface.back) continue;
+    if (surface.back && !with_backs) continue;
     const int first = static_cast<int>(soup.points.size());
     for (const Ring& ring : surface.rings)
       for (const Vec2& p : ring) soup.points.push_back(surface.frame.to_space(p));
@@ -20,5 +21,11 @@ TriangleSoup occluders(const SoundScene& scene) {
   }
   return soup;
 }
+
+}  // namespace
+
+TriangleSoup occluders(const SoundScene& scene) { return triangles_of(scene, false); }
+
+TriangleSoup surface_triangles(const SoundScene& scene) { return triangles_of(scene, true); }
 
 }  // namespace halfshade

@@ -20,4 +20,7 @@ struct TriangleSoup {
 /// their fronts already block.
 TriangleSoup occluders(const SoundScene& scene);
 
+/// The same with backs, for rays that ask which side they meet.
+TriangleSoup surface_triangles(const SoundScene& scene);
+
 }  // namespace halfshade

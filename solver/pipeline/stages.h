@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <ctime>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct StageReport {
   double seconds = 0;
   std::size_t count = 0;  ///< of what the stage makes: surfaces, elements, factors, iterations
   std::string left_out_because;  ///< empty if it ran
+  double cpu_seconds = 0;        ///< of all threads of the program
 };
 
 /// Times the stages of a pipeline.
@@ -24,9 +26,11 @@ class Stages {
   template <class Stage>
   void run(const char* name, Stage stage) {
     const auto start = std::chrono::steady_clock::now();
+    const std::clock_t cpu_start = std::clock();
     const std::size_t count = stage();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    reports_.push_back({name, elapsed.count(), count, {}});
+    const double cpu = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
+    reports_.push_back({name, elapsed.count(), count, {}, cpu});
   }
 
   void leave_out_if(bool needless, const char* name, const std::string& because) {

@@ -105,6 +105,33 @@ TEST_F(Probe, AddsInterreflectionUnlessToldNotTo) {
   }
 }
 
+TEST_F(Probe, TracesRandomWalksAsAReference) {
+  ASSERT_EQ(probe({s1, "--points", s1_points, "-o", "o.csv", "--method", "reference", "--samples",
+                   "16384", "--json", "r.json"})
+                .exit_code,
+            0);
+  EXPECT_EQ(file("o.csv").substr(0, 74),
+            "x,y,z,nx,ny,nz,H_r,H_g,H_b,H_r_error,H_g_error,H_b_error,D_r,D_g,D_b,D_r_e");
+  constexpr double want[6] = {0, 0, 0.018916915317, 0.033762803811, 0.040681704379, 0.032271304623};
+  const auto rows = numbers("o.csv");
+  ASSERT_EQ(rows.size(), 7u);
+  for (std::size_t k = 0; k < 6; ++k) {
+    ASSERT_EQ(rows[k].size(), 18u);
+    EXPECT_NEAR(rows[k][6], want[k], 4 * rows[k][9]);
+    EXPECT_LE(rows[k][9], 5e-3 * want[k]);
+    EXPECT_EQ(rows[k][12], rows[k][6]) << "nothing comes back";
+  }
+  ASSERT_EQ(probe({s1, "--grid", "receiver", "--spacing", "0.1", "-o", "one.csv", "--method",
+                   "reference", "--samples", "64", "--threads", "1"})
+                .exit_code,
+            0);
+  ASSERT_EQ(probe({s1, "--grid", "receiver", "--spacing", "0.1", "-o", "two.csv", "--method",
+                   "reference", "--samples", "64", "--threads", "2"})
+                .exit_code,
+            0);
+  EXPECT_EQ(file("one.csv"), file("two.csv"));
+}
+
 TEST_F(Probe, ReportsAsJsonAndKeepsQuiet) {
   const test::Outcome outcome =
       probe({s1, "--points", s1_points, "-o", "o.csv", "--direct", "-q", "--json", "r.json"});
@@ -151,7 +178,8 @@ TEST_F(Probe, ExamplesOfTheHelpRun) {
     const test::Outcome outcome = probe(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
   }
-  for (const char* name : {"s1.csv", "bars.vtp", "cornell.csv"}) EXPECT_TRUE(exists(name)) << name;
+  for (const char* name : {"s1.csv", "bars.vtp", "cornell.csv", "walks.csv"})
+    EXPECT_TRUE(exists(name)) << name;
 }
 
 TEST_F(Probe, SaysInOneSentenceWhatIsWrong) {

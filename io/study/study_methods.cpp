@@ -1,0 +1,95 @@
+#include "io/study/study_methods.h"
+
+#include "meshing/core/error.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+using Words = std::vector<std::string>;
+
+/// More than any case needs within the usual time: what stops it is its time.
+constexpr int most_elements = 400000, most_unknowns = 8000000;
+/// Memory of the dense matrix grows with the square.
+constexpr double most_matrix_elements = 40000;
+
+Words adaptive(double tolerance, const Words& more) {
+  Words words = {"--tolerance",    fmt::format("{}", tolerance),
+                 "--max-elements", fmt::format("{}", most_elements),
+                 "--max-unknowns", fmt::format("{}", most_unknowns)};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+Words fields(double tolerance) { return adaptive(tolerance, {}); }
+
+Words without_curves(double tolerance) { return adaptive(tolerance, {"--no-discontinuity"}); }
+
+Words adaptive_linear(double tolerance) {
+  return adaptive(tolerance, {"--no-discontinuity", "--order", "1"});
+}
+
+Words adaptive_constant(double tolerance) {
+  return adaptive(tolerance, {"--no-discontinuity", "--order", "0"});
+}
+
+/// Errors of elements that do not know the curves fall a little faster than their number grows.
+Words uniform(double tolerance) {
+  const double elements = std::max(1., std::round(4 / tolerance));
+  if (elements > most_elements) return {};
+  return adaptive(tolerance, {"--no-discontinuity", "--order", "2", "--refine", "uniform",
+                              "--elements", fmt::format("{:.0f}", elements)});
+}
+
+/// The error of constant elements falls as one over the square root of their number.
+Words matrix(double tolerance) {
+  const double elements = std::max(1., std::round(1 / (tolerance * tolerance)));
+  if (elements > most_matrix_elements) return {};
+  return {"--method",
+          "matrix",
+          "--no-discontinuity",
+          "--tolerance",
+          fmt::format("{}", tolerance),
+          "--elements",
+          fmt::format("{:.0f}", elements),
+          "--max-elements",
+          "200000"};
+}
+
+}  // namespace
+
+const std::vector<StudyMethod>& study_methods() {
+  static const std::vector<StudyMethod> methods = {
+      {"fields", "solve as it is: polynomials on elements that follow the curves where that pays",
+       fields},
+      {"fields-no-curves", "the same without curves: elements are halved where the error is",
+       without_curves},
+      {"uniform", "elements of order 2, all of one size, 4 / tolerance of them", uniform},
+      {"matrix", "constant elements, 1 / tolerance squared of them, and a matrix of form factors",
+       matrix},
+      {"adaptive-linear", "elements of order 1, halved where the error is, without curves",
+       adaptive_linear},
+      {"adaptive-constant", "constant elements, halved where the error is, without curves",
+       adaptive_constant}};
+  return methods;
+}
+
+const StudyMethod& study_method(std::string_view name) {
+  Words names;
+  for (const StudyMethod& method : study_methods()) {
+    if (method.name == name) return method;
+    names.emplace_back(method.name);
+  }
+  throw Error(ErrorCode::usage, "study",
+              fmt::format("'{}' is none of the methods {}", name, fmt::join(names, ", ")));
+}
+
+std::string name_of(const StudyCase& one) {
+  return fmt::format("{}_{}", one.method, one.tolerance);
+}
+
+}  // namespace halfshade

@@ -1,0 +1,106 @@
+#include "solver/reference/reference_light.h"
+
+#include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
+#include "meshing/geometry/mix_bits.h"
+#include "solver/reference/light_paths.h"
+
+#include <fmt/core.h>
+
+#include <atomic>
+#include <bit>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+void check(const ReferenceOptions& options) {
+  if (options.samples < 1 || options.batches < 2 || options.bounces < -1)
+    throw Error(ErrorCode::contract, "reference_light",
+                fmt::format("{} samples in {} batches after {} bounces are out of range",
+                            options.samples, options.batches, options.bounces));
+}
+
+int samples_of_batch(const ReferenceOptions& options) {
+  const auto wanted = static_cast<unsigned>((options.samples - 1) / options.batches + 1);
+  return static_cast<int>(std::bit_ceil(wanted));
+}
+
+/// Applies to each part, direct, reflected and total.
+template <class F>
+void for_parts(F f) {
+  f(&ArrivingLight::direct);
+  f(&ArrivingLight::reflected);
+  f(&ArrivingLight::total);
+}
+
+/// Mean and square of deviations of the means of batches, kept up to date (Welford 1962).
+struct BatchStatistics {
+  int count = 0;
+  ArrivingLight mean, squares;
+
+  void add(const ArrivingLight& batch) {
+    ++count;
+    for_parts([&](auto part) {
+      const Rgb before = batch.*part - mean.*part;
+      mean.*part += before / count;
+      squares.*part += before * (batch.*part - mean.*part);
+    });
+  }
+
+  ArrivingLight standard_error() const {
+    ArrivingLight error;
+    for_parts([&](auto part) { error.*part = (squares.*part / (count - 1.) / count).sqrt(); });
+    return error;
+  }
+};
+
+/// Stopped: nothing.
+BatchStatistics light_at(const LightPaths& paths, const ReferencePoint& point, std::uint64_t seed,
+                         const ReferenceOptions& options, const Progress& progress) {
+  const int samples = samples_of_batch(options);
+  BatchStatistics statistics;
+  for (int b = 0; b < options.batches; ++b) {
+    if (progress.stopped()) return {};
+    ArrivingLight mean;
+    const std::uint64_t batch_seed = mix_bits(seed + static_cast<std::uint64_t>(b));
+    for (int s = 0; s < samples; ++s) {
+      const SampleNumbers numbers(batch_seed, static_cast<std::uint32_t>(s));
+      const ArrivingLight one = paths.trace(point, options.bounces, numbers);
+      for_parts([&](auto part) { mean.*part += one.*part / samples; });
+    }
+    statistics.add(mean);
+  }
+  return statistics;
+}
+
+}  // namespace
+
+ReferenceLight reference_light(const SoundScene& scene, std::span<const ReferencePoint> points,
+                               const ReferenceOptions& options, const Progress& progress) {
+  check(options);
+  const LightPaths paths(scene);
+  ReferenceLight light;
+  light.values.resize(points.size());
+  light.standard_errors.resize(points.size());
+  light.batches = options.batches;
+  light.samples = options.batches * samples_of_batch(options);
+  std::atomic<bool> each{true};
+  const bool all = parallel_for(
+      points.size(),
+      [&](std::size_t k) {
+        const std::uint64_t seed = mix_bits(mix_bits(options.seed) + options.first + k);
+        const BatchStatistics found = light_at(paths, points[k], seed, options, progress);
+        if (found.count == 0) {
+          each = false;
+          return;
+        }
+        light.values[k] = found.mean;
+        light.standard_errors[k] = found.standard_error();
+      },
+      progress, "reference light");
+  light.complete = all && each;
+  return light;
+}
+
+}  // namespace halfshade

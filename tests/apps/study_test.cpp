@@ -1,0 +1,174 @@
+// `halfshade study` as a user runs it.
+
+#include "tests/support/files.h"
+#include "tests/support/process.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <map>
+#include <sstream>
+
+namespace halfshade {
+namespace {
+
+namespace fs = std::filesystem;
+using Row = std::map<std::string, std::string>;
+
+class StudyCommandTest : public testing::Test {
+ protected:
+  test::Outcome study(std::vector<std::string> arguments,
+                      std::chrono::milliseconds interrupt_after = {}) {
+    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "study"});
+    return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
+  }
+  std::string file(const std::string& name) { return test::contents(folder_.path() / name); }
+  bool exists(const std::string& name) { return fs::exists(folder_.path() / name); }
+
+  std::vector<Row> rows(const std::string& name) {
+    std::istringstream lines(file(name));
+    std::string line, cell;
+    std::vector<std::string> header;
+    std::vector<Row> result;
+    while (std::getline(lines, line)) {
+      if (line.starts_with('#')) continue;
+      std::vector<std::string> cells;
+      std::istringstream stream(line + ",");
+      while (std::getline(stream, cell, ',')) cells.push_back(cell);
+      if (header.empty()) {
+        header = cells;
+        continue;
+      }
+      EXPECT_EQ(cells.size(), header.size()) << line;
+      for (std::size_t k = 0; k < header.size() && k < cells.size(); ++k)
+        (k == 0 ? result.emplace_back() : result.back())[header[k]] = cells[k];
+    }
+    return result;
+  }
+
+  test::TempDir folder_;
+  const std::string s1_ = test::data_file("s1.obj").string();
+  const std::string cornell_ = test::data_file("cornell_box.obj").string();
+};
+
+TEST_F(StudyCommandTest, MeasuresErrorsAndGoesOnWhereItWas) {
+  const std::vector<std::string> all = {s1_,        "-o",     "out",   "--direct", "--tolerances",
+                                        "0.1,0.01", "--json", "r.json"};
+  const test::Outcome outcome = study(all);
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const auto table = rows("out/study.csv");
+  ASSERT_EQ(table.size(), 8u);
+  for (const Row& row : table) {
+    EXPECT_EQ(row.at("status"), "done");
+    const double error = std::stod(row.at("error")), tolerance = std::stod(row.at("tolerance"));
+    if (row.at("method").starts_with("fields")) {
+      EXPECT_LT(error, tolerance);
+    }
+    EXPECT_LT(error, 0.2);
+    EXPECT_EQ(row.at("direct_error"), row.at("error"));
+    EXPECT_EQ(row.at("reflected_error"), "0");
+    EXPECT_GT(std::stod(row.at("max_error")), error);
+    EXPECT_GT(std::stod(row.at("seconds")), 0);
+    EXPECT_GT(std::stod(row.at("process_seconds")), std::stod(row.at("seconds")));
+    EXPECT_GT(std::stod(row.at("peak_memory_bytes")), 1e6);
+    EXPECT_GT(std::stod(row.at("unknowns")), 10);
+    EXPECT_NEAR(std::stod(row.at("effectivity")) * error, std::stod(row.at("estimated_error")),
+                1e-12);
+  }
+  EXPECT_LT(std::stod(table[1].at("error")), std::stod(table[0].at("error")));
+  for (const char* name : {"error_time.svg", "error_time.png", "estimated_true.png", "fields.png"})
+    EXPECT_TRUE(exists(std::string("out/") + name)) << name;
+  const std::string page = file("out/study.html");
+  EXPECT_THAT(page, testing::HasSubstr("data:image/png;base64,iVBOR"));
+  EXPECT_THAT(page, testing::Not(testing::HasSubstr("src=\"http")));
+  EXPECT_TRUE(page.ends_with("</html>\n"));
+  EXPECT_EQ(nlohmann::json::parse(file("r.json")).at("cases"), 8);
+
+  const std::string before = file("out/study.csv");
+  const test::Outcome again = study(all);
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_EQ(again.out.find("error"), std::string::npos) << "no case is run twice\n" << again.out;
+  EXPECT_EQ(file("out/study.csv"), before);
+  ASSERT_EQ(study({s1_, "-o", "out", "--direct", "--tolerances", "0.03", "--methods", "fields"})
+                .exit_code,
+            0);
+  EXPECT_EQ(rows("out/study.csv").size(), 9u);
+  test::expect_sentence(study({cornell_, "-o", "out", "--direct", "-q"}), 2, "another study");
+  EXPECT_EQ(rows("out/study.csv").size(), 9u);
+}
+
+TEST_F(StudyCommandTest, LosesAndRepeatsNothingWhenInterrupted) {
+  const std::vector<std::string> all = {s1_,  "-o",       "out",          "--points",
+                                        "50", "--direct", "--tolerances", "0.1,0.03,0.01"};
+  int interrupted = 0;
+  std::string known;
+  for (int ms = 150; ms < 30000; ms = ms * 5 / 4) {
+    const test::Outcome outcome = study(all, std::chrono::milliseconds(ms));
+    const std::string now = exists("out/study.csv") ? file("out/study.csv") : std::string();
+    std::istringstream lines(known);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_NE(now.find(line), std::string::npos) << line;
+    known = now;
+    if (outcome.exit_code == 0) break;
+    ASSERT_EQ(outcome.exit_code, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
+    ++interrupted;
+  }
+  EXPECT_GE(interrupted, 1);
+  EXPECT_EQ(rows("out/study.csv").size(), 12u);
+  EXPECT_TRUE(exists("out/study.html"));
+}
+
+TEST_F(StudyCommandTest, EndsWhatTakesTooLong) {
+  const std::vector<std::string> all = {
+      cornell_,    "-o",     "out",          "--points",  "20",           "--samples", "64",
+      "--methods", "fields", "--tolerances", "1e-3,1e-4", "--time-limit", "0.5",       "-q"};
+  ASSERT_EQ(study(all).exit_code, 0);
+  const auto table = rows("out/study.csv");
+  ASSERT_EQ(table.size(), 1u) << "finer ones are left out";
+  EXPECT_EQ(table[0].at("status"), "time_limit");
+  EXPECT_EQ(table[0].at("error"), "");
+  EXPECT_GE(std::stod(table[0].at("process_seconds")), 0.5);
+  EXPECT_TRUE(exists("out/study.html"));
+}
+
+TEST_F(StudyCommandTest, SaysInOneSentenceWhatIsWrong) {
+  std::ofstream(folder_.path() / "dark.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  std::ofstream(folder_.path() / "file") << "x";
+  const struct {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string names;
+  } all[] = {
+      {{s1_, "-o", "out", "--methods", "fields,guesswork"}, 2, "'guesswork' is none of fields"},
+      {{s1_, "-o", "out", "--tolerances", "0.1,0"}, 2, "'0' is not a number above zero"},
+      {{s1_, "-o", "out", "--tolerances", "0.1,x"}, 2, "'x'"},
+      {{s1_, "-o", "out", "--time-limit", "0"}, 2, "'0'"},
+      {{s1_}, 2, "--output"},
+      {{"none.obj", "-o", "out"}, 3, "none.obj"},
+      {{"dark.obj", "-o", "out"}, 3, "emit"},
+      {{s1_, "-o", "file"}, 5, "file"},
+      {{s1_, "-o", "/proc/none/out"}, 5, "/proc/none/out"},
+  };
+  for (const auto& wrong : all) {
+    test::expect_sentence(study(wrong.arguments), wrong.exit_code, wrong.names);
+    EXPECT_FALSE(exists("out"));
+  }
+}
+
+TEST_F(StudyCommandTest, ExamplesOfTheHelpRun) {
+  fs::create_directory_symlink(fs::path(HALFSHADE_DATA), folder_.path() / "data");
+  const auto examples = test::examples_of(study({"--help"}).out, "study");
+  EXPECT_GE(examples.size(), 2u);
+  for (auto arguments : examples) {
+    arguments.insert(arguments.end(), {"--samples", "64"});
+    const test::Outcome outcome = study(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

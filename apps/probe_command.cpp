@@ -4,7 +4,7 @@
 #include "io/files/same_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
-#include "solver/exchange/gather.h"
+#include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
 
@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdio>
 #include <optional>
+#include <string>
 
 namespace halfshade {
 namespace {
@@ -65,22 +66,21 @@ std::vector<DirectLight> direct_light(const DirectLightIndex& index,
   return light;
 }
 
-/// Adds the light that was reflected to the points that were reached; drops the others.
-void add_reflected(const PreparedScene& prepared, const SolveOptions& options,
-                   std::span<const SurfacePoint> points, const Progress& progress,
-                   std::vector<DirectLight>& light) {
-  SolveOptions with_matrix = options;
-  with_matrix.method = SolveMethod::matrix;  // gathering reads constant elements
-  const SolveResult solved = solve(prepared, with_matrix, progress);
-  if (solved.interrupted) return light.clear();
-  const std::size_t done = in_blocks(
-      points.first(light.size()), progress,
-      [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
-        const std::vector<Rgb> reflected = reflected_irradiance(
-            {prepared.scene(), solved.elements, solved.solution}, prepared.visibility(), some, p);
-        for (std::size_t k = 0; k < some.size(); ++k) light[first + k].irradiance += reflected[k];
-      });
+/// Adds the light that was reflected to the points that were reached; drops the others. Returns why
+/// the solution is not as accurate as asked for; empty if it is.
+std::string add_reflected(const PreparedScene& prepared, const SolveOptions& options,
+                          std::span<const SurfacePoint> points, const Progress& progress,
+                          std::vector<DirectLight>& light) {
+  const SolveResult solved = solve(prepared, options, progress);
+  if (solved.interrupted) light.clear();
+  const std::size_t done =
+      in_blocks(points.first(light.size()), progress,
+                [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+                  add_gathered_light(solved, options.tolerance, some,
+                                     std::span(light).subspan(first, some.size()), p);
+                });
   light.resize(done);
+  return solved.not_reached;
 }
 
 ReferenceLight reference_light(const ProbeCommand& command, const SoundScene& scene,
@@ -124,9 +124,11 @@ PointTable get_points(const ProbeCommand& command, const std::optional<PointTabl
 /// Writes table and report, and says so.
 template <class Light>
 ExitCode finish(const ProbeCommand& command, const PointTable& table, const Light& light,
-                std::size_t done, const Context& context) {
+                std::size_t done, const std::string& not_reached, const Context& context) {
   const std::size_t points = table.points.size();
-  const ExitCode code = done == points ? exit_done : exit_interrupted;
+  const ExitCode code = done < points          ? exit_interrupted
+                        : !not_reached.empty() ? exit_not_accurate
+                                               : exit_done;
   if (done == 0 && code == exit_interrupted) return end_without_results();
   write_points(table, light, command.output);
   if (!context.common.json.empty())
@@ -141,6 +143,8 @@ ExitCode finish(const ProbeCommand& command, const PointTable& table, const Ligh
   }
   if (code == exit_interrupted)
     complain("interrupted: {} of {} points were computed and written\n", done, points);
+  if (code == exit_not_accurate)
+    complain("{}; so are the values at points, or somewhat less\n", not_reached);
   return code;
 }
 
@@ -156,14 +160,15 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
     const ReferenceLight light =
         reference_light(command, prepared.scene(), table.points, context.progress);
     end();
-    return finish(command, table, light, light.values.size(), context);
+    return finish(command, table, light, light.values.size(), {}, context);
   }
   std::vector<DirectLight> light =
       direct_light(prepared.direct_light(), table.points, context.progress);
+  std::string not_reached;
   if (!command.direct_only)
-    add_reflected(prepared, command.options, table.points, context.progress, light);
+    not_reached = add_reflected(prepared, command.options, table.points, context.progress, light);
   end();
-  return finish(command, table, light, light.size(), context);
+  return finish(command, table, light, light.size(), not_reached, context);
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
            "standard errors H_r_error, …, and direct light D_r, …) or .vtp; '-': .csv to stdout")
       ->required();
   app.add_flag("--direct", command.direct_only,
-               "Only light straight from the emitters; else interreflection is gathered from a\n"
-               "solution by closed-form factors, with visibility by rays");
-  add_elements(app, command.options.elements,
-               "About how many elements to solve with, without --direct");
+               "Only light straight from the emitters; else reflected light is gathered from a\n"
+               "solution");
+  add_positive(app, "--tolerance", command.options.tolerance,
+               "Error allowed in that solution, of the irradiance in the L2 norm, relative to it");
   add_choice(
       app, "--method", {"solution", "reference"},
       [&command](std::size_t k) { command.reference = k == 1; },
@@ -48,14 +48,14 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   add_materials(app, command.materials, "Materials file, as for solve");
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.footer(footer(
-      "Examples:\n"
-      "  halfshade probe data/s1.obj --points data/s1_points.csv -o s1.csv --direct\n"
-      "  halfshade probe data/bars.obj --grid floor --spacing 0.05 -o bars.vtp --direct\n"
-      "  halfshade probe data/cornell_box.obj --grid floor --spacing 40 -o cornell.csv --elements "
-      "1000\n"
-      "  halfshade probe data/s1.obj --points data/s1_points.csv -o walks.csv --method "
-      "reference\n\n"));
+  app.footer(
+      footer("Examples:\n"
+             "  halfshade probe data/s1.obj --points data/s1_points.csv -o s1.csv --direct\n"
+             "  halfshade probe data/bars.obj --grid floor --spacing 0.05 -o bars.vtp --direct\n"
+             "  halfshade probe data/cornell_box.obj --grid floor --spacing 40 -o cornell.csv "
+             "--tolerance 0.02\n"
+             "  halfshade probe data/s1.obj --points data/s1_points.csv -o walks.csv --method "
+             "reference\n\n"));
 }
 
 }  // namespace halfshade

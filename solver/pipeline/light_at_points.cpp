@@ -1,11 +1,13 @@
 #include "solver/pipeline/light_at_points.h"
 
 #include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
 #include "meshing/core/planar.h"
 #include "solver/elements/element_lookup.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -42,7 +44,29 @@ SolvedLight light_at(const SolveResult& result, const ForestPlace& found) {
   return {value_at(result.irradiance, e, found.place), value_at(result.direct, e, found.place)};
 }
 
+/// Rays whose noise is about the tolerance in furnished rooms, as measured: .34 % for 1,024.
+int rays_worth(double tolerance) {
+  constexpr double usual_rays = 1024, usual_noise = 0.0034, fewest = 256, most = 65536;
+  const double ratio = usual_noise / tolerance;
+  return static_cast<int>(std::clamp(usual_rays * ratio * ratio, fewest, most));
+}
+
 }  // namespace
+
+bool add_gathered_light(const SolveResult& result, double tolerance,
+                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        const Progress& progress) {
+  if (!result.reflected_light) return true;
+  const ReflectedLight& reflected = *result.reflected_light;
+  const int rays = rays_worth(tolerance);
+  return parallel_for(
+      points.size(),
+      [&](std::size_t k) {
+        if (reflected.report().through_operator) light[k].irradiance.setZero();
+        light[k].irradiance += reflected.gather(points[k], rays);
+      },
+      progress, "reflected light at points");
+}
 
 std::vector<SolvedLight> light_at_points(const SolveResult& result,
                                          std::span<const SurfacePoint> points) {

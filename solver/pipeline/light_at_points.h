@@ -21,4 +21,13 @@ struct SolvedLight {
 std::vector<SolvedLight> light_at_points(const SolveResult& result,
                                          std::span<const SurfacePoint> points);
 
+/// Irradiance at points, on surfaces or not, from exact direct light and what a solution's elements
+/// reflect: by exactly visible parts where the solution is made of them, else by as many rays as
+/// its tolerance is worth. Two or three times as exact as the elements' polynomials. Adds to
+/// `light`, which holds the direct light of the first points. Precondition: the result has
+/// reflected light, or nothing reflects. On all threads; returns false if stopped.
+bool add_gathered_light(const SolveResult& result, double tolerance,
+                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        const Progress& progress = {});
+
 }  // namespace halfshade

@@ -15,6 +15,7 @@
 #include "solver/reflected/reflected_light.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct SolveResult {
   ElementField direct, irradiance;
   AdaptiveFieldReport refinement;  ///< of direct light
   ReflectedReport reflected;
+  std::optional<ReflectedLight> reflected_light;  ///< if it was solved for as polynomials
   /// What each element sees of each emitter, if asked for: row-major, one row an element, one
   /// column an emitter.
   std::vector<Region> regions;

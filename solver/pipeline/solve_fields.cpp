@@ -139,7 +139,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
         prepared.scene(), std::move(direct),
         {reflected_options(plan, options, tolerance), values_options(options, tolerance)}, progress,
         stages);
-    result.reflected = total.reflected;
+    result.reflected = total.reflected->report();
+    result.reflected_light = std::move(total.reflected);
     of_values = reason(total.values.limit);
     result.relative_error = total.relative_error;
     result.elements = std::move(total.elements);

@@ -7,7 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <memory>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -15,7 +16,9 @@ namespace {
 /// Direct light at any point of a surface, from its polynomials.
 class DirectLookup {
  public:
-  explicit DirectLookup(const AdaptiveField& light) : lookup_(light.elements), light_(light) {}
+  explicit DirectLookup(AdaptiveField light) : lookup_(light.elements), light_(std::move(light)) {}
+
+  const AdaptiveField& light() const { return light_; }
 
   auto place(int surface, const Vec3& position) const { return lookup_.find(surface, position); }
   Rgb operator()(int surface, const Vec3& position) const {
@@ -27,7 +30,7 @@ class DirectLookup {
 
  private:
   ElementLookup lookup_;
-  const AdaptiveField& light_;
+  AdaptiveField light_;
 };
 
 FieldAt values_of(const ReflectedLight& reflected) {
@@ -75,14 +78,13 @@ struct Wholes {
   std::vector<std::array<TrianglePlace, 3>> corners;
 };
 
-Wholes find_wholes(const ElementTable& parts, const AdaptiveField& light,
-                   const DirectLookup& lookup) {
+Wholes find_wholes(const ElementTable& parts, const DirectLookup& lookup) {
   Wholes wholes;
   for (int e = 0; e < parts.count(); ++e) {
     const auto triangle = parts.triangle(e);
     const int whole =
         lookup.place(parts.surface[at(e)], (triangle[0] + triangle[1] + triangle[2]) / 3).triangle;
-    const auto of_whole = light.elements.triangle(whole);
+    const auto of_whole = lookup.light().elements.triangle(whole);
     wholes.element.push_back(whole);
     auto& corners = wholes.corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) corners[k] = place_of(of_whole, triangle[k]);
@@ -91,9 +93,9 @@ Wholes find_wholes(const ElementTable& parts, const AdaptiveField& light,
 }
 
 /// Direct light on the elements of `extra`, and both together; `total` has those elements.
-void add_fields(const DirectField& direct, const AdaptiveField& extra, const Wholes& wholes,
-                TotalField& total) {
-  const ElementField& light = direct.light.field;
+void add_fields(const AdaptiveField& direct, const std::vector<Region>& region,
+                const AdaptiveField& extra, const Wholes& wholes, TotalField& total) {
+  const ElementField& light = direct.field;
   std::vector<int> direct_order, order;
   for (int e = 0; e < extra.field.count(); ++e) {
     direct_order.push_back(light.order[at(wholes.element[at(e)])]);
@@ -109,8 +111,8 @@ void add_fields(const DirectField& direct, const AdaptiveField& extra, const Who
             .array();
     add(total.direct.of(e), total.irradiance.of(e));
     add(extra.field.of(e), total.irradiance.of(e));
-    total.error[e] = std::hypot(direct.light.error[whole], extra.error[e]);
-    if (!direct.region.empty()) total.region.push_back(direct.region[at(whole)]);
+    total.error[e] = std::hypot(direct.error[whole], extra.error[e]);
+    if (!region.empty()) total.region.push_back(region[at(whole)]);
   }
 }
 
@@ -132,35 +134,34 @@ double joint_error(const TotalField& total, double of_reflected) {
 TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
                                const TotalFieldOptions& options, const Progress& progress,
                                Stages& stages) {
-  const AdaptiveField& light = direct.light;
-  const DirectLookup lookup(light);
-  std::optional<ReflectedLight> reflected;
+  // Reflected light keeps it.
+  const auto lookup = std::make_shared<const DirectLookup>(std::move(direct.light));
+  const AdaptiveField& light = lookup->light();
+  TotalField total;
   stages.run("reflected light", [&] {
-    reflected = reflected_light(
-        scene, [&](int surface, const Vec3& p) { return lookup(surface, p); }, options.reflected,
-        progress);
-    return static_cast<std::size_t>(reflected->report().elements);
+    total.reflected = reflected_light(
+        scene, [lookup](int surface, const Vec3& p) { return (*lookup)(surface, p); },
+        options.reflected, progress);
+    return static_cast<std::size_t>(total.reflected->report().elements);
   });
-  double area = 0;
-  for (const double a : light.elements.area) area += a;
-  const double norm = std::sqrt(reflected->report().mean_square_total * area);
+  const ReflectedReport& report = total.reflected->report();
+  const double area = std::accumulate(light.elements.area.begin(), light.elements.area.end(), 0.);
+  const double norm = std::sqrt(report.mean_square_total * area);
 
   AdaptiveField on_elements;
   stages.run("values of reflected light", [&] {
     AdaptiveFieldOptions fit = options.values;
     fit.norm = std::isfinite(norm) ? norm : 0;
-    on_elements = fit_adaptively(*direct.patches, values_of(*reflected), fit, progress);
+    on_elements = fit_adaptively(*direct.patches, values_of(*total.reflected), fit, progress);
     return on_elements.elements.corners.size();
   });
 
-  TotalField total;
-  total.reflected = reflected->report();
   total.values = on_elements.report;
   total.elements = std::move(on_elements.elements);
-  add_fields(direct, on_elements, find_wholes(total.elements, light, lookup), total);
+  add_fields(light, direct.region, on_elements, find_wholes(total.elements, *lookup), total);
   if (options.reflected.through_operator)
     total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);
-  total.relative_error = joint_error(total, total.reflected.error);
+  total.relative_error = joint_error(total, report.error);
   return total;
 }
 

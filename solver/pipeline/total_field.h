@@ -3,6 +3,7 @@
 #include "solver/pipeline/direct_field.h"
 #include "solver/reflected/reflected_light.h"
 
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -20,7 +21,7 @@ struct TotalField {
   ElementField direct, irradiance;
   Eigen::ArrayXd error;  ///< root mean square over each element, the channels' squares summed; W/m²
   std::vector<Region> region;
-  ReflectedReport reflected;
+  std::optional<ReflectedLight> reflected;
   AdaptiveFieldReport values;
   double relative_error = 0;  ///< of the whole, estimated, in the L2 norm
 };

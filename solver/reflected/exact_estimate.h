@@ -1,23 +1,17 @@
 #pragma once
 
-#include "solver/reflected/irradiance_row.h"
+#include "solver/reflected/exact_gather.h"
 #include "solver/reflected/reflection_estimate.h"
+
+#include <vector>
 
 namespace halfshade {
 
-/// What rows are made with for an estimate.
-struct ExactProbes {
-  const ExactSight& sight;
-  const ReflectingScene& scene;
-  RowAccuracy accuracy;
-  int direct_points = 20000;  ///< see DirectProjection
-};
-
-/// Compares irradiance with what arrives of leaving light at random points, by exactly visible
-/// parts. There the direct light is taken from elements cut in four: what the polynomials of the
-/// leaving light are off shows as well. Of the probes, `rays` is not used.
-ReflectionEstimate estimate_exactly(const ExactProbes& exact, const ReflectedSystem& system,
+/// Compares irradiance with what arrives of leaving light at random places, by exactly visible
+/// parts. `gather` is of the light that leaves where that irradiance arrives.
+ReflectionEstimate estimate_exactly(const ExactSight& sight, const ExactGather& gather,
+                                    const ReflectedSystem& system,
                                     const SplitIrradiance& irradiance,
-                                    const ReflectionProbes& probes, const Progress& progress);
+                                    std::vector<ProbePlace> probes, const Progress& progress);
 
 }  // namespace halfshade

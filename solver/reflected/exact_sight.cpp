@@ -111,6 +111,15 @@ std::vector<Sighted> ExactSight::may_see(const std::array<Vec3, 3>& part, int ro
   return result;
 }
 
+std::vector<Sighted> ExactSight::may_see(const SurfacePoint& point) const {
+  std::vector<Sighted> result;
+  for (int s = 0; s < static_cast<int>(impl_->targets.size()); ++s)
+    if (impl_->scene.surfaces[at(s)].frame.height(point.position) > 0 &&
+        reaches_above(impl_->targets[at(s)].rings.front(), point.position, point.normal))
+      result.push_back({s, false});
+  return result;
+}
+
 void ExactSight::see(const SurfacePoint& point, const Sighted& target, SeenPart& seen) const {
   seen = {};
   const PlaneFrame& frame = impl_->scene.surfaces[at(target.surface)].frame;

@@ -37,6 +37,9 @@ class ExactSight {
   /// The surfaces that points of a part of a root may see. Cost: a shaft for each that faces it.
   std::vector<Sighted> may_see(const std::array<Vec3, 3>& part, int root) const;
 
+  /// The surfaces that a point, which may lie on one or not, may see; none is known to be clear.
+  std::vector<Sighted> may_see(const SurfacePoint& point) const;
+
   /// Cost: grows with the silhouette edges in between, unless all is clear.
   void see(const SurfacePoint& point, const Sighted& target, SeenPart& seen) const;
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -25,12 +26,18 @@ struct ReflectedLight::State {
 
   ReflectingScene reflecting;
   FirstLight light;
+  std::unique_ptr<const SoundScene> scene;  ///< for exact parts, as the next two
+  std::unique_ptr<const ExactSight> sight;
+  RowAccuracy accuracy;
   double scale = 1;  ///< of all light while it is solved for: no size of it over- or underflows
   ReflectedMesh mesh;
   ElementTable elements;
   ElementField field;
+  ElementField leaving_rest;  ///< what leaves, without S
   std::optional<QuickField> irradiance, leaving;
   ReflectedReport report;
+  mutable std::once_flag gather_made;
+  mutable std::optional<ExactGather> gather;  ///< made when it is asked for
 };
 
 namespace {
@@ -109,22 +116,17 @@ void scale_light(ReflectedLight::State& state) {
 /// The rounds of solving, estimating and refining.
 class Rounds {
  public:
-  Rounds(ReflectedLight::State& state, const SoundScene& scene, const ReflectedOptions& options,
-         const Progress& progress)
+  Rounds(ReflectedLight::State& state, const ReflectedOptions& options, const Progress& progress)
       : state_(state),
         options_(options),
         progress_(progress),
         mesh_(state.mesh),
         direct_(state.report.is_exact ? many_direct_points : few_direct_points),
         rays_(first_rays(options)) {
-    if (state.report.is_exact) {
-      const RowAccuracy accuracy = row_accuracy(options.tolerance, state.reflecting.roots);
-      sight_.emplace(scene, state.reflecting);
-      parts_.emplace(*sight_, state.reflecting, state.light, direct_, accuracy);
-      probes_.emplace(ExactProbes{*sight_, state.reflecting, accuracy, many_direct_points});
-    } else {
+    if (state.sight)
+      parts_.emplace(*state.sight, state.reflecting, state.light, direct_, state.accuracy);
+    else
       kept_rays_.emplace(state.reflecting, state.light, kept_strata);
-    }
   }
 
   void run() {
@@ -229,11 +231,15 @@ class Rounds {
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
     const int points = std::clamp(nodes / 3, 800, 4000);
-    const ReflectionProbes probes{now.leaving, points * (parts_ ? surer_ : report.rounds + 1),
-                                  rays_, use_};
     const ReflectionEstimate estimate =
-        parts_ ? estimate_exactly(*probes_, system, irradiance, probes, progress_)
-               : estimate_error(state_.reflecting, system, irradiance, probes, progress_);
+        parts_
+            ? estimate_exactly(*state_.sight,
+                               ExactGather(*state_.sight, state_.reflecting, state_.light, mesh_,
+                                           now.leaving, state_.accuracy, many_direct_points),
+                               system, irradiance, spread_probes(mesh_, surer_ * points, use_),
+                               progress_)
+            : estimate_error(state_.reflecting, system, irradiance,
+                             {now.leaving, (report.rounds + 1) * points, rays_, use_}, progress_);
     if (!estimate.complete) return false;
     keep(system, irradiance);
     ++report.rounds;
@@ -283,9 +289,7 @@ class Rounds {
   ReflectedMesh mesh_;
   DirectProjection direct_;
   std::optional<RayExchange> kept_rays_;  ///< either these
-  std::optional<ExactSight> sight_;       ///< or exact parts
-  std::optional<ExactExchange> parts_;
-  std::optional<ExactProbes> probes_;
+  std::optional<ExactExchange> parts_;    ///< or exact parts
   int rays_;
   int use_ = 0;
   int surer_ = 1;  ///< times as many points of the estimate
@@ -293,7 +297,8 @@ class Rounds {
 
 void finish(ReflectedLight::State& state) {
   if (state.field.count() != state.mesh.count()) state.field = zero_field(state.mesh);
-  state.leaving.emplace(reflected_part(state.mesh, state.light, state.field));
+  state.leaving_rest = reflected_part(state.mesh, state.light, state.field);
+  state.leaving.emplace(state.leaving_rest);
   state.field.coefficients /= state.scale;
   state.irradiance.emplace(state.field);
   state.elements = element_table(state.mesh, state.reflecting.roots);
@@ -309,6 +314,14 @@ Rgb ReflectedLight::irradiance(int surface, const Vec3& position) const {
 }
 
 Rgb ReflectedLight::gather(const SurfacePoint& point, int rays) const {
+  if (state_->sight) {
+    const State& state = *state_;
+    std::call_once(state.gather_made, [&] {
+      state.gather.emplace(*state.sight, state.reflecting, state.light, state.mesh,
+                           state.leaving_rest, state.accuracy, many_direct_points);
+    });
+    return state.gather->irradiance(point) / state.scale;
+  }
   std::uint64_t seed = 0;
   for (const double x : point.position) seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(x));
   thread_local std::vector<RayEnd> ends;
@@ -336,7 +349,13 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   state->report.is_exact = options.visibility == ReflectedVisibility::exact ||
                            (options.visibility == ReflectedVisibility::automatic &&
                             parts_are_quicker(surfaces, options.tolerance));
-  if (!nothing) Rounds(*state, scene, options, progress).run();
+  state->report.through_operator = options.through_operator;
+  if (state->report.is_exact && !nothing) {
+    state->scene = std::make_unique<const SoundScene>(scene);
+    state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
+    state->accuracy = row_accuracy(options.tolerance, state->reflecting.roots);
+  }
+  if (!nothing) Rounds(*state, options, progress).run();
   finish(*state);
   return ReflectedLight(std::move(state));
 }

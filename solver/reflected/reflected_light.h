@@ -51,7 +51,8 @@ struct ReflectedReport {
   ReflectedEnd end = ReflectedEnd::nothing;
   int elements = 0;
   int rounds = 0;
-  bool is_exact = false;  ///< by exactly visible parts
+  bool is_exact = false;          ///< by exactly visible parts
+  bool through_operator = false;  ///< it is all irradiance, see ReflectedOptions
   std::size_t rays = 0;
   std::size_t moments = 0;  ///< of exactly visible parts, kept in the last round
   /// The most by which integrals over exactly visible parts missed a point's form factors, and
@@ -82,8 +83,9 @@ class ReflectedLight {
   /// G by the polynomials. Precondition: the point lies on the surface, up to rounding.
   Rgb irradiance(int surface, const Vec3& position) const;
 
-  /// G at any point, on a surface or not, by about `rays` rays to what S and the polynomials say:
-  /// two or three times as exact as the polynomials for 1,000 rays, and noisier for a few.
+  /// G at any point, on a surface or not, by exactly visible parts if the solution is, else by
+  /// about `rays` rays to what S and the polynomials say: two or three times as exact as the
+  /// polynomials for 1,000 rays, and noisier for a few.
   Rgb gather(const SurfacePoint& point, int rays) const;
 
   const ReflectedReport& report() const;

@@ -1,0 +1,39 @@
+#include "solver/reflected/exact_gather.h"
+
+#include "solver/reflected/exact_exchange.h"
+#include "solver/reflected/forest_field.h"
+
+namespace halfshade {
+namespace {
+
+QuickField all_leaving(const FirstLight& light, const ReflectedMesh& mesh,
+                       const ElementField& leaving, const ReflectedMesh& fine, int direct_points) {
+  DirectProjection direct(direct_points);
+  direct.update(fine, light);
+  ElementField all = restricted(mesh, leaving, fine);
+  all.coefficients += direct.leaving(fine, light).coefficients;
+  return QuickField(forest_field(fine, all));
+}
+
+}  // namespace
+
+ExactGather::ExactGather(const ExactSight& sight, const ReflectingScene& scene,
+                         const FirstLight& light, const ReflectedMesh& mesh,
+                         const ElementField& leaving, const RowAccuracy& accuracy,
+                         int direct_points)
+    : sight_(sight),
+      scene_(scene),
+      mesh_(bisected(mesh, 2)),
+      leaving_(all_leaving(light, mesh, leaving, mesh_, direct_points)),
+      maker_(sight, mesh_, accuracy) {}
+
+Rgb ExactGather::irradiance(int root, const Vec3& position,
+                            std::span<const Sighted> targets) const {
+  return halfshade::irradiance(closed_row(maker_, scene_, root, position, targets), leaving_);
+}
+
+Rgb ExactGather::irradiance(const SurfacePoint& point) const {
+  return halfshade::irradiance(maker_.row(point, sight_.may_see(point)), leaving_);
+}
+
+}  // namespace halfshade

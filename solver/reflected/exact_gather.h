@@ -1,0 +1,32 @@
+#pragma once
+
+#include "solver/reflected/direct_projection.h"
+#include "solver/reflected/irradiance_row.h"
+
+namespace halfshade {
+
+/// What leaves elements, on parts of them: each is cut in four, and direct light is projected on
+/// the quarters, so that what a solution's own elements are off shows, or is put right.
+class ExactGather {
+ public:
+  /// `leaving` is what leaves the elements of the mesh without S. `sight`, `scene` and `light` must
+  /// outlive it. Asks for direct light at about `direct_points` points.
+  ExactGather(const ExactSight& sight, const ReflectingScene& scene, const FirstLight& light,
+              const ReflectedMesh& mesh, const ElementField& leaving, const RowAccuracy& accuracy,
+              int direct_points);
+
+  /// Irradiance from S and what else leaves, at a position in a part of a root.
+  Rgb irradiance(int root, const Vec3& position, std::span<const Sighted> targets) const;
+
+  /// The same at any point, of which nothing is known.
+  Rgb irradiance(const SurfacePoint& point) const;
+
+ private:
+  const ExactSight& sight_;
+  const ReflectingScene& scene_;
+  ReflectedMesh mesh_;
+  QuickField leaving_;
+  RowMaker maker_;
+};
+
+}  // namespace halfshade

@@ -59,8 +59,12 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   require_place(context.common.json);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const PreparedScene prepared(file.scene, context.progress);
-  const Explanation explanation = explain(prepared, command.options, context.progress);
+  const ContactLimit limit{static_cast<double>(command.options.max_elements),
+                           contacts_warning(command.options.max_elements, false)};
+  const Explanation explanation =
+      use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
+        return explain(prepared, command.options, context.progress);
+      });
   context.progress_ends();
   const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;
   if (!context.common.json.empty())

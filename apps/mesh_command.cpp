@@ -102,17 +102,8 @@ std::vector<std::filesystem::path> write(const MeshCommand& command, const Prepa
   return written;
 }
 
-}  // namespace
-
-ExitCode run(const MeshCommand& given, const Context& context) {
-  MeshCommand command = given;
-  if (command.outputs.empty() && command.curves.empty() && command.picture.empty())
-    command.outputs.push_back(command.scene.stem().replace_extension(".vtu"));
-  const CommandFiles files = checked_files(command, context.common);
-  command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
-  const PreparedScene prepared(file.scene, context.progress);
+ExitCode run_prepared(const MeshCommand& command, const SceneFile& file,
+                      const PreparedScene& prepared, const Context& context) {
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
     picture_surfaces(prepared.scene(), {}, command.picture_of);
@@ -133,6 +124,22 @@ ExitCode run(const MeshCommand& given, const Context& context) {
                                       ? "what was written is incomplete and marked so"
                                       : "the picture was not drawn");
   return code;
+}
+
+}  // namespace
+
+ExitCode run(const MeshCommand& given, const Context& context) {
+  MeshCommand command = given;
+  if (command.outputs.empty() && command.curves.empty() && command.picture.empty())
+    command.outputs.push_back(command.scene.stem().replace_extension(".vtu"));
+  const CommandFiles files = checked_files(command, context.common);
+  command.options.with_elements = !command.outputs.empty() || !context.common.json.empty();
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
+  return use_prepared(file.scene, mesh_contact_limit(), context.progress,
+                      [&](const PreparedScene& prepared) {
+                        return run_prepared(command, file, prepared, context);
+                      });
 }
 
 }  // namespace halfshade

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -92,9 +93,10 @@ CommandFiles checked_files(const ProbeCommand& command, const CommonOptions& com
   return files;
 }
 
-PointTable get_points(const ProbeCommand& command, const SoundScene& scene) {
-  return command.points.empty() ? point_table(surface_grid(scene, command.group, command.spacing))
-                                : read_points(command.points);
+/// Those of the file, or else on a grid.
+PointTable get_points(const ProbeCommand& command, const std::optional<PointTable>& given,
+                      const SoundScene& scene) {
+  return given ? *given : point_table(surface_grid(scene, command.group, command.spacing));
 }
 
 /// Writes table and report.
@@ -106,14 +108,10 @@ void write(const ProbeCommand& command, const PointTable& table,
                  run_info(context, code, {command.output}), context.common.json);
 }
 
-}  // namespace
-
-ExitCode run(const ProbeCommand& command, const Context& context) {
-  const CommandFiles files = checked_files(command, context.common);
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
-  const PreparedScene prepared(file.scene, context.progress);
-  const PointTable table = get_points(command, prepared.scene());
+ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
+                      const std::optional<PointTable>& given, const PreparedScene& prepared,
+                      const Context& context) {
+  const PointTable table = get_points(command, given, prepared.scene());
   std::vector<DirectLight> light =
       direct_light(prepared.direct_light(), table.points, context.progress);
   if (!command.direct_only)
@@ -134,6 +132,24 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   if (code == exit_interrupted)
     complain("interrupted: {} of {} points were computed and written\n", light.size(), points);
   return code;
+}
+
+}  // namespace
+
+ExitCode run(const ProbeCommand& command, const Context& context) {
+  const CommandFiles files = checked_files(command, context.common);
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
+  std::optional<PointTable> given;
+  if (!command.points.empty()) given = read_points(command.points);
+  // Contact lines are for elements; exact light needs none.
+  const ContactLimit limit =
+      command.direct_only ? ContactLimit{}
+                          : ContactLimit{static_cast<double>(command.options.max_elements),
+                                         contacts_warning(command.options.max_elements, false)};
+  return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
+    return run_prepared(command, file, given, prepared, context);
+  });
 }
 
 }  // namespace halfshade

@@ -22,11 +22,21 @@ CommandFiles checked_files(const RenderCommand& command, const CommonOptions& co
   return files;
 }
 
+/// Pictures of scenes need no contact lines, and can do without where there are too many.
+SoundScene sound_for_picture(const Scene& scene) {
+  try {
+    return make_sound(scene);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    return make_sound(scene, {.contacts = false});
+  }
+}
+
 ShadedMesh load(const RenderCommand& command, const CommandFiles& files, const Context& context) {
   if (has_format(command.input, shaded_formats)) return read_shaded(command.input);
   const SceneFile file =
       read_scene(command.input, command.materials, context.common.orientation, files);
-  ShadedMesh mesh = shaded(make_sound(file.scene), file.scene.cameras);
+  ShadedMesh mesh = shaded(sound_for_picture(file.scene), file.scene.cameras);
   print_warnings(file, {}, context);
   return mesh;
 }

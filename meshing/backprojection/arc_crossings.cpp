@@ -9,6 +9,9 @@
 namespace halfshade {
 namespace {
 
+/// A view with more crossings than these and these for each of its arcs is crowded.
+constexpr std::size_t few_crossings = 200, crossings_an_arc = 4;
+
 /// Where in [0, 1] the segment from `start` along `along` passes nearest to direction q, measured
 /// along the segment. `normal` is that of the segment's plane through the eye.
 double along_segment(const Vec3& start, const Vec3& along, const Vec3& normal, const Vec3& q) {
@@ -19,7 +22,9 @@ double along_segment(const Vec3& start, const Vec3& along, const Vec3& normal, c
 
 }  // namespace
 
-void ShadowArrangement::find_crossings() {
+bool ShadowArrangement::find_crossings(bool unless_crowded) {
+  const std::size_t most =
+      unless_crowded ? few_crossings + crossings_an_arc * arcs_.size() : SIZE_MAX;
   crossings_.clear();
   sweep_.resize(arcs_.size());
   for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = static_cast<int>(i);
@@ -40,7 +45,9 @@ void ShadowArrangement::find_crossings() {
     }
     active_.resize(kept);
     active_.push_back(i);
+    if (crossings_.size() > most) return false;
   }
+  return true;
 }
 
 bool ShadowArrangement::cross(int i, int j) {

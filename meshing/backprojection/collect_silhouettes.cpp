@@ -23,6 +23,7 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
 }  // namespace
 
 void ShadowArrangement::collect_silhouettes() {
+  if (view_->among() != nullptr) return collect_among(*view_->among());
   const SilhouetteTrees& trees = view_->silhouette_trees();
   const SightPyramid& pyramid = outline_->pyramid;
   const auto consider = [&](int edge) { consider_edge(edge); };
@@ -41,6 +42,20 @@ void ShadowArrangement::collect_silhouettes() {
       [&](int index) { return pyramid.is_outside(trees.open_edges.nodes[at(index)].box); },
       consider);
   collect_cuts();
+}
+
+/// The same where it is known which triangles count.
+void ShadowArrangement::collect_among(const std::vector<int>& triangles) {
+  near_edges_.clear();
+  for (const int triangle : triangles)
+    for (const int edge : view_->topology().triangles[at(triangle)].edge)
+      near_edges_.push_back(edge);
+  std::sort(near_edges_.begin(), near_edges_.end());
+  near_edges_.erase(std::unique(near_edges_.begin(), near_edges_.end()), near_edges_.end());
+  for (const int edge : near_edges_) consider_edge(edge);
+  const std::size_t first = arcs_.size();
+  for (const int triangle : triangles) collect_cuts_of(triangle);
+  join_repeated(first);
 }
 
 void ShadowArrangement::consider_edge(int edge) {
@@ -76,20 +91,22 @@ void ShadowArrangement::collect_cuts() {
     return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
   };
   const std::size_t first = arcs_.size();
-  walk_tree(faces, skip, [&](int triangle) {
-    const int sign = view_->face_sign(triangle);
-    if (sign == 0) return;
-    std::array<int, 4> p{};
-    const int count = view_->clipped(triangle, p);
-    for (int k = 0; k < count; ++k) {
-      const int i = p[at(k)], j = p[at((k + 1) % count)];
-      const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
-      if (a.side != PlaneSide::on || b.side != PlaneSide::on || !(a.is_cut || b.is_cut)) continue;
-      const EdgeId id = EdgeId::cut(triangle);
-      sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
-    }
-  });
+  walk_tree(faces, skip, [&](int triangle) { collect_cuts_of(triangle); });
   join_repeated(first);
+}
+
+void ShadowArrangement::collect_cuts_of(int triangle) {
+  const int sign = view_->face_sign(triangle);
+  if (sign == 0) return;
+  std::array<int, 4> p{};
+  const int count = view_->clipped(triangle, p);
+  for (int k = 0; k < count; ++k) {
+    const int i = p[at(k)], j = p[at((k + 1) % count)];
+    const Corner &a = view_->corners[at(i)], &b = view_->corners[at(j)];
+    if (a.side != PlaneSide::on || b.side != PlaneSide::on || !(a.is_cut || b.is_cut)) continue;
+    const EdgeId id = EdgeId::cut(triangle);
+    sign > 0 ? add_arc(i, j, 1, id) : add_arc(j, i, 1, id);
+  }
 }
 
 /// Faces that overlap in one plane may share two edges, and then their cuts are one. Edges of the

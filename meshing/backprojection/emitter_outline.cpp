@@ -34,8 +34,7 @@ int EmitterOutline::cross_horizon(PointView& view, int from, int to) {
   if (a == 0) return from;
   if (b == 0) return to;
   const Vec3 p = view.corners[at(from)].true_position, q = view.corners[at(to)].true_position;
-  const auto count = static_cast<std::int64_t>(exits_.size() + entries_.size());
-  return view.add_corner(p + a / (a - b) * (q - p), view.first_free_rank() + count);
+  return view.add_corner(p + a / (a - b) * (q - p));
 }
 
 void EmitterOutline::cut_ring(PointView& view,
@@ -43,23 +42,23 @@ void EmitterOutline::cut_ring(PointView& view,
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const int a = view.corner_of_vertex(ring[k].vertex);
     const int b = view.corner_of_vertex(ring[(k + 1) % ring.size()].vertex);
-    const EdgeId edge = EdgeId::emitter_edge(ring[k].edge);
-    const double from = height(view, a), to = height(view, b);
-    reaches_above_ = reaches_above_ || from > 0;
-    if (from >= 0 && to >= 0) {
-      add_edge(view, a, b, edge);
-      continue;
-    }
-    if (from < 0 && to < 0) continue;
-    const int c = cross_horizon(view, a, b);
-    const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
-    if (from >= 0) {
-      add_edge(view, a, c, edge);
-      exits_.push_back({along, c});
-    } else {
-      add_edge(view, c, b, edge);
-      entries_.push_back({along, c});
-    }
+    cut_edge(view, a, b, EdgeId::emitter_edge(ring[k].edge));
+  }
+}
+
+void EmitterOutline::cut_edge(PointView& view, int a, int b, EdgeId edge) {
+  const double from = height(view, a), to = height(view, b);
+  reaches_above_ = reaches_above_ || from > 0;
+  if (from >= 0 && to >= 0) return add_edge(view, a, b, edge);
+  if (from < 0 && to < 0) return;
+  const int c = cross_horizon(view, a, b);
+  const double along = horizon_.dot(view.corners[at(c)].true_position - point_);
+  if (from >= 0) {
+    add_edge(view, a, c, edge);
+    exits_.push_back({along, c});
+  } else {
+    add_edge(view, c, b, edge);
+    entries_.push_back({along, c});
   }
 }
 
@@ -131,7 +130,7 @@ void EmitterOutline::copy_ends(std::vector<int>& ends) const {
     }
 }
 
-bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {
+void EmitterOutline::start(const PointView& view, const Vec3& point, const Vec3& normal) {
   edges.clear();
   exits_.clear();
   entries_.clear();
@@ -139,9 +138,9 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   point_ = point;
   normal_ = normal;
   horizon_ = normal.cross(view.emitter().normal);
-  const auto& surface = view.topology().surfaces[at(emitter)];
-  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
-    cut_ring(view, view.topology().ring(r));
+}
+
+bool EmitterOutline::finish(PointView& view) {
   if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
   if (!exits_.empty()) {
     close_along_horizon(view);
@@ -149,6 +148,26 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   }
   make_pyramid(view);
   return true;
+}
+
+bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {
+  start(view, point, normal);
+  const auto& surface = view.topology().surfaces[at(emitter)];
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
+    cut_ring(view, view.topology().ring(r));
+  return finish(view);
+}
+
+bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal,
+                          const std::array<int, 3>& corners) {
+  start(view, point, normal);
+  for (std::size_t k = 0; k < 3; ++k)
+    cut_edge(view, corners[k], corners[(k + 1) % 3], EdgeId::emitter_edge(static_cast<int>(k)));
+  return finish(view);
+}
+
+void EmitterOutline::forget(PointView& view) const {
+  for (const OutlineEdge& edge : edges) view.corners[at(edge.from)].next_on_outline = -1;
 }
 
 }  // namespace halfshade

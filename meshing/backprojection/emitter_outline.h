@@ -3,6 +3,7 @@
 #include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/point_view.h"
 
+#include <array>
 #include <vector>
 
 namespace halfshade {
@@ -22,6 +23,12 @@ class EmitterOutline {
 
   /// False if nothing of the emitter lies above the horizon.
   bool make(PointView& view, const Vec3& point, const Vec3& normal, int emitter);
+  /// The same for a triangle of the emitter, counter-clockwise seen from its front, whose edges
+  /// count as the emitter's.
+  bool make(PointView& view, const Vec3& point, const Vec3& normal,
+            const std::array<int, 3>& corners);
+  /// Takes back what the view's corners know of it.
+  void forget(PointView& view) const;
 
   /// For each chain, where the next one starts.
   void copy_ends(std::vector<int>& ends) const;
@@ -33,7 +40,10 @@ class EmitterOutline {
   };
   void add_edge(PointView& view, int from, int to, EdgeId edge);
   int cross_horizon(PointView& view, int from, int to);
+  void start(const PointView& view, const Vec3& point, const Vec3& normal);
   void cut_ring(PointView& view, std::span<const OpaqueTopology::OutlineVertex> ring);
+  void cut_edge(PointView& view, int a, int b, EdgeId edge);
+  bool finish(PointView& view);
   void close_along_horizon(PointView& view);
   void put_in_order(const PointView& view);
   void make_pyramid(const PointView& view);

@@ -73,6 +73,8 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
     query_ = 1;
   }
   corners.clear();
+  next_rank_ = static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
+  among_ = nullptr;
   point_ = point;
   jitter_ = jitter;
   normal_ = normal;
@@ -91,9 +93,7 @@ double PointView::jitter_at(const Vec3& position) const {
   return jitter_ / margins::slack * slack_at(position);
 }
 
-std::int64_t PointView::first_free_rank() const {
-  return static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
-}
+int PointView::add_corner(const Vec3& position) { return add_corner(position, next_rank_++); }
 
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   Corner corner;
@@ -235,6 +235,11 @@ int PointView::layers_of(int triangle, const DirectionBeside& direction) {
 
 int PointView::layers_over(const DirectionBeside& direction) {
   layer_surfaces_.clear();
+  if (among_ != nullptr) {
+    int all = 0;
+    for (const int triangle : *among_) all += layers_of(triangle, direction);
+    return all;
+  }
   const FlatTree& tree = face_tree_;
   if (tree.nodes.empty()) return 0;
   const Corner& target = corners[at(direction.from)];

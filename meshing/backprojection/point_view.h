@@ -78,9 +78,13 @@ class PointView {
   int corner_of_vertex(int vertex);
   /// Where an edge that ends on different sides of the emitter's plane pierces it.
   int corner_of_cut(int edge);
-  int add_corner(const Vec3& position, std::int64_t rank);
-  /// Ranks of corners that are neither vertices nor cuts start here.
-  std::int64_t first_free_rank() const;
+  /// One that is neither a vertex nor a cut.
+  int add_corner(const Vec3& position);
+
+  /// Until the next start, or the next call, only these triangles count: no others block anything
+  /// that is looked at. nullptr: all.
+  void look_among(const std::vector<int>* triangles) { among_ = triangles; }
+  const std::vector<int>* among() const { return among_; }
 
   int turn(int a, int b, int c) const;
 
@@ -106,6 +110,7 @@ class PointView {
   bool is_edge_on(int surface);
   bool touches(int surface) const;
   int layers_of(int triangle, const DirectionBeside& direction);
+  int add_corner(const Vec3& position, std::int64_t rank);
 
   const OpaqueTopology& topology_;
   const SilhouetteTrees& silhouette_trees_;
@@ -113,6 +118,8 @@ class PointView {
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
   std::vector<int> layer_surfaces_;
   std::uint32_t query_ = 0;
+  std::int64_t next_rank_ = 0;  ///< of corners that are neither vertices nor cuts
+  const std::vector<int>* among_ = nullptr;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;
   double distance_ = 0, magnitude_ = 0, slack_ = 0, jitter_ = 0;

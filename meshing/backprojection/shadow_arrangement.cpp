@@ -8,8 +8,14 @@
 // crossing by crossing.
 
 namespace halfshade {
+namespace {
 
-void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
+/// A view with more layers of faces than these is crowded.
+constexpr int many_layers = 16;
+
+}  // namespace
+
+bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bool unless_crowded) {
   view_ = &view;
   outline_ = &outline;
   pieces.clear();
@@ -22,14 +28,16 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     arcs_.push_back(arc);
   }
   first_layers_ = view.layers_over({arcs_[0].from, arcs_[0].to, 1});
+  if (unless_crowded && first_layers_ > many_layers) return false;
   for (const int surface : view.layer_surfaces())
     if (is_hidden_by(surface)) {
       crossings_.clear();
       fully_lit = false;
       junction_count = 0;
-      return;
+      return true;
     }
   collect_silhouettes();
+  if (!find_crossings(unless_crowded)) return false;
   meetings_.assign(view.corners.size(), {});
   for (std::size_t i = outline.edges.size(); i < arcs_.size(); ++i) {
     ++meetings_[at(arcs_[i].to)].in;
@@ -37,7 +45,6 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     ++start.out;
     start.next = static_cast<int>(i);
   }
-  find_crossings();
   sort_crossings();
   walk_outline();
   const std::size_t lit = pieces.size();
@@ -47,6 +54,7 @@ void ShadowArrangement::build(PointView& view, const EmitterOutline& outline) {
     fully_lit = pieces[i].start == junction_of(outline.edges[i].from) &&
                 pieces[i].end == junction_of(outline.edges[i].to);
   junction_count = junction_of(static_cast<int>(view.corners.size()));
+  return true;
 }
 
 /// Whether a surface that lies over a direction in the pyramid lies over all: its border stays

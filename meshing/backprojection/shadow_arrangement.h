@@ -27,9 +27,12 @@ class ShadowArrangement {
   bool is_consistent = true;
   int junction_count = 0;  ///< junctions are numbered from 0
 
+  std::size_t crossing_count() const { return crossings_.size(); }
   bool is_crossing(int junction) const { return junction < static_cast<int>(crossings_.size()); }
 
-  void build(PointView& view, const EmitterOutline& outline);
+  /// False, with nothing built, if there are more crossings than the view's arcs are `crowded`
+  /// with, see margins.
+  bool build(PointView& view, const EmitterOutline& outline, bool unless_crowded = false);
 
  private:
   /// An arc with `weight` more faces on its left than on its right; for the outline, the emitter is
@@ -53,13 +56,15 @@ class ShadowArrangement {
 
   bool is_hidden_by(int surface);
   void collect_silhouettes();
+  void collect_among(const std::vector<int>& triangles);
+  void collect_cuts_of(int triangle);
   void collect_cuts();
   void join_repeated(std::size_t first_cut);
   void consider_edge(int edge);
   void add_arc(int from, int to, int weight, EdgeId edge);
   bool set_box(Arc& arc) const;
 
-  void find_crossings();
+  bool find_crossings(bool unless_crowded);
   bool cross(int a, int b);
   void locate_crossing(Crossing& crossing) const;
   void sort_crossings();
@@ -82,7 +87,7 @@ class ShadowArrangement {
   const EmitterOutline* outline_ = nullptr;
   std::vector<Arc> arcs_;  // the outline's first
   std::vector<Crossing> crossings_;
-  std::vector<int> order_, sweep_, active_, cursor_;
+  std::vector<int> order_, sweep_, active_, near_edges_;
   struct Meeting {
     int in = 0, out = 0, next = -1;  // silhouettes that end and start here; one that starts
   };

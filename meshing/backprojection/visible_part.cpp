@@ -1,8 +1,8 @@
 #include "meshing/backprojection/visible_part.h"
 
-#include "meshing/backprojection/boundary_chains.h"
 #include "meshing/backprojection/margins.h"
-#include "meshing/backprojection/shadow_arrangement.h"
+#include "meshing/backprojection/part_search.h"
+#include "meshing/backprojection/visible_cells.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>
@@ -12,11 +12,6 @@
 
 namespace halfshade {
 namespace {
-
-// Any fixed numbers.
-constexpr std::uint64_t lit_signature = 0x9d5c31a4e8f07b63;
-constexpr std::uint64_t umbra_signature = 0x3fb86a2c90d7154e;
-constexpr std::uint64_t away_signature = 0x71e40b9d256c8fa3;
 
 void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal, int surface) {
   if (surface < 0 || static_cast<std::size_t>(surface) >= topology.surfaces.size())
@@ -29,44 +24,39 @@ void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal
                             point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()));
 }
 
-void clear(VisiblePart& part) {
-  part.region = Region::away;
-  part.signature = away_signature;
-  part.pieces.clear();
-  part.chain_ends.clear();
-  part.unobstructed.clear();
-}
-
 }  // namespace
 
 struct VisiblePartFinder::Impl {
-  explicit Impl(const OpaqueScene& scene) : view(scene) {}
+  explicit Impl(const OpaqueScene& scene) : search(scene), cells(search) {}
 
-  PointView view;
-  EmitterOutline outline;
-  ShadowArrangement arrangement;
-  BoundaryChains chains;
+  PartSearch search;
+  VisibleCells cells;
 
-  /// False if nothing of the emitter is in front and above the horizon.
-  bool try_with(double jitter, const Vec3& point, const Vec3& normal, int surface);
-  void fill_unobstructed(VisiblePart& part) const;
+  bool find(const Vec3& point, const Vec3& normal, int surface, bool unless_crowded,
+            VisiblePart& part);
 };
 
-bool VisiblePartFinder::Impl::try_with(double jitter, const Vec3& point, const Vec3& normal,
-                                       int surface) {
-  view.start(point, normal, surface, jitter);
-  if (!(view.distance() > view.slack()) || !outline.make(view, point, normal, surface))
-    return false;
-  arrangement.build(view, outline);
-  chains.link(arrangement, view);
+bool VisiblePartFinder::Impl::find(const Vec3& point, const Vec3& normal, int surface,
+                                   bool unless_crowded, VisiblePart& part) {
+  PointView& view = search.view;
+  check(view.topology(), point, normal, surface);
+  clear(part);
+  double jitter = 0;
+  for (int attempt = 0; attempt < margins::most_attempts; ++attempt) {
+    view.start(point, normal, surface, jitter);
+    if (!(view.distance() > view.slack()) || !search.outline.make(view, point, normal, surface))
+      return true;
+    if (unless_crowded && cells.is_hidden_as_before()) {
+      search.write_hidden(part);
+      return true;
+    }
+    const PartSearch::End end = search.arrange(unless_crowded);
+    if (end == PartSearch::End::crowded) return false;
+    if (end == PartSearch::End::found) break;
+    jitter = next_jitter(jitter);
+  }
+  search.write(part);
   return true;
-}
-
-void VisiblePartFinder::Impl::fill_unobstructed(VisiblePart& part) const {
-  for (const OutlineEdge& edge : outline.edges)
-    part.unobstructed.push_back({view.corners[static_cast<std::size_t>(edge.from)].true_position,
-                                 view.corners[static_cast<std::size_t>(edge.to)].true_position,
-                                 edge.edge});
 }
 
 VisiblePartFinder::VisiblePartFinder(const OpaqueScene& scene)
@@ -78,29 +68,19 @@ VisiblePartFinder& VisiblePartFinder::operator=(VisiblePartFinder&&) noexcept = 
 
 void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
                              VisiblePart& part) {
-  Impl& m = *impl_;
-  check(m.view.topology(), point, normal, surface);
-  clear(part);
-  double jitter = 0;
-  for (int attempt = 0; attempt < margins::most_attempts; ++attempt) {
-    if (!m.try_with(jitter, point, normal, surface)) return;
-    if (m.arrangement.is_consistent && m.chains.closed) break;
-    jitter = std::max(margins::jitter_growth * jitter, margins::least_jitter);
-  }
-  m.fill_unobstructed(part);
-  if (m.arrangement.fully_lit || (!m.chains.pieces.empty() && m.chains.fill(m.outline, m.view))) {
-    part.region = Region::lit;
-    part.signature = lit_signature;
-    part.pieces = part.unobstructed;
-    m.outline.copy_ends(part.chain_ends);
-  } else if (m.chains.pieces.empty()) {
-    part.region = Region::umbra;
-    part.signature = umbra_signature;
-  } else {
-    part.region = Region::penumbra;
-    part.signature = m.chains.signature;
-    m.chains.copy(part);
-  }
+  impl_->find(point, normal, surface, false, part);
+}
+
+bool VisiblePartFinder::find_unless_crowded(const Vec3& point, const Vec3& normal, int surface,
+                                            VisiblePart& part) {
+  return impl_->find(point, normal, surface, true, part);
+}
+
+std::size_t VisiblePartFinder::find_in_cells(const Vec3& point, const Vec3& normal, int surface,
+                                             VisiblePart& part,
+                                             const std::function<void(const VisiblePart&)>& use) {
+  check(impl_->search.view.topology(), point, normal, surface);
+  return impl_->cells.run(point, normal, surface, part, use);
 }
 
 std::vector<std::vector<Vec3>> visible_rings(const VisiblePart& part, const Vec3& point,

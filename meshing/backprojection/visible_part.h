@@ -6,6 +6,7 @@
 #include "meshing/core/types.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -56,6 +57,19 @@ class VisiblePartFinder {
   /// tie-breaking; end points are correct to rounding. Cost grows with the number of silhouette
   /// edges between point and emitter.
   void find(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part);
+
+  /// The same, or false, with nothing found, where so many edges cross in the view of the emitter
+  /// that find_in_cells is quicker.
+  bool find_unless_crowded(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part);
+
+  /// Calls `use` with the visible part of each of the triangles into which the emitter is cut for
+  /// it, in a fixed order; those away are left out. Returns how much was looked at, in faces and
+  /// crossings; the same whatever was asked before. Triangles that one face hides are done at once,
+  /// and the others are cut until few faces are left to look at: the cost is that of what the eye
+  /// meets first, not of all that lies behind it. Signatures mean nothing, and edges of triangles
+  /// count as the emitter's.
+  std::size_t find_in_cells(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part,
+                            const std::function<void(const VisiblePart&)>& use);
 
  private:
   struct Impl;

@@ -184,9 +184,16 @@ void require_few_crossings(const std::vector<std::vector<std::array<int, 2>>>& c
                             cuts.size(), pairs));
 }
 
+[[noreturn]] void refuse_pieces(std::size_t surfaces, double most) {
+  throw Error(ErrorCode::too_large, "find_contacts",
+              fmt::format("the {} surfaces touch and cut through each other along more than {:.0f} "
+                          "pieces of lines",
+                          surfaces, most));
+}
+
 }  // namespace
 
-void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
+void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points, double most) {
   const std::vector<SurfaceEdge> edges = all_edges(drafts);
   std::vector<Bounds> boxes(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i)
@@ -194,10 +201,13 @@ void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points)
   const FlatTree tree = make_flat_tree(boxes, 1);
   const auto cuts = find_intersections(drafts, points);
   require_few_crossings(cuts);
+  double pieces = 0;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     std::vector<SurfaceEdge> lines = edges_in_plane(drafts[i], edges, tree, points);
     for (const Link& cut : cuts[i]) lines.push_back({cut, drafts[i].scale});
     if (!lines.empty()) ContactFinder(drafts[i], points).run(lines);
+    pieces += static_cast<double>(drafts[i].contacts.size());
+    if (pieces > most) refuse_pieces(drafts.size(), most);
   }
 }
 

@@ -151,7 +151,11 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   if (drafts.empty())
     throw Error(ErrorCode::invalid_input, scene.source,
                 fmt::format("none of its {} faces has an area", scene.faces.size()));
-  if (options.contacts) find_contacts(drafts, vertices.points);
+  if (static_cast<double>(drafts.size()) > options.most_surfaces)
+    throw Error(ErrorCode::too_large, "make_sound",
+                fmt::format("there are {} surfaces, and {} are allowed", drafts.size(),
+                            options.most_surfaces));
+  if (options.contacts) find_contacts(drafts, vertices.points, options.most_contacts);
   for (SurfaceDraft& draft : drafts)
     sound.surfaces.push_back(finish(std::move(draft), vertices.points));
   return sound;

@@ -2,10 +2,14 @@
 
 #include "meshing/core/sound_scene.h"
 
+#include <cmath>
+
 namespace halfshade {
 
 struct RepairOptions {
   bool contacts = true;  ///< false: none are looked for, so that meshes do not follow them
+  double most_contacts = HUGE_VAL;  ///< refuses a scene with more pieces of them,
+  double most_surfaces = HUGE_VAL;  ///< and one with more surfaces
 };
 
 /// Turns a valid scene into sound surfaces:
@@ -23,7 +27,7 @@ struct RepairOptions {
 /// * two-sided faces become two surfaces.
 /// Throws Error(invalid_input) if nothing with an area is left, or if a polygon crosses itself so
 /// that it has no sound interior; Error(too_large) if surfaces cut through each other along more
-/// lines than can be followed. Deterministic.
+/// lines than can be followed, or than allowed. Deterministic.
 SoundScene make_sound(const Scene& scene, const RepairOptions& options = {});
 
 }  // namespace halfshade

@@ -275,6 +275,10 @@ class Adaptation {
       report_.limit = FieldLimit::samples;
       return false;
     }
+    if (options_.is_too_much && options_.is_too_much()) {
+      report_.limit = FieldLimit::work;
+      return false;
+    }
     if (report_.rounds >= most_rounds) {
       report_.limit = FieldLimit::rounds;
       return false;

@@ -27,7 +27,7 @@ struct WatchedPlace {
 using FieldAt = std::function<std::vector<Rgb>(std::span<const FieldPoint>, const Progress&)>;
 
 /// What limits an adaptive field.
-enum class FieldLimit { none, elements, unknowns, samples, rounds, fixed, stopped };
+enum class FieldLimit { none, elements, unknowns, samples, work, rounds, fixed, stopped };
 
 struct AdaptiveFieldOptions {
   double tolerance = 0.01;        ///< of the error's L2 norm, relative to the field's; > 0
@@ -36,8 +36,9 @@ struct AdaptiveFieldOptions {
   int highest_order = max_order;  ///< if orders are chosen
   bool split = true;              ///< false: elements stay as they are
   int max_elements = 40000;
-  int max_unknowns = 1000000;  ///< per channel
-  double max_samples = 0;      ///< gives up rather than take more; 0: no limit
+  int max_unknowns = 1000000;         ///< per channel
+  double max_samples = 0;             ///< gives up rather than take more; 0: no limit
+  std::function<bool()> is_too_much;  ///< gives up where it says so, before a round; none: never
 };
 
 struct AdaptiveFieldReport {

@@ -64,18 +64,42 @@ struct Worker {
   VisiblePart part;
 };
 
-/// Leaves the boundary in worker.part.
-PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint& point, int id) {
+PointFactor factor_of(const VisiblePart& part, const Target& target, const SurfacePoint& point) {
   PointFactor factor;
-  worker.finder.find(point.position, point.normal, id, worker.part);
-  factor.region = worker.part.region;
-  factor.signature = worker.part.signature;
+  factor.region = part.region;
+  factor.signature = part.signature;
   if (factor.region == Region::away) return factor;
   factor.unobstructed = unobstructed_factor(point.position, point.normal, target.rings);
   if (factor.region == Region::lit) factor.visible = factor.unobstructed;
   if (factor.region == Region::penumbra)
-    factor.visible = std::min(factor.unobstructed,
-                              enclosed_factor(point.position, point.normal, worker.part.pieces));
+    factor.visible =
+        std::min(factor.unobstructed, enclosed_factor(point.position, point.normal, part.pieces));
+  return factor;
+}
+
+/// Leaves the boundary in worker.part.
+PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint& point, int id) {
+  worker.finder.find(point.position, point.normal, id, worker.part);
+  return factor_of(worker.part, target, point);
+}
+
+/// Without a signature, and with nothing left in worker.part: what takes less where very much lies
+/// before the emitter.
+PointFactor find_light(Worker& worker, const Target& target, const SurfacePoint& point, int id,
+                       std::size_t& crowd_work) {
+  if (worker.finder.find_unless_crowded(point.position, point.normal, id, worker.part))
+    return factor_of(worker.part, target, point);
+  PointFactor factor;
+  bool is_lit = true, is_dark = true;
+  crowd_work += worker.finder.find_in_cells(
+      point.position, point.normal, id, worker.part, [&](const VisiblePart& part) {
+        factor.visible += enclosed_factor(point.position, point.normal, part.pieces);
+        is_lit = is_lit && part.region == Region::lit;
+        is_dark = is_dark && part.region == Region::umbra;
+      });
+  factor.unobstructed = unobstructed_factor(point.position, point.normal, target.rings);
+  factor.visible = is_lit ? factor.unobstructed : std::min(factor.visible, factor.unobstructed);
+  factor.region = is_lit ? Region::lit : is_dark ? Region::umbra : Region::penumbra;
   return factor;
 }
 
@@ -110,7 +134,7 @@ struct DirectLightIndex::Impl {
     for (const int emitter : emitters) {
       const Target& source = targets[static_cast<std::size_t>(emitter)];
       if (is_clearly_away(source, point)) continue;
-      const PointFactor factor = find_factor(worker, source, point, emitter);
+      const PointFactor factor = find_light(worker, source, point, emitter, light.crowd_work);
       light.irradiance += factor.visible * source.exitance;
       visible += factor.visible * source.strength;
       unobstructed += factor.unobstructed * source.strength;

@@ -41,6 +41,9 @@ struct DirectLight {
   double visible = 1;
   Region region =
       Region::away;  ///< with respect to the emitter that gives the most unobstructed light
+  /// How much was looked at where so much lies before an emitter that it is cut into cells, in
+  /// faces and crossings, 1 to 2 µs each; 0 elsewhere. Follows from point and scene alone.
+  std::size_t crowd_work = 0;
 };
 
 /// Exact direct light of a scene: no sampling, correct to rounding. All calls may run concurrently;

@@ -22,15 +22,22 @@ constexpr double share_of_curves = 0.5;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
 constexpr double least_angle = 10;
 
-FieldAt direct_light_at(const DirectLightIndex& index) {
-  return [&index](std::span<const FieldPoint> points, const Progress& progress) {
+/// Looks at faces and crossings for each unknown that there may be, where very many faces lie
+/// before an emitter: by default some ten seconds on two cores.
+constexpr double crowd_work_for_one = 6;
+
+/// Adds to `crowd_work`.
+FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
+  return [&](std::span<const FieldPoint> points, const Progress& progress) {
     std::vector<SurfacePoint> places;
     places.reserve(points.size());
     for (const FieldPoint& point : points) places.push_back(point.point);
     std::vector<Rgb> values;
     values.reserve(points.size());
-    for (const DirectLight& light : index.irradiance(places, progress))
+    for (const DirectLight& light : index.irradiance(places, progress)) {
       values.push_back(light.irradiance);
+      crowd_work += static_cast<double>(light.crowd_work);
+    }
     return values;
   };
 }
@@ -66,7 +73,7 @@ class DirectFieldSearch {
         options_(options),
         progress_(progress),
         stages_(stages),
-        direct_light_(direct_light_at(prepared.direct_light())),
+        direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
         watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {}
 
   DirectField run() {
@@ -164,7 +171,8 @@ class DirectFieldSearch {
     }
   }
 
-  void fit_on_patches(const AdaptiveFieldOptions& fit) {
+  void fit_on_patches(AdaptiveFieldOptions fit) {
+    fit.is_too_much = [this] { return crowd_work_ > crowd_work_for_one * options_.max_unknowns; };
     stages_.run("direct light", [&] {
       found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched_);
       return found_.light.report.unknowns;
@@ -203,6 +211,7 @@ class DirectFieldSearch {
   const SolveOptions& options_;
   const Progress& progress_;
   Stages& stages_;
+  double crowd_work_ = 0;  ///< see DirectLight
   FieldAt direct_light_;
   std::vector<WatchedPlace> watched_;
   DirectField found_;

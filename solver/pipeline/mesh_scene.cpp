@@ -94,9 +94,16 @@ void make_elements(const PreparedScene& prepared, const MeshOptions& options,
 
 }  // namespace
 
+ContactLimit mesh_contact_limit() {
+  const std::size_t most = DiscontinuityMeshOptions{}.max_triangles;
+  return {static_cast<double>(most), contacts_warning(static_cast<int>(most), false)};
+}
+
 MeshResult mesh_scene(const Scene& scene, const MeshOptions& options, const Progress& progress) {
   check(options);
-  return mesh_scene(PreparedScene(scene, progress), options, progress);
+  return use_prepared(scene, mesh_contact_limit(), progress, [&](const PreparedScene& prepared) {
+    return mesh_scene(prepared, options, progress);
+  });
 }
 
 MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,

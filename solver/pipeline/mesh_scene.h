@@ -12,6 +12,7 @@
 namespace halfshade {
 
 class PreparedScene;
+struct ContactLimit;
 
 struct MeshOptions {
   DiscontinuityOptions events;
@@ -38,6 +39,9 @@ struct MeshResult {
   std::vector<Warning> warnings;
   bool interrupted = false;  ///< stopped early: curves, elements or labels are missing
 };
+
+/// What contact lines may take of a mesh.
+ContactLimit mesh_contact_limit();
 
 /// Makes the scene sound, finds its discontinuities, meshes it along them and says what each
 /// element sees of each source. Preconditions as for solve. Deterministic for any number of

@@ -67,6 +67,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
 }
 
 PreparedScene::~PreparedScene() = default;
+PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 
 const OpaqueScene& PreparedScene::opaque() const {
   std::call_once(indices_->opaque_once,

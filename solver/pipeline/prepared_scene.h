@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/core/error.h"
 #include "meshing/core/progress.h"
 #include "meshing/core/scene.h"
 #include "meshing/core/sound_scene.h"
@@ -7,8 +8,10 @@
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
 
+#include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace halfshade {
@@ -26,6 +29,7 @@ class PreparedScene {
   explicit PreparedScene(const Scene& scene, const Progress& progress = {},
                          const RepairOptions& options = {});
   ~PreparedScene();
+  PreparedScene(PreparedScene&&) noexcept;
 
   const SoundScene& scene() const { return scene_; }
   const std::vector<Camera>& cameras() const { return cameras_; }
@@ -34,6 +38,8 @@ class PreparedScene {
   const StageReport& repair() const { return repair_; }
   /// Of what it changed.
   const std::vector<Warning>& warnings() const { return warnings_; }
+  /// Puts another one before them.
+  void warn_first(const Warning& warning) { warnings_.insert(warnings_.begin(), warning); }
 
   const OpaqueScene& opaque() const;
   const DirectLightIndex& direct_light() const;  ///< on the same opaque scene
@@ -49,6 +55,31 @@ class PreparedScene {
   std::vector<Warning> warnings_;
   std::unique_ptr<Indices> indices_;
 };
+
+/// How many elements contact lines may take, and what is said if they take more.
+struct ContactLimit {
+  double most_elements = HUGE_VAL;
+  Warning warning;  ///< no sentence: none
+};
+
+/// Calls `use` with the scene prepared. Where contact lines take more elements than allowed, or
+/// `use` or the repair throws Error(too_large), once more with a scene without them: what nobody
+/// modelled, but a scanner or a random generator made, cuts through itself everywhere.
+template <class Use>
+auto use_prepared(const Scene& scene, const ContactLimit& limit, const Progress& progress,
+                  Use use) {
+  // Each piece is a side of two elements, and each element has three.
+  const double most_contacts = 1.5 * limit.most_elements;
+  try {
+    return use(PreparedScene(
+        scene, progress, {.most_contacts = most_contacts, .most_surfaces = limit.most_elements}));
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+  }
+  PreparedScene prepared(scene, progress, {.contacts = false});
+  if (!limit.warning.sentence.empty()) prepared.warn_first(limit.warning);
+  return use(std::move(prepared));
+}
 
 /// What every result of a pipeline begins with: the scene, and its repair as the first stage.
 template <class Result>

@@ -5,6 +5,7 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_fields.h"
 #include "solver/pipeline/solve_matrix.h"
+#include "solver/pipeline/solve_mesh.h"
 
 #include <fmt/format.h>
 
@@ -43,22 +44,17 @@ void find_regions(const PreparedScene& prepared, const Progress& progress, Stage
 
 SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
   check(options);
-  try {
-    return solve(PreparedScene(scene, progress), options, progress);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_large) throw;
-  }
-  // Without contact lines: what nobody modelled, but a scanner or a random generator made, cuts
-  // through itself everywhere.
-  SolveResult result =
-      solve(PreparedScene(scene, progress, {.contacts = false}), options, progress);
-  result.warnings.insert(result.warnings.begin(), contacts_warning(options.max_elements));
-  return result;
+  const ContactLimit limit{static_cast<double>(options.max_elements),
+                           contacts_warning(options.max_elements, true)};
+  return use_prepared(scene, limit, progress, [&](const PreparedScene& prepared) {
+    return solve(prepared, options, progress);
+  });
 }
 
 SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
                   const Progress& progress) {
   check(options);
+  require_few_surfaces(prepared.scene(), options);
   auto result = begin_result<SolveResult>(prepared);
   Stages stages(result.stages);
   const Plan plan = make_plan(prepared, options, progress, stages);

@@ -23,6 +23,8 @@ std::string reason(FieldLimit limit) {
       return "more elements than --max-elements allows";
     case FieldLimit::unknowns:
       return "more unknowns than --max-unknowns allows";
+    case FieldLimit::work:
+      return "more looks through faces behind faces than --max-unknowns allows";
     case FieldLimit::rounds:
       return "more rounds of refinement than it pays to make";
     default:
@@ -56,9 +58,10 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
                      first == reasons.end() ? "" : *first);
 }
 
-ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options) {
+ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options,
+                                   double tolerance) {
   ReflectedOptions result;
-  result.tolerance = reflected_share * options.tolerance;
+  result.tolerance = reflected_share * tolerance;
   result.bounces = options.radiosity.bounces;
   result.through_operator = !plan.no_exact_direct_light.empty();
   // What arrives straight from emitters arrives by the operator's first application.
@@ -67,9 +70,9 @@ ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options
   return result;
 }
 
-AdaptiveFieldOptions values_options(const SolveOptions& options) {
+AdaptiveFieldOptions values_options(const SolveOptions& options, double tolerance) {
   AdaptiveFieldOptions result = field_options(options);
-  result.tolerance = values_share * options.tolerance;
+  result.tolerance = values_share * tolerance;
   result.order = -1;
   result.highest_order = max_reflected_order;
   return result;
@@ -129,9 +132,12 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   Eigen::ArrayXd error;
   std::string of_values;
   if (reflects) {
+    // Where direct light could not be had as exact, reflected light need not be more exact.
+    const double tolerance = std::max(options.tolerance, direct.light.report.relative_error);
     TotalField total = add_reflected_light(
         prepared.scene(), std::move(direct),
-        {reflected_options(plan, options), values_options(options)}, progress, stages);
+        {reflected_options(plan, options, tolerance), values_options(options, tolerance)}, progress,
+        stages);
     result.reflected = total.reflected;
     of_values = reason(total.values.limit);
     result.relative_error = total.relative_error;

@@ -49,12 +49,6 @@ std::size_t count_contacts(const SoundScene& scene) {
                               : ""));
 }
 
-/// Every surface takes an element, and every contact line two sides of three.
-void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
-  const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
-  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
-}
-
 ElementTable mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
                           const SolveOptions& options, const Progress& progress) {
   try {
@@ -120,6 +114,12 @@ class SizeSearch {
 };
 
 }  // namespace
+
+// Every surface takes an element, and every contact line two sides of three.
+void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
+  const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
+  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
+}
 
 double longest_edge(const SoundScene& scene, const SolveOptions& options) {
   // What curves can do is judged for elements as long as allowed, so length is no way to have

@@ -129,12 +129,12 @@ std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound
   return {{Warning::Kind::faces_changed, text}};
 }
 
-Warning contacts_warning(int max_elements) {
+Warning contacts_warning(int max_elements, bool by_option) {
   return {Warning::Kind::contacts_left_out,
           fmt::format("elements do not follow the lines along which surfaces touch and cut through "
                       "each other, for that takes more than {} of them: light gets smeared across "
-                      "there, and closed spaces may count as open; --max-elements allows more",
-                      max_elements)};
+                      "there, and closed spaces may count as open{}",
+                      max_elements, by_option ? "; --max-elements allows more" : "")};
 }
 
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance) {

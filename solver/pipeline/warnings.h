@@ -48,8 +48,8 @@ struct LightOutcome {
   const RadiosityReport& radiosity;
 };
 
-/// Of contact lines that would take more elements than allowed.
-Warning contacts_warning(int max_elements);
+/// Of contact lines that would take more elements than allowed, by an option or not.
+Warning contacts_warning(int max_elements, bool by_option);
 
 /// Of curves that were not looked for; nothing if all were.
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance);

@@ -1,4 +1,5 @@
 #include "meshing/repair/repair.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/repair_scenes.h"
 
 #include <gtest/gtest.h>
@@ -26,6 +27,16 @@ TEST(Contacts, ABoxOnTheFloorLeavesItsFootprint) {
   EXPECT_EQ(floor.contacts.size(), 4u);  // the sides' and the bottom's edges are the same lines
   EXPECT_DOUBLE_EQ(test::length_of(floor.contacts), 6);
   EXPECT_DOUBLE_EQ(contact_length(sound), 6);
+}
+
+TEST(Contacts, AreLeftOrRefusedWhereThereAreTooMany) {
+  const Scene scene = box_on_floor(1, 1, 2, 3);
+  EXPECT_EQ(make_sound(scene, {.most_contacts = 4}).surfaces[0].contacts.size(), 4u);
+  test::expect_error([&] { make_sound(scene, {.most_contacts = 3}); }, ErrorCode::too_large,
+                     {"more than 3 pieces"});
+  test::expect_error([&] { make_sound(scene, {.most_surfaces = 6}); }, ErrorCode::too_large,
+                     {"7 surfaces"});
+  EXPECT_TRUE(make_sound(scene, {.contacts = false}).surfaces[0].contacts.empty());
 }
 
 TEST(Contacts, AreClippedToTheSurfaceAndEndInCornersOfItsBoundary) {

@@ -6,6 +6,7 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/scenes.h"
+#include "tests/support/triangle_soups.h"
 
 #include <gtest/gtest.h>
 
@@ -26,6 +27,29 @@ TEST(PreparedScene, MakesEverythingOnce) {
   ASSERT_EQ(prepared.direct_light().emitters().size(), 1u);
   EXPECT_EQ(prepared.direct_light().emitters()[0], 1);
   EXPECT_FALSE(prepared.visibility().soup().triangles.empty());
+}
+
+TEST(UsePrepared, DoesWithoutContactLinesWhereTheyTakeTooMuchAndSaysSo) {
+  const Scene soup = test::unit_soup(15, 1);
+  const auto contacts = [](const PreparedScene& prepared) {
+    std::size_t count = 0;
+    for (const Surface& surface : prepared.scene().surfaces) count += surface.contacts.size();
+    return count;
+  };
+  const Warning warning = contacts_warning(100, false);
+  EXPECT_GT(use_prepared(soup, {}, {}, contacts), 50u);
+  EXPECT_EQ(use_prepared(soup, {20, warning}, {}, contacts), 0u);
+  int calls = 0;
+  const auto picky = [&](const PreparedScene& prepared) {
+    ++calls;
+    if (contacts(prepared) > 0) throw Error(ErrorCode::too_large, "test", "too much");
+    return prepared.warnings();
+  };
+  const std::vector<Warning> warnings = use_prepared(soup, {1e6, warning}, {}, picky);
+  EXPECT_EQ(calls, 2);
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_EQ(warnings.front().sentence, warning.sentence);
+  EXPECT_EQ(warning.sentence.find("--max-elements"), std::string::npos);
 }
 
 TEST(PreparedScene, GivesEachPipelineTheSameAsTheSceneDoes) {

@@ -2,8 +2,10 @@
 
 #include "solver/direct/direct_light.h"
 #include "solver/elements/element_field.h"
+#include "solver/pipeline/prepared_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
+#include "tests/support/triangle_soups.h"
 #include "tests/support/true_error.h"
 
 #include <gtest/gtest.h>
@@ -235,6 +237,18 @@ TEST(SolveFields, FewElementsAreALimitNotAFailure) {
   options.max_elements = 20;
   const SolveResult few = solve(soft_shadow(), options);
   EXPECT_NE(few.not_reached.find("--max-elements"), std::string::npos) << few.not_reached;
+}
+
+TEST(SolveFields, EndsWithASentenceWhereTooMuchLiesBeforeTheLight) {
+  SolveOptions options;
+  options.max_unknowns = 300;
+  const SolveResult result =
+      solve(PreparedScene(test::unit_soup(150, 2), {}, {.contacts = false}), options);
+  EXPECT_EQ(result.refinement.limit, FieldLimit::work);
+  EXPECT_GT(result.relative_error, options.tolerance);
+  EXPECT_NE(result.not_reached.find("faces behind faces"), std::string::npos) << result.not_reached;
+  EXPECT_TRUE(result.solution.irradiance.allFinite());
+  EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
 }
 
 }  // namespace

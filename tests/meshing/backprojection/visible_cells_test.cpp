@@ -1,0 +1,102 @@
+#include "meshing/backprojection/edge_sum.h"
+#include "meshing/backprojection/visible_part.h"
+#include "meshing/repair/repair.h"
+#include "tests/support/triangle_soups.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+// An emitter looked at in cells shows as much as looked at as a whole.
+
+namespace halfshade {
+namespace {
+
+struct InCells {
+  double factor = 0;
+  std::size_t work = 0;
+  std::set<Region> regions;
+};
+
+class Views {
+ public:
+  explicit Views(const Scene& scene)
+      : scene_(make_sound(scene, {.contacts = false})), opaque_(scene_), finder_(opaque_) {}
+
+  const SoundScene& scene() const { return scene_; }
+
+  InCells in_cells(const Vec3& point, const Vec3& normal, int emitter) {
+    InCells result;
+    result.work =
+        finder_.find_in_cells(point, normal, emitter, part_, [&](const VisiblePart& part) {
+          result.factor += enclosed_factor(point, normal, part.pieces);
+          result.regions.insert(part.region);
+        });
+    return result;
+  }
+  VisiblePart whole(const Vec3& point, const Vec3& normal, int emitter) {
+    finder_.find(point, normal, emitter, part_);
+    return part_;
+  }
+  bool find_unless_crowded(const Vec3& point, const Vec3& normal, int emitter) {
+    return finder_.find_unless_crowded(point, normal, emitter, part_);
+  }
+  const VisiblePart& part() const { return part_; }
+
+ private:
+  SoundScene scene_;
+  OpaqueScene opaque_;
+  VisiblePartFinder finder_;
+  VisiblePart part_;
+};
+
+void expect_same(const Scene& input, std::uint64_t seed, int count) {
+  Views views(input);
+  test::Random random(seed);
+  int seen = 0, hidden = 0;
+  for (int k = 0; k < count; ++k) {
+    const auto& surfaces = views.scene().surfaces;
+    const Surface& surface = surfaces[at(1 + random.below(static_cast<int>(surfaces.size()) - 1))];
+    const Ring& ring = surface.rings[0];
+    const double u = random(0, 1), v = random(0, 1 - u);
+    const Vec3 point =
+        surface.frame.to_space(ring[0] + u * (ring[1] - ring[0]) + v * (ring[2] - ring[0]));
+    const VisiblePart whole = views.whole(point, surface.frame.normal, 0);
+    const InCells cells = views.in_cells(point, surface.frame.normal, 0);
+    EXPECT_NEAR(cells.factor, enclosed_factor(point, surface.frame.normal, whole.pieces), 1e-12);
+    EXPECT_EQ(cells.regions.empty(), whole.region == Region::away);
+    const auto all = [&](Region region) { return cells.regions == std::set<Region>{region}; };
+    EXPECT_EQ(all(Region::umbra), whole.region == Region::umbra);
+    EXPECT_EQ(all(Region::lit), whole.region == Region::lit);
+    seen += whole.region == Region::penumbra;
+    hidden += whole.region == Region::umbra;
+    // The amount of work does not depend on what was asked before.
+    views.in_cells(random.point(0, 1), random.direction(), 0);
+    EXPECT_EQ(views.in_cells(point, surface.frame.normal, 0).work, cells.work);
+  }
+  EXPECT_GT(seen, count / 50);
+  EXPECT_GT(hidden, count / 20);
+}
+
+TEST(VisibleCells, ShowWhatTheWholeShows) {
+  expect_same(test::unit_soup(60, 3), 1, 400);
+  expect_same(test::unit_soup(200, 4), 2, 200);
+}
+
+TEST(VisibleCells, ShowItWhereManyEdgesMeet) { expect_same(test::grid_soup(60, 4, 5), 3, 400); }
+
+TEST(VisibleCells, AreForCrowdedViewsOnly) {
+  Views few(test::unit_soup(5, 1)), many(test::unit_soup(300, 1));
+  test::Random random(5);
+  int crowded = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 point = random.point(0, 1), normal = random.direction();
+    EXPECT_TRUE(few.find_unless_crowded(point, normal, 0));
+    EXPECT_EQ(few.part().signature, few.whole(point, normal, 0).signature);
+    crowded += !many.find_unless_crowded(point, normal, 0);
+  }
+  EXPECT_GT(crowded, 10);
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -180,10 +180,8 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
   // Contact lines are for elements; exact light needs none.
-  const ContactLimit limit =
-      command.direct_only ? ContactLimit{}
-                          : ContactLimit{static_cast<double>(command.options.max_elements),
-                                         contacts_warning(command.options.max_elements, false)};
+  ContactLimit limit{static_cast<double>(command.options.max_elements), {}};
+  if (!command.direct_only) limit.warning = contacts_warning(command.options.max_elements, false);
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
     return run_prepared(command, file, given, prepared, context);
   });

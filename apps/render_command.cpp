@@ -22,10 +22,12 @@ CommandFiles checked_files(const RenderCommand& command, const CommonOptions& co
   return files;
 }
 
-/// Pictures of scenes need no contact lines, and can do without where there are too many.
+/// Pictures of scenes do without contact lines where there are very many.
+constexpr double most_contacts = 60000;
+
 SoundScene sound_for_picture(const Scene& scene) {
   try {
-    return make_sound(scene);
+    return make_sound(scene, {.most_contacts = most_contacts});
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_large) throw;
     return make_sound(scene, {.contacts = false});

@@ -3,6 +3,7 @@
 #include "meshing/patches/patch_mesh.h"
 #include "solver/exchange/cells.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/solve_mesh.h"
 
 #include <fmt/format.h>
 
@@ -98,6 +99,7 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
 
 Explanation explain(const PreparedScene& prepared, const SolveOptions& options,
                     const Progress& progress) {
+  require_few_surfaces(prepared.scene(), options);  // as solve does
   Explanation explanation;
   explanation.scene = prepared.scene();
   explanation.unit = prepared.unit();

@@ -61,6 +61,11 @@ void add_light(CLI::App& app, SolveOptions& options) {
             "Visibility rays for a pair of elements, on average, with --method matrix")
       ->capture_default_str();
   add_choice(
+      app, "--solver",
+      {"conjugate-gradients", "jacobi", "gauss-seidel", "southwell", "southwell-ambient"},
+      [&options](std::size_t k) { options.radiosity.solver = static_cast<RadiositySolver>(k); },
+      "How to solve with --method matrix: the last four are what radiosity began with, to compare");
+  add_choice(
       app, "--closure", {"auto", "enforce", "leave"},
       [&options](std::size_t k) {
         options.exchange.closure =

@@ -65,7 +65,7 @@ std::vector<fs::path> write_study_files(const Study& study, const StudyOptions& 
                                         const StudyPageInfo& info) {
   std::vector<fs::path> written = {study_file(options, "study.html"),
                                    study_file(options, "study.csv")};
-  for (const StudyChart& chart : study_charts(study))
+  for (const StudyChart& chart : study_charts(study, info.scene))
     for (const char* extension : {".svg", ".png"}) {
       written.push_back(study_file(options, chart.name + extension));
       write_chart(chart.chart, written.back());

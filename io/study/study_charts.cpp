@@ -30,29 +30,30 @@ std::vector<ChartSeries> series_of(const Study& study, Value x, Value y) {
 
 }  // namespace
 
-std::vector<StudyChart> study_charts(const Study& study) {
+std::vector<StudyChart> study_charts(const Study& study, const std::string& scene) {
   const double unknown = study.reference.resolution();
   const char* const error_label = "L2 error, relative to the irradiance";
   std::vector<StudyChart> charts = {{"error_time",
-                                     {"Error against run time", "run time, s", error_label,
+                                     {"error against run time", "run time, s", error_label,
                                       series_of(study, seconds, error), false, unknown}},
                                     {"error_cpu",
-                                     {"Error against CPU time", "CPU time, s", error_label,
+                                     {"error against CPU time", "CPU time, s", error_label,
                                       series_of(study, cpu_seconds, error), false, unknown}},
                                     {"error_unknowns",
-                                     {"Error against unknowns", "unknowns a channel", error_label,
+                                     {"error against unknowns", "unknowns a channel", error_label,
                                       series_of(study, unknowns, error), false, unknown}}};
   if (study.reference.noise() > 0) {
     charts.push_back({"direct_error_time",
-                      {"Error of direct light against run time", "run time, s", error_label,
+                      {"error of direct light against run time", "run time, s", error_label,
                        series_of(study, seconds, direct_error)}});
     charts.push_back({"reflected_error_time",
-                      {"Error of reflected light against run time", "run time, s", error_label,
+                      {"error of reflected light against run time", "run time, s", error_label,
                        series_of(study, seconds, reflected_error), false, unknown}});
   }
   charts.push_back({"estimated_true",
-                    {"Estimated against true error", "true L2 error", "estimated L2 error",
+                    {"estimated against true error", "true L2 error", "estimated L2 error",
                      series_of(study, error, estimated), true}});
+  for (StudyChart& chart : charts) chart.chart.title = scene + ": " + chart.chart.title;
   return charts;
 }
 

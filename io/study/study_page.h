@@ -14,9 +14,9 @@ struct StudyChart {
   Chart chart;
 };
 
-/// Error against time, CPU time and unknowns; the parts' errors where light is reflected; estimated
-/// against true error.
-std::vector<StudyChart> study_charts(const Study& study);
+/// Charts of a scene: error against time, CPU time and unknowns; the parts' errors where light is
+/// reflected; estimated against true error.
+std::vector<StudyChart> study_charts(const Study& study, const std::string& scene);
 
 /// Seconds that a method needs for an error: of its fastest case at most that far off. 0 if none
 /// is.

@@ -146,6 +146,7 @@ Json radiosity_json(const RadiosityReport& report) {
   for (const ChannelReport& channel :
        std::span(report.channel).first(report.channels == 1 ? 1 : report.channel.size()))
     channels.push_back({{"iterations", channel.iterations},
+                        {"history", channel.history},
                         {"residual", channel.residual},
                         {"error", channel.error},
                         {"emitted_power", channel.emitted_power},

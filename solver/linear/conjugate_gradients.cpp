@@ -28,7 +28,8 @@ double smallest_ritz_value(const std::vector<double>& steps, const std::vector<d
 
 IterationResult conjugate_gradients(const LinearMap& A, const Eigen::VectorXd& b,
                                     const IterationLimits& limits) {
-  IterationResult result{Eigen::VectorXd::Zero(b.size())};
+  IterationResult result;
+  result.x = Eigen::VectorXd::Zero(b.size());
   Eigen::VectorXd residual = b, direction = b;
   double norm2 = residual.squaredNorm();
   std::vector<double> steps, turns;
@@ -44,6 +45,7 @@ IterationResult conjugate_gradients(const LinearMap& A, const Eigen::VectorXd& b
     direction = residual + norm2 / last * direction;
     steps.push_back(step);
     turns.push_back(norm2 / last);
+    result.residuals.push_back(std::sqrt(norm2));
     ++result.iterations;
   }
   result.smallest_eigenvalue = smallest_ritz_value(steps, turns);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include <functional>
+#include <vector>
 
 namespace halfshade {
 
@@ -16,6 +17,7 @@ struct IterationLimits {
 struct IterationResult {
   Eigen::VectorXd x;
   int iterations = 0;
+  std::vector<double> residuals;  ///< ‖b − A x‖ after each, as the iteration has it
   /// The smallest eigenvalue of A that the iteration has seen (its smallest Ritz value); 1 if there
   /// was none.
   double smallest_eigenvalue = 1;

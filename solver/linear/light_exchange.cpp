@@ -15,7 +15,7 @@ LightExchange light_exchange(const Exchange& exchange) {
                                  Eigen::VectorXd& out) {
     multiply(exchange.matrix, in, wanted, out);
   };
-  return {apply, exchange.area, exchange.lost, exchange.enclosures};
+  return {apply, exchange.area, exchange.lost, exchange.enclosures, &exchange.matrix};
 }
 
 }  // namespace halfshade

@@ -19,7 +19,8 @@ struct LightExchange {
   Eigen::ArrayXd area;  ///< A_i
   /// A_i times the share of what leaves i that meets nothing; exactly 0 in a closed system.
   Eigen::ArrayXd lost;
-  Enclosures systems;  ///< which elements exchange light with each other
+  Enclosures systems;                      ///< which elements exchange light with each other
+  const ExchangeMatrix* matrix = nullptr;  ///< A F, if there is one
 
   /// A·F·in for all elements.
   Eigen::VectorXd apply_all(const Eigen::VectorXd& in) const;

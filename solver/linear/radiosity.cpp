@@ -1,6 +1,7 @@
 #include "solver/linear/radiosity.h"
 
 #include "meshing/core/error.h"
+#include "solver/linear/classic_solvers.h"
 #include "solver/linear/system_solver.h"
 
 #include <algorithm>
@@ -54,11 +55,37 @@ ChannelSolution solve_channel(const LightExchange& exchange, const Channel& chan
   for (std::size_t k = 0; k < systems.size(); ++k) {
     const SystemReport solved = solve_system({exchange, systems[k], static_cast<int>(k)}, light,
                                              options, solution.reflected);
-    report.iterations = std::max(report.iterations, solved.iterations);
+    if (solved.iterations > report.iterations) {
+      report.iterations = solved.iterations;
+      report.history = solved.history;
+    }
     report.residual = std::max(report.residual, solved.residual);
     report.error = std::max(report.error, solved.error);
   }
   // One more exchange makes the light of black elements, and smooths.
+  solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
+  solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
+  return solution;
+}
+
+/// By the solvers that radiosity began with, all systems at once.
+ChannelSolution sweep_channel(const LightExchange& exchange, const Channel& channel,
+                              const RadiosityOptions& options, ChannelReport& report) {
+  if (!exchange.matrix)
+    throw Error(ErrorCode::contract, "solve_radiosity", "this solver needs a matrix");
+  const ReflectionProblem problem{*exchange.matrix, exchange.area, channel.rho,
+                                  channel.rho.cwiseProduct(channel.direct_irradiance)};
+  SweepResult swept = sweep(problem, options.solver, {options.tolerance, options.max_sweeps});
+  report.iterations = swept.sweeps;
+  report.history = std::move(swept.history);
+  if (const std::size_t n = report.history.size(); n > 0) {
+    report.residual = report.history.back();
+    // What is left falls as it fell in the last sweep.
+    const double rate = n > 1 ? std::min(report.residual / report.history[n - 2], 0.999999) : 0;
+    report.error = report.residual / (1 - rate);
+  }
+  ChannelSolution solution;
+  solution.reflected = std::move(swept.reflected);
   solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
   solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
   return solution;
@@ -151,7 +178,9 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
       part = sum_bounces(exchange, channel, options.bounces);
       channel_report.iterations = options.bounces;
     } else {
-      part = solve_channel(exchange, channel, options, channel_report);
+      part = options.solver == RadiositySolver::conjugate_gradients
+                 ? solve_channel(exchange, channel, options, channel_report)
+                 : sweep_channel(exchange, channel, options, channel_report);
       report.converged =
           report.converged && channel_report.residual <= residual_slack * options.tolerance;
     }

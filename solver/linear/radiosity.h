@@ -6,18 +6,31 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 namespace halfshade {
 
+/// What solves the equations of a matrix; see sweep for all but the first.
+enum class RadiositySolver {
+  conjugate_gradients,
+  jacobi,
+  gauss_seidel,
+  southwell,
+  southwell_ambient
+};
+
 struct RadiosityOptions {
+  RadiositySolver solver = RadiositySolver::conjugate_gradients;
   double tolerance = 1e-10;  ///< relative residual at which the iteration stops, in (0, 1)
   int max_iterations = 1000;
+  int max_sweeps = 100000;    ///< the same of the other solvers
   bool all_channels = false;  ///< also where all three are the same
   int bounces = -1;  ///< −1: all; n ≥ 0: light that arrives after at most n reflections
 };
 
 struct ChannelReport {
-  int iterations = 0;   ///< of the system that took most
+  int iterations = 0;           ///< of the system that took most; or sweeps
+  std::vector<double> history;  ///< relative residual after each of them
   double residual = 0;  ///< ‖b − S y‖ / ‖b‖ of the system solved; of several, the largest
   double error = 0;     ///< relative error of the reflected radiosity that residuals make, at most
   double emitted_power = 0;   ///< Σ A E, in W (for lengths in metres)
@@ -47,10 +60,10 @@ std::optional<UnlimitedSystem> find_unlimited(const LightExchange& exchange,
 
 /// Solves B = E + rho·(H_d + F (B − E)) for each channel and each system by itself; see
 /// solve_system. Elements with rho = 0 are eliminated. With `bounces` it sums the Neumann series
-/// instead. `rho` and `exitance` have one row an element; `direct_irradiance` too, or none if it is
-/// F E. The error estimate is left empty.
-/// Throws Error(invalid_input) where a closed system of perfect reflectors (rho = 1) would gain
-/// energy without end, and where the radiosity is beyond what doubles hold.
+/// instead; other solvers than conjugate gradients know no systems, and need a matrix. `rho` and
+/// `exitance` have one row an element; `direct_irradiance` too, or none if it is F E. The error
+/// estimate is left empty. Throws Error(invalid_input) where a closed system of perfect reflectors
+/// (rho = 1) would gain energy without end, and where the radiosity is beyond what doubles hold.
 Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
                          const ChannelArray& exitance, const ChannelArray& direct_irradiance,
                          const RadiosityOptions& options, RadiosityReport& report,

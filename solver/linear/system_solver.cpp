@@ -142,6 +142,7 @@ SystemReport solve_system(const LightSystem& system, const SystemLight& light,
   const Eigen::VectorXd R = (rest.array() + (uniform + correction)).matrix();
   residual -= correction * balance.loss.cwiseQuotient(root);
   report.iterations = solved.iterations;
+  for (const double r : solved.residuals) report.history.push_back(r / input);
   report.residual = residual.norm() / input;
   report.error = residual.norm() / solved.smallest_eigenvalue / R.cwiseProduct(root).norm();
   const bool is_positive = (balance.input.array() >= 0).all() && lost > 0;

@@ -24,7 +24,8 @@ struct SystemLight {
 struct SystemReport {
   int unknowns = 0;
   int iterations = 0;
-  double residual = 0;  ///< relative to the direct light
+  std::vector<double> history;  ///< residual after each, relative to the direct light
+  double residual = 0;          ///< relative to the direct light
   /// Bound of the relative error of the reflected radiosity that the residual makes: the residual
   /// times the inverse of the smallest eigenvalue.
   double error = 0;

@@ -155,5 +155,24 @@ TEST_F(Usage, BouncesCountReflections) {
   EXPECT_NEAR(irradiance({}), 1, 1e-9);
 }
 
+TEST_F(Usage, SolversAgreeAndTellTheirHistory) {
+  double right = 0;
+  for (const char* solver :
+       {"conjugate-gradients", "jacobi", "gauss-seidel", "southwell", "southwell-ambient"}) {
+    ASSERT_EQ(
+        run({"solve", test::data_file("l_room.obj").string(), "--method", "matrix", "--elements",
+             "300", "--solver", solver, "-q", "-o", "o.vtu", "--json", "r.json"})
+            .exit_code,
+        0);
+    const auto report = json("r.json");
+    const auto& channel = report.at("radiosity").at("channel").at(0);
+    EXPECT_EQ(channel.at("history").size(), channel.at("iterations"));
+    EXPECT_LE(channel.at("history").back(), 1e-10);
+    const double found = report.at("groups").at(0).at("mean_radiosity_w_per_m2").at(0);
+    if (right == 0) right = found;
+    EXPECT_NEAR(found, right, 1e-9 * right) << solver;
+  }
+}
+
 }  // namespace
 }  // namespace halfshade

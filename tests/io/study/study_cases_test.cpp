@@ -85,11 +85,12 @@ TEST(StudyPage, SaysWhoIsFasterWhere) {
 }
 
 TEST(StudyPage, HasChartsOfAllThatIsMeasured) {
-  const auto charts = study_charts(some_study());
+  const auto charts = study_charts(some_study(), "a.obj");
   std::vector<std::string> names;
   for (const StudyChart& chart : charts) names.push_back(chart.name);
   EXPECT_EQ(names, (std::vector<std::string>{"error_time", "error_cpu", "error_unknowns",
                                              "estimated_true"}));
+  EXPECT_EQ(charts[0].chart.title, "a.obj: error against run time");
   EXPECT_EQ(charts[0].chart.series.size(), 2u);
   EXPECT_EQ(charts[0].chart.series[0].points[1], Vec2(1, 0.005));
   EXPECT_EQ(charts[3].chart.series[1].points[0], Vec2(0.02, 0.04));

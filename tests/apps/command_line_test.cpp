@@ -179,18 +179,16 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
 
 TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
   const test::TempDir folder;
-  const test::Outcome outcome =
-      halfshade({"solve", (data / "s1.obj").string(), "--elements", "200", "-q", "-o",
-                 "out.ply", "--json", "report.json"},
-                folder.path());
+  const test::Outcome outcome = halfshade({"solve", (data / "s1.obj").string(), "--elements", "200",
+                                           "-q", "-o", "out.ply", "--json", "report.json"},
+                                          folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
   EXPECT_GT(report.at("mesh").at("elements").get<int>(), 100);
   EXPECT_FALSE(report.at("interrupted").get<bool>());
   const test::Outcome talk = halfshade(
-      {"solve", (data / "s1.obj").string(), "--elements", "200", "-o", "out.ply"},
-      folder.path());
+      {"solve", (data / "s1.obj").string(), "--elements", "200", "-o", "out.ply"}, folder.path());
   EXPECT_NE(talk.out.find("out.ply"), std::string::npos);
   EXPECT_EQ(talk.err, "") << "no progress bar without a terminal";
 }

@@ -47,7 +47,7 @@ std::string csv_bytes(const PointTable& table, std::span<const DirectLight> ligh
   return bytes;
 }
 
-std::string csv_bytes(const PointTable& table, std::span<const SolvedLight> light) {
+std::string csv_bytes(const PointTable& table, std::span<const PointLight> light) {
   std::string bytes = table_head(table, light.size(), {"H_r", "H_g", "H_b", "D_r", "D_g", "D_b"});
   for (std::size_t k = 0; k < light.size(); ++k) {
     bytes += table.rows[k];
@@ -152,7 +152,7 @@ void write_points(const PointTable& table, std::span<const DirectLight> light,
   write(table, light, path);
 }
 
-void write_points(const PointTable& table, std::span<const SolvedLight> light,
+void write_points(const PointTable& table, std::span<const PointLight> light,
                   const fs::path& path) {
   require_room(table, light.size());
   if (!is_standard_stream(path)) require_format(path, value_formats);

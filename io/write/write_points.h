@@ -26,7 +26,7 @@ void write_points(const PointTable& table, std::span<const DirectLight> light,
 
 /// The same of what a solution says, in a table only: H_r, H_g, H_b (all irradiance), D_r, D_g, D_b
 /// (direct).
-void write_points(const PointTable& table, std::span<const SolvedLight> light,
+void write_points(const PointTable& table, std::span<const PointLight> light,
                   const std::filesystem::path& path);
 
 /// The same of light that comes with a standard error: a table has H_r, H_g, H_b and their standard

@@ -36,7 +36,7 @@ int surface_at(const SoundScene& scene, const SurfacePoint& point) {
   return nearest;
 }
 
-SolvedLight light_at(const SolveResult& result, const ForestPlace& found) {
+PointLight light_at(const SolveResult& result, const ForestPlace& found) {
   const int e = found.triangle;
   if (result.direct.count() == 0)
     return {result.solution.irradiance.row(e).transpose(),
@@ -68,10 +68,10 @@ bool add_gathered_light(const SolveResult& result, double tolerance,
       progress, "reflected light at points");
 }
 
-std::vector<SolvedLight> light_at_points(const SolveResult& result,
-                                         std::span<const SurfacePoint> points) {
+std::vector<PointLight> light_at_points(const SolveResult& result,
+                                        std::span<const SurfacePoint> points) {
   const ElementLookup lookup(result.elements);
-  std::vector<SolvedLight> light;
+  std::vector<PointLight> light;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3& p = points[k].position;
     const int surface = surface_at(result.scene, points[k]);

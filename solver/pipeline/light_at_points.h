@@ -9,7 +9,7 @@
 namespace halfshade {
 
 /// What a solution says of a point of a surface.
-struct SolvedLight {
+struct PointLight {
   Rgb irradiance = Rgb::Zero();         ///< W/m²
   Rgb direct_irradiance = Rgb::Zero();  ///< the part that comes straight from emitters
 };
@@ -18,8 +18,8 @@ struct SolvedLight {
 /// where there are some, else the means of the elements. Of several surfaces in one plane a point
 /// belongs to the one whose polygon it lies in. Throws Error(invalid_input) for a point that lies
 /// on no surface with its normal, up to a millionth of the surface's size.
-std::vector<SolvedLight> light_at_points(const SolveResult& result,
-                                         std::span<const SurfacePoint> points);
+std::vector<PointLight> light_at_points(const SolveResult& result,
+                                        std::span<const SurfacePoint> points);
 
 /// Irradiance at points, on surfaces or not, from exact direct light and what a solution's elements
 /// reflect: by exactly visible parts where the solution is made of them, else by as many rays as

@@ -152,7 +152,9 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   stages.run("values of reflected light", [&] {
     AdaptiveFieldOptions fit = options.values;
     fit.norm = std::isfinite(norm) ? norm : 0;
-    on_elements = fit_adaptively(*direct.patches, values_of(*total.reflected), fit, progress);
+    // Quick, and without it nothing found so far would be told: an interrupt has to wait.
+    on_elements =
+        fit_adaptively(*direct.patches, values_of(*total.reflected), fit, {{}, progress.report});
     return on_elements.elements.corners.size();
   });
 

@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/reflected/forest_field.h"
+#include "solver/reflected/near_factors.h"
 #include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 
 namespace halfshade {
 namespace {
+
+/// Of what gets lost unseen: where it does, less leaves than in the mean over an element.
+constexpr double share_unsure = 0.15;
 
 void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& elements) {
   if (mesh.forest.is_leaf(triangle)) {
@@ -43,15 +47,26 @@ bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) 
   if (fits(mesh)) return true;
   const RowMaker maker(sight_, mesh, accuracy_);
   rows_.assign(at(mesh.count()), {});
+  unsure_.assign(at(mesh.count()), {});
   return parallel_for(
-      at(mesh.count()),
-      [&](std::size_t i) {
-        const int e = static_cast<int>(i), t = mesh.triangle[i], root = mesh.root(e);
-        const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
-        for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
-          rows_[i].push_back(closed_row(maker, scene_, root, mesh.position(e, place), targets));
-      },
+      at(mesh.count()), [&](std::size_t e) { make_rows(maker, mesh, static_cast<int>(e)); },
       progress, "exact parts of reflected light");
+}
+
+void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, int element) {
+  const int t = mesh.triangle[at(element)], root = mesh.root(element);
+  std::vector<IrradianceRow>& rows = rows_[at(element)];
+  const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
+  for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
+    rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
+  if (scene_.cells.closed[at(scene_.cells.before(root))]) return;
+  UnsureLoss& unsure = unsure_[at(element)];
+  for (const NearFactor& factor : near_factors(sight_, mesh, element, targets)) {
+    const double missed =
+        factor.mean - mean_factor(factor.surface, mesh, scene_.roots, element, rows);
+    unsure.factor += share_unsure * std::abs(missed);
+    unsure.parts = std::max(unsure.parts, factor.parts);
+  }
 }
 
 ElementField ExactExchange::source(const ReflectedMesh& mesh) const {

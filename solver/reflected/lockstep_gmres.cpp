@@ -10,7 +10,9 @@
 namespace halfshade {
 namespace {
 
-constexpr int restart = 25;
+constexpr int restart = 60;
+/// Where a cycle leaves more than this of the residual, more of them do not help.
+constexpr double stagnant = 0.9;
 /// A new direction that is shorter than this share of what it was made from is rounding.
 constexpr double exhausted = 1e-14;
 
@@ -161,7 +163,7 @@ GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A, con
              result.iterations < max_iterations);
     cycle.add_solution(result.x);
     result.amplification = std::max(result.amplification, cycle.amplification());
-    if (result.residual <= tolerance || result.residual > 0.9 * last) break;
+    if (result.residual <= tolerance || result.residual > stagnant * last) break;
     last = result.residual;
     residual = b - A(result.x);
   }

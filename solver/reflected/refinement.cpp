@@ -44,6 +44,18 @@ std::vector<double> errors_of_elements(const RefinementInput& input, double all)
   return result;
 }
 
+/// Adds the elements that know least of what gets lost.
+void add_unsure(const BalanceEstimate& balance, RefinementPlan& plan) {
+  const std::vector<double>& unsure = balance.of_element;
+  std::vector<bool> is_in(unsure.size(), false);
+  for (const int e : plan.elements) is_in[at(e)] = true;
+  for (int e = 0; e < static_cast<int>(unsure.size()); ++e)
+    if (!is_in[at(e)] && unsure[at(e)] > 0) {
+      plan.elements.push_back(e);
+      plan.twice.push_back(true);
+    }
+}
+
 }  // namespace
 
 RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
@@ -66,6 +78,7 @@ RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
       plan.elements.push_back(e);
       plan.twice.push_back(coarse[at(e)] > far_too_much * part);
     }
+  if (input.balance.square > share_of_elements * goal) add_unsure(input.balance, plan);
   // The estimate itself is too uncertain: it becomes surer with more rays.
   if (plan.elements.empty() && plan.more_rays == 1) plan.more_rays = 2;
   return plan;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/reflected/balance_estimate.h"
 #include "solver/reflected/final_pass.h"
 #include "solver/reflected/reflection_estimate.h"
 
@@ -20,11 +21,13 @@ struct RefinementInput {
   const ElementField& irradiance;
   const std::vector<double>& noise;  ///< see FinalPass
   const ReflectionEstimate& estimate;
+  const BalanceEstimate& balance;
 };
 
 /// `goal` is the ∫ |error|² allowed. The estimate knows how large the error of all elements is, but
 /// of each only by a point or two: half of the error is laid where it was found, half where the
-/// coefficients of the highest degree are large.
+/// coefficients of the highest degree are large. Where it is the balance of power that is not
+/// known, those that know least.
 RefinementPlan plan_refinement(const RefinementInput& input, double goal);
 
 }  // namespace halfshade

@@ -93,6 +93,9 @@ RowAccuracy row_accuracy(double tolerance, const ElementTable& roots) {
   return {0.003 * tolerance, 0.3 * tolerance, 0.35 * std::sqrt(area)};
 }
 
+/// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
+constexpr double most_for_gaps = 2000;
+
 // Points at which direct light is asked for in a round.
 constexpr int few_direct_points = 20000, many_direct_points = 100000;
 
@@ -246,15 +249,23 @@ class Rounds {
     report.rays += estimate.rays;
     const double all = estimate.square_total, found = std::max(estimate.sum, 0.);
     const auto share = [&](double square) { return all > 0 ? std::sqrt(square / all) : 0; };
-    report.error = comes_back * share(found + 2 * estimate.deviation);
+    const BalanceEstimate balance = estimate_balance(
+        system, direct_.leaving(mesh_, state_.light), irradiance.rest,
+        parts_ ? parts_->unsure() : unsure_by_rays(system, kept_strata * kept_strata));
+    report.error = std::hypot(comes_back * share(found + 2 * estimate.deviation),
+                              share(balance.square), report.residual * report.amplification);
     report.noise = share(std::accumulate(noise.begin(), noise.end(), 0.));
     report.mean_square_total = all / system.systems.area.sum() / (state_.scale * state_.scale);
     if (report.error <= options_.tolerance) {
       report.end = ReflectedEnd::accurate;
       return false;
     }
-    return prepare_next({mesh_, irradiance.rest, noise, estimate},
-                        std::pow(options_.tolerance / comes_back, 2) * all);
+    const double goal = std::pow(options_.tolerance / comes_back, 2) * all;
+    if (balance.square > goal && (kept_rays_ || balance.elements > most_for_gaps)) {
+      report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
+      return false;
+    }
+    return prepare_next({mesh_, irradiance.rest, noise, estimate, balance}, goal);
   }
 
   bool prepare_next(const RefinementInput& input, double goal) {
@@ -355,7 +366,10 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
     state->accuracy = row_accuracy(options.tolerance, state->reflecting.roots);
   }
-  if (!nothing) Rounds(*state, options, progress).run();
+  if (!nothing) {
+    state->report.error = 1;  // G = 0 if it is stopped in the first round
+    Rounds(*state, options, progress).run();
+  }
   finish(*state);
   return ReflectedLight(std::move(state));
 }

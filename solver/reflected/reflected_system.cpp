@@ -12,7 +12,7 @@ namespace halfshade {
 namespace {
 
 constexpr double solver_tolerance = 1e-10;
-constexpr int most_iterations = 400;
+constexpr int most_iterations = 600;
 
 RowGroups groups_of(const ReflectedMesh& mesh, const LightSystems& systems,
                     const ElementField& field) {

@@ -90,5 +90,34 @@ TEST(InterruptedSolveEnds, OneThatIsCompleteHasNoEstimates) {
   EXPECT_FALSE(has_warning(result, Warning::Kind::exchange_estimated));
 }
 
+/// Stopped when reflected light is solved for once more, or, if at once, for the first time.
+SolveResult solve_one_round(const Scene& scene, bool at_once) {
+  std::stop_source stop;
+  bool is_estimated = at_once;
+  const auto report = [&](std::string_view stage, double) {
+    if (stage == "error of reflected light") is_estimated = true;
+    if (stage == "exact parts of reflected light" && is_estimated) stop.request_stop();
+  };
+  SolveOptions options;
+  options.tolerance = 0.003;
+  return solve(scene, options, {stop.get_token(), report});
+}
+
+TEST(InterruptedFields, KeepTheReflectedLightOfTheLastRound) {
+  const Scene scene = test::cornell_box();
+  const SolveResult complete = solve(scene, {}), part = solve_one_round(scene, false);
+  EXPECT_TRUE(part.interrupted);
+  EXPECT_EQ(part.reflected.rounds, 1);
+  EXPECT_GE(part.relative_error, part.reflected.error);
+  EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
+}
+
+TEST(InterruptedFields, WithoutAnyReflectedLightClaimNothing) {
+  const SolveResult part = solve_one_round(test::cornell_box(), true);
+  EXPECT_TRUE(part.interrupted);
+  EXPECT_EQ(part.reflected.rounds, 0);
+  EXPECT_GE(part.relative_error, 1);
+}
+
 }  // namespace
 }  // namespace halfshade

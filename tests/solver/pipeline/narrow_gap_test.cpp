@@ -1,0 +1,89 @@
+#include "meshing/repair/repair.h"
+#include "solver/pipeline/solve.h"
+#include "tests/support/random.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// Two plates of nearly white material close to each other: light is reflected some hundred times
+// before it gets out, within a few times the gap of the border.
+
+namespace halfshade {
+namespace {
+
+Scene plates(double gap, double rho) {
+  Scene scene;
+  const int light = test::add_material(scene, rho, 1), dark = test::add_material(scene, rho, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
+  test::add_polygon(scene, {{0, 1, gap}, {1, 1, gap}, {1, 0, gap}, {0, 0, gap}}, dark);
+  return scene;
+}
+
+struct Mean {
+  double value, deviation;
+};
+
+/// Mean irradiance of both plates by walks: from a point of one the other is hit a distance gap
+/// tan θ away, sin² θ uniform.
+Mean walked(double gap, double rho, int walks) {
+  test::Random random(1);
+  double sum = 0, squares = 0;
+  for (int i = 0; i < walks; ++i) {
+    Vec2 place(random(0, 1), random(0, 1));
+    double weight = 1, hits = 0;
+    for (;;) {
+      const double u = random(0, 1), length = gap * std::sqrt(u / (1 - u));
+      const double angle = random(0, 2 * M_PI);
+      place += length * Vec2(std::cos(angle), std::sin(angle));
+      if (place.minCoeff() < 0 || place.maxCoeff() > 1) break;
+      hits += weight;
+      weight *= rho;
+    }
+    sum += hits;
+    squares += hits * hits;
+  }
+  const double mean = sum / walks;
+  return {mean / 2, std::sqrt((squares / walks - mean * mean) / walks) / 2};
+}
+
+SolveResult solved(double gap, double rho) { return solve(plates(gap, rho), SolveOptions{}); }
+
+double mean_irradiance(const SolveResult& result) {
+  const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(), result.elements.count());
+  return (area * result.solution.irradiance.col(0)).sum() / area.sum();
+}
+
+TEST(NarrowGap, IsSolvedAsExactlyAsClaimed) {
+  for (const auto& [gap, rho] : {std::pair(0.1, 0.9), {0.03, 0.99}}) {
+    const SolveResult result = solved(gap, rho);
+    const Mean mean = walked(gap, rho, 40000);
+    EXPECT_LE(result.relative_error, 0.01);
+    EXPECT_TRUE(result.not_reached.empty());
+    EXPECT_NEAR(mean_irradiance(result), mean.value,
+                3 * mean.deviation + result.relative_error * mean.value)
+        << gap;
+  }
+}
+
+TEST(NarrowGap, TooNarrowToSeeWhatGetsLostIsTold) {
+  const SolveResult result = solved(1e-3, 0.999);
+  const Mean mean = walked(1e-3, 0.999, 400);
+  EXPECT_EQ(result.reflected.end, ReflectedEnd::elements);
+  EXPECT_FALSE(result.not_reached.empty());
+  EXPECT_GT(result.relative_error, 0.01);
+  EXPECT_NEAR(mean_irradiance(result), mean.value,
+              3 * mean.deviation + result.relative_error * mean.value);
+}
+
+TEST(NarrowGap, RaysThatNeverSeeItTellSo) {
+  SolveOptions options;
+  options.visibility = ReflectedVisibility::sampled;
+  const SolveResult result = solve(plates(1e-4, 0.99999), options);
+  EXPECT_EQ(result.reflected.end, ReflectedEnd::rays);
+  EXPECT_GT(result.relative_error, 0.1);
+}
+
+}  // namespace
+}  // namespace halfshade

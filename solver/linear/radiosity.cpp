@@ -107,7 +107,7 @@ void balance_power(const LightExchange& exchange, const Channel& channel,
 
 void require_finite(const ChannelSolution& solution) {
   if (!solution.radiosity.allFinite() || !solution.irradiance.allFinite())
-    throw Error(ErrorCode::invalid_input, "solve_radiosity",
+    throw Error(ErrorCode::invalid_input, {},
                 "the radiosity is larger than any number that double precision holds; give the "
                 "exitances in another unit");
 }

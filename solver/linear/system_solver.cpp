@@ -84,7 +84,7 @@ double uniform_part(const LightSystem& system, const Balance& balance) {
   const double lost = balance.loss.sum(), put_in = balance.input.sum();
   if (lost > 0) return put_in / lost;
   if (std::abs(put_in) > balanced * balance.input.lpNorm<1>())
-    throw Error(ErrorCode::invalid_input, "solve_radiosity",
+    throw Error(ErrorCode::invalid_input, {},
                 fmt::format("system {} is closed and reflects everything (reflectance 1), so the "
                             "radiosity has no limit; lower a reflectance",
                             system.id));

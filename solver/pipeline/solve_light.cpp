@@ -88,7 +88,7 @@ void require_limits(const SoundScene& scene, const ElementTable& elements, const
   for (int e = 0; e < elements.count(); ++e)
     if (exchange.enclosures.of_element[at(e)] == unlimited->system)
       groups.insert(scene.groups[at(elements.group[at(e)])]);
-  throw Error(ErrorCode::invalid_input, "solve",
+  throw Error(ErrorCode::invalid_input, {},
               fmt::format("the group{} {} close{} in a space that reflects everything (reflectance "
                           "1) and emits {} W, so its radiosity has no limit; lower a reflectance",
                           groups.size() == 1 ? "" : "s", fmt::join(groups, ", "),

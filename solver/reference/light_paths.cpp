@@ -116,7 +116,7 @@ ArrivingLight LightPaths::trace(const ReferencePoint& point, int bounces,
     }
     here = *next;
   }
-  throw Error(ErrorCode::invalid_input, "reference_light",
+  throw Error(ErrorCode::invalid_input, {},
               "light in a closed space is hardly ever absorbed, so paths do not end; lower a "
               "reflectance");
 }

@@ -57,7 +57,7 @@ void require_absorption(const ReflectedSystem& system, const ChannelArray& power
   const LightSystems& systems = system.systems;
   for (int s = 0; s < systems.count(); ++s)
     if (systems.closed[at(s)] && (systems.absorption.row(s) <= 0 && power.row(s) > 0).any())
-      throw Error(ErrorCode::invalid_input, "reflected_light",
+      throw Error(ErrorCode::invalid_input, {},
                   fmt::format("surfaces {} close in a space that reflects everything (reflectance "
                               "1), and light of {} W is put in, so its radiosity has no limit; "
                               "lower a reflectance",

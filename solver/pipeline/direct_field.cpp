@@ -4,6 +4,7 @@
 #include "meshing/core/parallel.h"
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/corner_places.h"
 #include "solver/pipeline/shadow_places.h"
 
 #include <fmt/format.h>
@@ -74,7 +75,10 @@ class DirectFieldSearch {
         progress_(progress),
         stages_(stages),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
-        watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {}
+        watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {
+    const auto corners = corner_places(prepared.scene(), prepared.direct_light().emitters());
+    watched_.insert(watched_.end(), corners.begin(), corners.end());
+  }
 
   DirectField run() {
     const bool no_curves = !plan_.no_discontinuities.empty();

@@ -16,7 +16,7 @@ namespace {
 /// breaks are parallel to elements a regular pattern would miss them all alike.
 ChannelArray project(const ReflectedMesh& mesh, const FirstLight& light, int element, int strata) {
   const int triangle = mesh.triangle[at(element)], order = mesh.order[at(triangle)];
-  const auto direct = [&](const TrianglePlace& place) {
+  const auto direct = [&](const TrianglePlace& place) -> Vec3 {
     return light.direct_at(mesh.root(element), mesh.position(element, place)).matrix();
   };
   const ElementNodes& nodes = element_nodes_of(order);

@@ -3,8 +3,8 @@
 #include "meshing/core/error.h"
 #include "solver/adapt/element_fit.h"
 #include "solver/adapt/field_beginnings.h"
+#include "solver/adapt/watched_errors.h"
 #include "solver/elements/balancing_scale.h"
-#include "solver/elements/element_lookup.h"
 
 #include <fmt/format.h>
 
@@ -178,11 +178,10 @@ class Adaptation {
     }
   }
 
-  /// Value less polynomial.
-  static Rgb off_at(const Element& element, const TrianglePlace& place, const Rgb& value) {
+  static Rgb fitted_at(const Element& element, const TrianglePlace& place) {
     Eigen::VectorXd phi(element.fit.coefficients.rows());
     basis_at(element.fit.order, place, phi);
-    return value - (element.fit.coefficients.matrix().transpose() * phi).array();
+    return (element.fit.coefficients.matrix().transpose() * phi).array();
   }
 
   /// Looks at places that the fits do not know. True if the estimates stand.
@@ -202,7 +201,7 @@ class Adaptation {
       if (element.is_checked) continue;
       double square = 0;
       for (int k = 0; k < checks; ++k, ++next)
-        square += off_at(element, places[next], values[next]).matrix().squaredNorm() / checks;
+        square += (values[next] - fitted_at(element, places[next])).square().sum() / checks;
       element.is_checked = true;
       if (square > noticeably * noticeably * element.fit.error * element.fit.error)
         element.fit.error = std::sqrt(square);
@@ -221,19 +220,16 @@ class Adaptation {
       if (watched_values_.empty()) return false;
     }
     if (watched_.empty()) return true;
-    const ElementLookup lookup(table_);
-    for (std::size_t k = 0; k < watched_.size(); ++k) {
-      const FieldPoint& point = watched_[k].place;
-      const ForestPlace found = lookup.find(point.surface, point.point.position);
-      if (found.triangle < 0) continue;
-      Element& element = elements_[at(found.triangle)];
-      const double share = std::min(watched_[k].area / element.area, 1.);
-      const double error =
-          std::sqrt(share) * off_at(element, found.place, watched_values_[k]).matrix().norm();
-      if (error > noticeably * element.fit.error) {
-        element.fit.error = error;
-        element.is_broken = true;
-      }
+    const auto fitted = [this](int e, const TrianglePlace& place) {
+      return fitted_at(elements_[at(e)], place);
+    };
+    for (const auto& [e, found] : watched_errors(table_, watched_, watched_values_, fitted)) {
+      ElementFit& fit = elements_[at(e)].fit;
+      const double error = std::sqrt(found.square);
+      // One place may be off by chance.
+      if (error <= (found.places > 1 ? 1 : noticeably) * fit.error) continue;
+      fit.error = error;
+      elements_[at(e)].is_broken = true;
     }
     return true;
   }

@@ -12,7 +12,7 @@ namespace {
 constexpr int most_circles = 14, places_each = 8;
 /// Corners as far from a surface as their edges are long are no touches.
 constexpr double nearest = 0.5;
-/// A place stands for the ring of √2 times more and less its radius.
+/// The places of a circle stand for the ring of √2 times more and less its radius.
 constexpr double ring_area = 1.5 * M_PI;
 
 bool reaches_before(const Surface& surface, const PlaneFrame& plane) {
@@ -41,7 +41,7 @@ void surround(const Surface& surface, int id, const Vec2& centre, double widest,
       const Vec2 place = centre + radius * Vec2(std::cos(angle), std::sin(angle));
       if (is_inside(surface.rings, place))
         places.push_back({{{surface.frame.to_space(place), surface.frame.normal}, id},
-                          ring_area * radius * radius / 2});
+                          ring_area * radius * radius / places_each});
     }
 }
 

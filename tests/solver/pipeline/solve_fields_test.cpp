@@ -2,6 +2,7 @@
 
 #include "solver/direct/direct_light.h"
 #include "solver/elements/element_field.h"
+#include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -230,6 +231,49 @@ TEST(SolveFields, ASmallThingJustAboveTheFloorIsNotOverlooked) {
       const SolveResult result = solve(scene, within(tolerance));
       EXPECT_LE(fine_error(result, 4), tolerance) << size;
     }
+}
+
+/// A light that stands on a floor.
+Scene standing_light() {
+  Scene scene;
+  const int black = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);
+  test::add_polygon(scene, square_at(-2, 2, 0), black);
+  test::add_polygon(scene, {{-.5, 0, 0}, {.5, 0, 0}, {.5, 0, 1}, {-.5, 0, 1}}, light);
+  return scene;
+}
+
+/// ∫ (irradiance − exact)² on a disc around a corner of the light, on rings ever narrower.
+double square_error_around_corner(const SolveResult& result) {
+  constexpr int directions = 64;
+  constexpr double ratio = 0.8;
+  std::vector<SurfacePoint> points;
+  std::vector<double> areas;
+  for (double radius = 0.3; radius > 1e-4; radius *= ratio)
+    for (int k = 0; k < directions; ++k) {
+      const double angle = 2 * M_PI * (k + 0.5) / directions, middle = radius * (1 + ratio) / 2;
+      points.push_back(
+          {{0.5 + middle * std::cos(angle), middle * std::sin(angle), 0}, Vec3::UnitZ()});
+      areas.push_back(M_PI * radius * radius * (1 - ratio * ratio) / directions);
+    }
+  const std::vector<PointLight> found = light_at_points(result, points);
+  const DirectLightIndex exact(result.scene);
+  double sum = 0;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sum += areas[i] *
+           (found[i].irradiance - exact.irradiance(points[i]).irradiance).matrix().squaredNorm();
+  return sum;
+}
+
+TEST(SolveFields, TheCornersOfALightThatTouchesAreNotOverlooked) {
+  for (const double tolerance : {1e-2, 1e-3}) {
+    const SolveResult result = solve(standing_light(), within(tolerance));
+    double norm = 0;
+    for (int e = 0; e < result.elements.count(); ++e)
+      norm += result.elements.area[at(e)] * result.irradiance.of(e).matrix().squaredNorm();
+    const double error = std::sqrt(square_error_around_corner(result) / norm);
+    EXPECT_LT(error, 0.7 * tolerance) << tolerance;
+    expect_met(result, tolerance);
+  }
 }
 
 TEST(SolveFields, FewElementsAreALimitNotAFailure) {

@@ -55,26 +55,44 @@ void fill_report(const RowExchange& exchange, double tolerance, FactorMatrix& re
   }
 }
 
-/// Scales A F symmetrically until Σ F = 1 − space in every row that sees something.
+/// A F with the surroundings as one more row.
+ExchangeMatrix with_surroundings(const RowExchange& exchange) {
+  const Eigen::Index n = exchange.mutual.rows();
+  RowMajorMatrix all = RowMajorMatrix::Zero(n + 1, n + 1);
+  all.topLeftCorner(n, n) = exchange.mutual;
+  all.col(n).head(n) = exchange.space.matrix();
+  all.row(n).head(n) = exchange.space.matrix().transpose();
+  return all.sparseView();
+}
+
+/// Scales A F symmetrically until Σ F + space = 1 in every row. What the surroundings see is not
+/// known to sum to anything.
 void enforce(const RowExchange& exchange, FactorMatrix& result) {
-  ExchangeMatrix scaled = exchange.mutual.sparseView();
-  const Eigen::ArrayXd wanted = result.area * (1 - result.space).max(0);
-  std::vector<bool> rows;
-  for (Eigen::Index i = 0; i < wanted.size(); ++i) rows.push_back(wanted[i] > 0);
-  if (!enforce_closure(scaled, wanted.max(result.area * 1e-300), rows)) return;
+  const Eigen::Index n = result.area.size();
+  ExchangeMatrix scaled = with_surroundings(exchange);
+  Eigen::ArrayXd area = Eigen::ArrayXd::Ones(n + 1);
+  area.head(n) = result.area;
+  std::vector<bool> rows(static_cast<std::size_t>(n), true);
+  rows.push_back(false);
+  if (!enforce_closure(scaled, area, rows)) return;
+  const RowMajorMatrix dense(scaled);
   const RowMajorMatrix factors =
-      result.area.inverse().matrix().asDiagonal() * RowMajorMatrix(scaled);
-  result.report.is_enforced = true;
-  for (Eigen::Index i = 0; i < factors.rows(); ++i)
-    for (Eigen::Index j = 0; j < factors.cols(); ++j) {
-      const double change = std::abs(factors(i, j) - result.factors(i, j));
-      if (!(change > 0)) continue;
-      result.report.enforced_by =
-          std::max(result.report.enforced_by, change / result.factors(i, j));
-      result.error[i] =
-          std::max(result.error[i], exchange.mutual_error(i, j) / result.area[i] + change);
-    }
+      result.area.inverse().matrix().asDiagonal() * dense.topLeftCorner(n, n);
+  const Eigen::ArrayXd space = dense.col(n).head(n).array() / result.area;
+  FactorReport& report = result.report;
+  report.is_enforced = true;
+  const auto note = [&](Eigen::Index i, double before, double after, double error) {
+    if (before == after) return;
+    report.enforced_by = std::max(report.enforced_by, std::abs(after / before - 1));
+    result.error[i] = std::max(result.error[i], error / result.area[i] + std::abs(after - before));
+  };
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j)
+      note(i, result.factors(i, j), factors(i, j), exchange.mutual_error(i, j));
+    note(i, result.space[i], space[i], exchange.space_error[i]);
+  }
   result.factors = factors;
+  result.space = space;
 }
 
 /// Leaves out pairs neither of whose factors can reach the limit.

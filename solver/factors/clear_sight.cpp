@@ -1,12 +1,13 @@
 #include "solver/factors/mutual_sight.h"
 
-#include <limits>
+#include <cmath>
 
 namespace halfshade {
 namespace {
 
-/// What rounding may do to the value, relative to it, beside what quadrature does.
-constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+/// What rounding may do to the value, relative to it, beside what quadrature does: contours of
+/// distant polygons cancel.
+constexpr double rounding = 1e-12;
 
 void add(MutualSight& sum, std::span<const Vec3> p, std::span<const Vec3> q,
          const FormFactorOptions& options, const SightTolerance& tolerance) {

@@ -20,11 +20,11 @@ enum class FactorMethod {
 struct FactorOptions {
   FactorUnit unit = FactorUnit::group;
   FactorMethod method = FactorMethod::exact;
-  double tolerance = 1e-4;   ///< error allowed in an entry of F, absolute, in (0, 1)
-  int max_points = 1000000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
-  int rays = 10000;          ///< of each row, FactorMethod::rays, ≥ 1
-  double sparse_below = 0;   ///< entries that cannot reach this are left out, ≥ 0
-  bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one
+  double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
+  int max_points = 300000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
+  int rays = 10000;         ///< of each row, FactorMethod::rays, ≥ 1
+  double sparse_below = 0;  ///< entries that cannot reach this are left out, ≥ 0
+  bool enforce = false;     ///< scale A F symmetrically until rows, with space, sum to one
 };
 
 /// How a matrix came about.

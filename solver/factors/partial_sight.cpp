@@ -9,6 +9,13 @@ namespace {
 /// At how many points each of the two surfaces is tried before the better one is gone on with.
 constexpr std::size_t points_to_try = 150;
 
+/// Errors this many times too large are worth looking for kinks, about 30 points each: without,
+/// cells grow like the root of it.
+constexpr double far_off = 20;
+
+/// Errors of two sides that differ by less than this factor check each other.
+constexpr double comparable = 4;
+
 bool is_worse(const BlockedCell& a, const BlockedCell& b) { return a.error < b.error; }
 
 struct Total {
@@ -38,11 +45,11 @@ class HiddenIntegral {
   const Total& total() const { return total_; }
   std::size_t points() const { return evaluator_.points(); }
 
-  void refine_worst() {
+  void refine_worst(bool along_kinks) {
     std::pop_heap(cells_.begin(), cells_.end(), is_worse);
     const BlockedCell worst = cells_.back();
     cells_.pop_back();
-    evaluator_.refine(worst, next_);
+    evaluator_.refine(worst, along_kinks, next_);
     total_.value -= worst.value;
     total_.error -= worst.error;
     for (const BlockedCell& cell : next_) {
@@ -92,12 +99,11 @@ struct OneSide {
 
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
-  bool is_reached() const {
-    return hidden.total().error <= std::max(tolerance.absolute, tolerance.relative * value());
-  }
+  double allowed() const { return std::max(tolerance.absolute, tolerance.relative * value()); }
+  bool is_reached() const { return hidden.total().error <= allowed(); }
   void refine_to(std::size_t points, const std::stop_token& stop) {
     while (!is_reached() && hidden.points() < points && !stop.stop_requested())
-      hidden.refine_worst();
+      hidden.refine_worst(hidden.total().error > far_off * allowed());
     hidden.settle();
   }
 
@@ -133,9 +139,10 @@ MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTole
   result.error = better.error();
   result.points = first.hidden.points() + (second ? second->hidden.points() : 0);
   if (second) {
-    // What the two sides say must not differ by more than their errors.
+    // Where both sides claim to be about as exact, what they say must not differ by more.
     const OneSide& other = is_second_better ? first : *second;
-    result.error = std::max(result.error, std::abs(other.value() - result.value) - other.error());
+    if (other.error() < comparable * result.error)
+      result.error = std::max(result.error, std::abs(other.value() - result.value) - other.error());
   }
   return result;
 }

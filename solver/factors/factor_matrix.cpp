@@ -42,11 +42,10 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
   return result;
 }
 
-void fill_report(const RowExchange& exchange, double tolerance, FactorMatrix& result) {
+void fill_report(double tolerance, FactorMatrix& result) {
   FactorReport& report = result.report;
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
-    const bool is_off =
-        !exchange.is_reached[static_cast<std::size_t>(i)] && result.error[i] > tolerance;
+    const bool is_off = result.error[i] > tolerance;
     report.rows_not_reached += is_off ? 1 : 0;
     report.row_sum_error_max = std::max(report.row_sum_error_max, std::abs(result.row_sum[i] - 1));
     if (result.backs[i] <= report.backs_max) continue;
@@ -122,7 +121,8 @@ FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options
                                    : sampled_exchange(sound, sight.reflecting, options, progress);
   FactorMatrix result = matrix_of(sound, exchange);
   if (!result.report.is_complete) return result;
-  fill_report(exchange, options.tolerance, result);
+  // What rays were asked for is a number of them.
+  fill_report(options.method == FactorMethod::exact ? options.tolerance : HUGE_VAL, result);
   if (options.enforce) enforce(exchange, result);
   if (options.sparse_below > 0) make_sparse(exchange, options.sparse_below, result);
   return result;

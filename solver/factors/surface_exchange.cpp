@@ -37,6 +37,10 @@ std::vector<std::vector<Pair>> find_pairs(const FactorScene& scene, const SightS
   return pairs;
 }
 
+/// Estimates are several times what entries are off by, and these add up like the root of their
+/// number: shares that fall like its fourth root keep rows of thousands near the tolerance.
+constexpr double root_of_row = 0.25;
+
 /// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
 /// entries are off independently of each other, hardly by more.
 class ErrorShares {
@@ -62,7 +66,7 @@ class ErrorShares {
     }
     const auto found = of_entry_[at(key(row, other)[0])].find(key(row, other)[1]);
     const double in_entry = found == of_entry_[at(key(row, other)[0])].end() ? 1 : found->second;
-    return tolerance * area / std::max({1., in_entry, std::sqrt(in_row)});
+    return tolerance * area / std::max({1., in_entry, std::pow(in_row, root_of_row)});
   }
 
  private:
@@ -99,9 +103,6 @@ void RowExchange::add(int row, int other, Sight sight, const MutualSight& seen) 
   add(row, other, seen.value, seen.error);
   (sight == Sight::clear ? report.clear_pairs : report.partial_pairs) += 1;
   report.points += seen.points;
-  if (seen.is_reached) return;
-  is_reached[at(row)] = false;
-  if (other >= 0) is_reached[at(other)] = false;
 }
 
 RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
@@ -115,20 +116,22 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
     for (std::size_t k = 0; k < pairs[a].size(); ++k)
       if (pairs[a][k].sight == Sight::partial) hard.push_back({a, k});
   }
+  // Half for pairs that are clear, and half for those that are not.
+  const double half = 0.5 * options.tolerance;
   const auto see_clear = [&](std::size_t a) {
     for (std::size_t k = 0; k < pairs[a].size(); ++k)
       if (pairs[a][k].sight == Sight::clear)
         found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
-                                  {options.tolerance, 0, options.max_points});
+                                  {half, 0, options.max_points});
   };
   const auto see_partial = [&](std::size_t h) {
     const auto [a, k] = hard[h];
     int own = static_cast<int>(a), other = pairs[a][k].other;
-    const double share = shares.share(scene.row[a], scene.row[at(other)], options.tolerance);
+    const double share = shares.share(scene.row[a], scene.row[at(other)], half);
     // From the smaller one the larger looks more alike.
     if (sight.surfaces[at(other)].area < sight.surfaces[at(own)].area) std::swap(own, other);
-    found[a][k] = partial_sight(sight, own, other, {options.tolerance, share, options.max_points},
-                                progress.stop);
+    found[a][k] =
+        partial_sight(sight, own, other, {half, share, options.max_points}, progress.stop);
   };
   RowExchange exchange(scene.rows());
   exchange.report.is_complete =

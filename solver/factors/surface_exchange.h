@@ -3,17 +3,14 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/mutual_sight.h"
 
-#include <vector>
-
 namespace halfshade {
 
 /// Mutual areas of all surfaces of a scene, summed into rows.
 struct RowExchange {
-  RowMajorMatrix mutual;         ///< A_i F(i,j), symmetric to the bit, squared scene units
-  RowMajorMatrix mutual_error;   ///< bounds of their errors
-  Eigen::ArrayXd space, backs;   ///< the same to the surroundings, and to unused backs
-  Eigen::ArrayXd space_error;    ///< of the two together
-  std::vector<bool> is_reached;  ///< row → all entries are as exact as asked for
+  RowMajorMatrix mutual;        ///< A_i F(i,j), symmetric to the bit, squared scene units
+  RowMajorMatrix mutual_error;  ///< bounds of their errors
+  Eigen::ArrayXd space, backs;  ///< the same to the surroundings, and to unused backs
+  Eigen::ArrayXd space_error;   ///< of the two together
   FactorReport report;
 
   explicit RowExchange(int rows)
@@ -21,8 +18,7 @@ struct RowExchange {
         mutual_error(mutual),
         space(Eigen::ArrayXd::Zero(rows)),
         backs(space),
-        space_error(space),
-        is_reached(static_cast<std::size_t>(rows), true) {}
+        space_error(space) {}
 
   /// Adds what two surfaces of these rows (or `surroundings`, `unused_back`) see of each other.
   void add(int row, int other, double value, double error);

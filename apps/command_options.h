@@ -21,6 +21,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common);
 void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common);
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common);
 void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common);
+void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& common);
 void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& common);
 void add_study(CLI::App& program, StudyCommand& command, CommonOptions& common);
 

@@ -6,6 +6,7 @@
 #include "io/write/write_result.h"
 #include "meshing/core/progress.h"
 #include "meshing/repair/orientation.h"
+#include "solver/factors/factor_matrix.h"
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
 
@@ -94,6 +95,13 @@ struct ProbeCommand {
   SolveOptions options;          ///< of the solution that interreflection is gathered from
 };
 
+struct FactorsCommand {
+  std::filesystem::path scene;
+  std::filesystem::path materials;
+  std::filesystem::path output;  ///< "-": a table to the standard output
+  FactorOptions options;
+};
+
 struct ExplainCommand {
   std::filesystem::path scene;
   std::filesystem::path materials;
@@ -111,6 +119,7 @@ ExitCode run(const SolveCommand& command, const Context& context);
 ExitCode run(const MeshCommand& command, const Context& context);
 ExitCode run(const RenderCommand& command, const Context& context);
 ExitCode run(const ProbeCommand& command, const Context& context);
+ExitCode run(const FactorsCommand& command, const Context& context);
 ExitCode run(const ExplainCommand& command, const Context& context);
 ExitCode run(const StudyCommand& command, const Context& context);
 

@@ -45,6 +45,7 @@ struct Commands {
   MeshCommand mesh;
   RenderCommand render;
   ProbeCommand probe;
+  FactorsCommand factors;
   ExplainCommand explain;
   StudyCommand study;
 };
@@ -66,6 +67,7 @@ Parsed parse(int argc, char** argv, Commands& commands, CommonOptions& common) {
   add_mesh(program, commands.mesh, common);
   add_render(program, commands.render, common);
   add_probe(program, commands.probe, common);
+  add_factors(program, commands.factors, common);
   add_explain(program, commands.explain, common);
   add_study(program, commands.study, common);
   try {
@@ -84,6 +86,7 @@ ExitCode run(const std::string& command, const Commands& commands, const Context
   if (command == "solve") return run(commands.solve, context);
   if (command == "mesh") return run(commands.mesh, context);
   if (command == "probe") return run(commands.probe, context);
+  if (command == "factors") return run(commands.factors, context);
   if (command == "explain") return run(commands.explain, context);
   if (command == "study") return run(commands.study, context);
   return run(commands.render, context);
@@ -106,7 +109,7 @@ int run_program(int argc, char** argv) {
                       }};
   context.progress_ends = [&bar] { bar.clear(); };
   if (is_standard_stream(context.common.json) || is_standard_stream(commands.probe.output) ||
-      is_standard_stream(commands.solve.values))
+      is_standard_stream(commands.solve.values) || is_standard_stream(commands.factors.output))
     context.summary = stderr;
   return run(parsed.command, commands, context);
 }

@@ -76,22 +76,39 @@ std::vector<Vec3> outermost_points(const ElementTable& elements, const Shells& s
   return points;
 }
 
+/// The planes of a shell's elements that have a corner here.
+std::vector<int> planes_at(const SoundScene& scene, const ElementTable& elements,
+                           const Shells& shells, int shell, const Vec3& corner) {
+  std::vector<int> planes;
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto& sides = shells.of_side[at(e)];
+    if (sides[0] != shell && sides[1] != shell) continue;
+    const auto corners = elements.triangle(e);
+    if (std::find(corners.begin(), corners.end(), corner) != corners.end())
+      planes.push_back(scene.surfaces[at(elements.surface[at(e)])].plane);
+  }
+  return planes;
+}
+
 /// The first thing that a ray from the outermost point of a shell meets.
 RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const Shells& shells,
                     int shell, const Vec3& origin) {
   // A point that touches another surface may lie beyond it by rounding.
   const double slack = tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.diagonal}).length;
+  // The other sides of the shell's own elements lie behind it.
+  const std::vector<int> own = planes_at(scene, elements, shells, shell, origin);
+  const auto plane = [&](int element) {
+    return scene.surfaces[at(elements.surface[at(element)])].plane;
+  };
   RayHit hit;
   for (int e = 0; e < elements.count(); ++e) {
     const auto& sides = shells.of_side[at(e)];
     if (sides[0] == shell || sides[1] == shell) continue;
     const std::optional<double> distance = meet(elements.triangle(e), origin);
     if (!distance || *distance < -slack) continue;
+    if (*distance <= slack && std::find(own.begin(), own.end(), plane(e)) != own.end()) continue;
     const bool is_front = outwards.dot(elements.normal[at(e)]) < 0;
     // Of two that cover each other, the ray comes to the one first that looks at it.
-    const auto plane = [&](int element) {
-      return scene.surfaces[at(elements.surface[at(element)])].plane;
-    };
     const bool covers = hit.element >= 0 && plane(e) == plane(hit.element);
     if (covers ? is_front && !hit.is_front : *distance < hit.distance)
       hit = {*distance, e, is_front};

@@ -111,6 +111,25 @@ TEST(Cells, BodiesBelongToTheRoomTheyAreIn) {
   for (const int cell : floor) EXPECT_EQ(room.cells.closed[at(cell)], cell == inside);
 }
 
+TEST(Cells, ATwoSidedBodyInATwoSidedRoomHasAnInsideAndBelongsToTheRoom) {
+  Scene scene = box(true);
+  add_box(scene, {0.3, 0.3, 0.3}, {0.6, 0.6, 0.6}, false);
+  for (Material& material : scene.materials) material.two_sided = true;
+  const Parted parted(scene);
+  std::set<int> inside, outside, walls;
+  for (int e = 0; e < parted.elements.count(); ++e) {
+    const Surface& surface = parted.scene.surfaces[at(parted.elements.surface[at(e)])];
+    std::set<int>& cells = parted.elements.face[at(e)] < 6 ? walls
+                           : surface.back                  ? inside
+                                                           : outside;
+    if (parted.elements.face[at(e)] >= 6 || !surface.back) cells.insert(parted.cells.before(e));
+  }
+  EXPECT_EQ(outside, walls);
+  EXPECT_EQ(walls.size(), 1u);
+  EXPECT_EQ(inside.size(), 1u);
+  EXPECT_NE(inside, outside);
+}
+
 TEST(Cells, ABodyOnItsCornerTouchesTheFloorOnly) {
   Scene scene = box(true);
   const std::size_t first = scene.vertices.size();

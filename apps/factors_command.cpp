@@ -1,0 +1,90 @@
+#include "apps/command_files.h"
+#include "apps/console.h"
+#include "apps/run_end.h"
+#include "io/files/same_file.h"
+#include "io/write/write_factors.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+namespace halfshade {
+namespace {
+
+/// Backs that swallow more than this deserve a word.
+constexpr double noticeable_backs = 1e-3;
+
+CommandFiles checked_files(const FactorsCommand& command, const CommonOptions& common) {
+  CommandFiles files = scene_files(command.scene, command.materials, common);
+  add_outputs(files, "-o", factor_files(command.output));
+  require_apart(files);
+  require_place(common.json);
+  if (!is_standard_stream(command.output))
+    for (const auto& file : factor_files(command.output)) check_output(file, factor_formats);
+  return files;
+}
+
+std::vector<Warning> warnings_of(const FactorMatrix& matrix) {
+  const FactorReport& report = matrix.report;
+  if (report.backs_max < noticeable_backs) return {};
+  return {{Warning::Kind::light_escapes,
+           fmt::format(
+               "backs of one-sided faces swallow {:.2g} % of what leaves '{}'; it is counted "
+               "as space",
+               100 * report.backs_max, matrix.names[static_cast<std::size_t>(report.backs_row)])}};
+}
+
+void print_summary(const FactorMatrix& matrix, const Context& context) {
+  const FactorReport& report = matrix.report;
+  std::FILE* out = context.summary;
+  fmt::print(out, "surfaces     {}\n", matrix.names.size());
+  if (report.rays > 0)
+    fmt::print(out, "rays         {}\n", report.rays);
+  else
+    fmt::print(out, "pairs        {} clear, {} with something between\n", report.clear_pairs,
+               report.partial_pairs);
+  fmt::print(out, "error        at most {:.2g} in a factor; rows sum to 1 within {:.2g}\n",
+             matrix.error.maxCoeff(), report.row_sum_error_max);
+  if (report.left_out > 0) fmt::print(out, "left out     {} factors\n", report.left_out);
+  if (report.is_enforced)
+    fmt::print(out, "enforced     factors changed by up to {:.2g} %\n", 100 * report.enforced_by);
+}
+
+/// Why the matrix is not what was asked for; empty if it is.
+std::string not_reached(const FactorMatrix& matrix, const FactorOptions& options) {
+  if (options.enforce && !matrix.report.is_enforced)
+    return "no scaling makes rows sum to one; they are as they were computed";
+  if (matrix.report.rows_not_reached > 0)
+    return fmt::format(
+        "{} of {} rows have form factors whose error is up to {:.2g}, and {:.2g} was asked for; "
+        "see 'error', and allow more with --max-points",
+        matrix.report.rows_not_reached, matrix.names.size(), matrix.error.maxCoeff(),
+        options.tolerance);
+  return {};
+}
+
+}  // namespace
+
+ExitCode run(const FactorsCommand& command, const Context& context) {
+  const CommandFiles files = checked_files(command, context.common);
+  const SceneFile file =
+      read_scene(command.scene, command.materials, context.common.orientation, files);
+  const FactorMatrix matrix = form_factor_matrix(file.scene, command.options, context.progress);
+  context.progress_ends();
+  if (!matrix.report.is_complete) return end_without_results();
+  const std::string sentence = not_reached(matrix, command.options);
+  const ExitCode code = sentence.empty() ? exit_done : exit_not_accurate;
+  const auto outputs = factor_files(command.output);
+  write_factors(matrix, context.provenance, command.output);
+  if (!context.common.json.empty())
+    write_report(matrix, run_info(context, code, outputs), context.common.json);
+  print_warnings(file, warnings_of(matrix), context);
+  if (!context.common.quiet) {
+    print_summary(matrix, context);
+    print_outputs(context, outputs);
+  }
+  if (!sentence.empty()) complain("{}\n", sentence);
+  return code;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,48 @@
+#include "apps/command_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace halfshade {
+
+void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& common) {
+  CLI::App& app = *program.add_subcommand(
+      "factors", "Compute the matrix of form factors (view factors) between surfaces");
+  FactorOptions& options = command.options;
+  add_scene(app, command.scene);
+  add_file(app, "-o,--output", command.output,
+           "Result: .csv (surface,area,NAME…,space,row_sum,error), .mtx (MatrixMarket, with names\n"
+           "and areas beside it in .names.csv); '-': .csv to stdout")
+      ->required();
+  add_choice(
+      app, "--by", {"face", "group", "material"},
+      [&options](std::size_t k) { options.unit = static_cast<FactorUnit>(k); },
+      "What has a row (default: group)");
+  add_number(app, "--tolerance", options.tolerance, {1e-12, 0.5},
+             "Error allowed in a form factor, absolute")
+      ->capture_default_str();
+  add_choice(
+      app, "--method", {"exact", "rays"},
+      [&options](std::size_t k) { options.method = static_cast<FactorMethod>(k); },
+      "Closed forms and exactly visible parts, or counted rays");
+  add_whole(app, "--rays", options.rays, {1, 1000000000}, "Rays of each row, with --method rays")
+      ->capture_default_str();
+  add_not_negative(app, "--sparse-below", options.sparse_below,
+                   "Leave out form factors that cannot reach this, and say so in 'error'");
+  app.add_flag("--enforce", options.enforce,
+               "Scale rows and columns alike until rows, with space, sum to one");
+  add_whole(app, "--max-points", options.max_points, {1, 1000000000},
+            "Points at which a pair of surfaces is looked at, at most")
+      ->capture_default_str();
+  add_materials(app, command.materials, "Materials file, as for solve");
+  add_orientation(app, common.orientation);
+  add_common(app, common);
+  app.footer(
+      footer("Examples:\n"
+             "  halfshade factors data/l_room.obj -o l_room.csv\n"
+             "  halfshade factors data/l_room.obj -o l_room.mtx --by face --tolerance 1e-6\n"
+             "  halfshade factors data/furnace_cube.obj -o - --by material --tolerance 1e-9\n"
+             "  halfshade factors data/table_and_chairs.obj -o chairs.csv --method rays --rays "
+             "20000 --enforce\n\n"));
+}
+
+}  // namespace halfshade

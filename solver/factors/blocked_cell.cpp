@@ -1,0 +1,226 @@
+#include "solver/factors/blocked_cell.h"
+
+#include "solver/elements/quadrature.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// Rules that a cell goes through: the first three on any, the others on smooth ones.
+constexpr std::array<int, 5> degrees = {2, 4, 6, 10, 16};
+constexpr int highest_symmetric = 6;  // triangle_rule
+/// Of what could hide something from points between those looked at, this share is the error where
+/// none of them found anything.
+constexpr double share_of_unseen = 0.5;
+/// The same of what might be seen through gaps, where nothing is seen; by how often it was looked.
+constexpr std::array<double, 3> share_of_gaps = {0.1, 0.01, 0};
+/// Of the spread of values, what a first cell may be off by, though two rules agree by chance; half
+/// of it after each halving.
+constexpr double share_of_spread = 0.1;
+
+/// How much of a cell lies outside of the outermost points of its rules, about.
+constexpr double share_of_rim = 0.1;
+/// Corners are looked at this far in, relative to the cell: at the edges of surfaces, what touches
+/// them hides all or nothing.
+constexpr double inset = 1e-4;
+
+double area_of(const Triangle3& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+Vec3 inset_corner(const Triangle3& cell, const Vec3& corner) {
+  return corner + inset * ((cell[0] + cell[1] + cell[2]) / 3 - corner);
+}
+
+int next_degree(int degree) { return *std::upper_bound(degrees.begin(), degrees.end(), degree); }
+
+template <class Use>
+void for_each_node(int degree, Use use) {
+  if (degree <= highest_symmetric) {
+    for (const TriangleNode& node : triangle_rule(degree)) use(node.u, node.v, node.weight);
+    return;
+  }
+  const TriangleRule& rule = gauss_rule(degree);
+  for (std::size_t k = 0; k < rule.places.size(); ++k)
+    use(rule.places[k].x(), rule.places[k].y(), rule.weights[static_cast<Eigen::Index>(k)]);
+}
+
+}  // namespace
+
+/// Means over a cell.
+struct BlockedCells::Sum {
+  double hidden = 0, unobstructed = 0;
+  Range hidden_range, visible_range;
+  bool is_lit = true, is_dark = true, is_smooth = true;
+  std::uint64_t signature = 0;
+
+  void join(const Sum& other) {
+    hidden_range.add(other.hidden_range);
+    visible_range.add(other.visible_range);
+    is_lit = is_lit && other.is_lit;
+    is_dark = is_dark && other.is_dark;
+    is_smooth = is_smooth && other.is_smooth && signature == other.signature;
+  }
+};
+
+PointFactor BlockedCells::factor_at(const Vec3& point) {
+  ++points_;
+  return scene_.light.factor({point, scene_.surfaces[at(a_)].frame.normal}, b_);
+}
+
+BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
+  const Vec3 along = corners[1] - corners[0], across = corners[2] - corners[0];
+  Sum sum;
+  bool is_first = true;
+  for_each_node(degree, [&](double u, double v, double weight) {
+    const PointFactor factor = factor_at(corners[0] + u * along + v * across);
+    const double hidden = factor.unobstructed - factor.visible;
+    sum.hidden += weight * hidden;
+    sum.unobstructed += weight * factor.unobstructed;
+    sum.hidden_range.add(hidden);
+    sum.visible_range.add(factor.visible);
+    sum.is_lit = sum.is_lit && hidden == 0;
+    sum.is_dark = sum.is_dark && factor.visible == 0;
+    if (is_first) sum.signature = factor.signature;
+    sum.is_smooth = sum.is_smooth && factor.signature == sum.signature;
+    is_first = false;
+  });
+  return sum;
+}
+
+/// Fills in all but corners, degree, and a first estimate: the difference of two rules.
+void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
+  const double area = area_of(cell.corners);
+  cell.hidden = sum.hidden_range;
+  cell.visible = sum.visible_range;
+  cell.is_lit = sum.is_lit;
+  cell.is_dark = sum.is_dark && !sum.is_lit;
+  cell.is_smooth = sum.is_smooth;
+  cell.signature = sum.signature;
+  if (cell.degree == degrees[0] || !cell.is_smooth)
+    cell.error = std::max(cell.error,
+                          std::ldexp(share_of_spread, -cell.halvings) * area * cell.hidden.size());
+  if (sum.is_lit || cell.degree == degrees[0]) {
+    const double most = hidden_at_most(scene_, cell.corners, a_, b_);
+    const double missed = share_of_unseen * std::min(most, area * sum.unobstructed) - cell.value;
+    cell.error = sum.is_lit ? missed : std::max(cell.error, missed);
+  }
+  if (cell.is_dark)
+    estimate_dark(area * sum.unobstructed, cell);
+  else if (cell.is_smooth && !cell.is_lit)
+    look_at_corners(cell);
+}
+
+/// What all points see alike may still rise steeply towards an edge, as in a narrow gap between
+/// two surfaces, or be seen otherwise along it: less of that than lies before the outermost points.
+void BlockedCells::look_at_corners(BlockedCell& cell) {
+  if (cell.hidden_at_corners.size() < 0)
+    for (const Vec3& corner : cell.corners) {
+      const PointFactor factor = factor_at(inset_corner(cell.corners, corner));
+      cell.hidden_at_corners.add(factor.unobstructed - factor.visible);
+      cell.visible_at_corners.add(factor.visible);
+      cell.is_smooth = cell.is_smooth && factor.signature == cell.signature;
+    }
+  const auto note = [&](const Range& range, const Range& at_corners) {
+    const double beyond = range.beyond(at_corners);
+    if (beyond > range.size() || !cell.is_smooth)
+      cell.error = std::max(cell.error, share_of_rim * beyond * area_of(cell.corners));
+  };
+  note(cell.hidden, cell.hidden_at_corners);
+  note(cell.visible, cell.visible_at_corners);
+}
+
+/// Where one convex thing hides all of `b` from the corners it hides it from all between them.
+/// Where several do, there may be gaps between them.
+void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
+  double seen = 0;
+  for (const Vec3& corner : cell.corners)
+    seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible);
+  if (seen > 0) {
+    cell.is_dark = cell.is_smooth = false;
+    cell.error = std::max(cell.error, share_of_unseen * seen * area_of(cell.corners));
+    return;
+  }
+  const auto level = std::min(at(cell.dark_levels), share_of_gaps.size() - 1);
+  cell.error += share_of_gaps[level] * whole;
+  ++cell.dark_levels;
+}
+
+BlockedCell BlockedCells::evaluate(const BlockedCell& from, int degree) {
+  BlockedCell cell = from;
+  cell.degree = degree;
+  cell.hidden_at_corners = cell.visible_at_corners = {};
+  const Sum low = sum_over(cell.corners, degree / 2);
+  Sum sum = sum_over(cell.corners, degree);
+  cell.value = area_of(cell.corners) * sum.hidden;
+  cell.error = area_of(cell.corners) * std::abs(sum.hidden - low.hidden);
+  sum.join(low);
+  estimate(sum, cell);
+  return cell;
+}
+
+BlockedCell BlockedCells::raise(const BlockedCell& old) {
+  BlockedCell cell = old;
+  cell.degree = next_degree(old.degree);
+  Sum sum = sum_over(cell.corners, cell.degree);
+  cell.value = area_of(cell.corners) * sum.hidden;
+  cell.error = std::abs(cell.value - old.value);
+  sum.hidden_range.add(old.hidden);
+  sum.visible_range.add(old.visible);
+  sum.is_smooth = sum.is_smooth && old.is_smooth && sum.signature == old.signature;
+  sum.is_lit = sum.is_lit && old.is_lit;
+  sum.is_dark = sum.is_dark && old.is_dark;
+  estimate(sum, cell);
+  return cell;
+}
+
+BlockedCell BlockedCells::closed_form(const BlockedCell& dark) const {
+  SightTolerance fine = tolerance_;
+  fine.absolute *= 1e-3;
+  const MutualSight all = clear_sight(scene_, dark.corners, b_, fine);
+  BlockedCell cell = dark;
+  cell.is_exact = true;
+  cell.value = all.value;
+  cell.error = all.error;
+  return cell;
+}
+
+BlockedCell BlockedCells::look(const Triangle3& corners) {
+  BlockedCell cell;
+  cell.corners = corners;
+  return evaluate(cell, degrees[0]);
+}
+
+void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>& next) {
+  std::size_t longest = 0;
+  const auto length = [&](std::size_t k) {
+    return (cell.corners[(k + 1) % 3] - cell.corners[k]).squaredNorm();
+  };
+  for (std::size_t k = 1; k < 3; ++k)
+    if (length(k) > length(longest)) longest = k;
+  const Vec3 &p = cell.corners[longest], &q = cell.corners[(longest + 1) % 3],
+             &r = cell.corners[(longest + 2) % 3];
+  const Vec3 middle = 0.5 * (p + q);
+  BlockedCell half = cell;
+  half.is_exact = false;
+  ++half.halvings;
+  const int degree = cell.is_lit ? degrees[0] : degrees[1];
+  for (const Triangle3& corners : {Triangle3{p, middle, r}, Triangle3{middle, q, r}}) {
+    half.corners = corners;
+    next.push_back(evaluate(half, degree));
+  }
+}
+
+void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
+                          std::vector<BlockedCell>& next) {
+  next.clear();
+  if (cell.is_dark && !cell.is_exact && cell.dark_levels >= static_cast<int>(share_of_gaps.size()))
+    return next.push_back(closed_form(cell));
+  const bool can_rise =
+      cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
+  if (!cell.is_lit && !cell.is_exact && can_rise) return next.push_back(raise(cell));
+  if (along_kinks && !cell.is_lit && !cell.is_smooth && add_sides_of_kink(cell, next)) return;
+  add_halves(cell, next);
+}
+
+}  // namespace halfshade

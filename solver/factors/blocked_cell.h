@@ -1,0 +1,91 @@
+#pragma once
+
+#include "solver/factors/mutual_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace halfshade {
+
+/// Of numbers; empty at first.
+struct Range {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+
+  double size() const { return most - least; }
+  void add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  void add(const Range& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+  /// How far another one reaches out of it.
+  double beyond(const Range& other) const {
+    return std::max({0., other.most - most, least - other.least});
+  }
+};
+
+/// A triangle of surface `a` over which is integrated what is hidden of surface `b`.
+struct BlockedCell {
+  Triangle3 corners;
+  int halvings = 0;             ///< of a first cell
+  int degree = 0;               ///< of the rule that `value` comes from
+  double value = 0;             ///< ∫ hidden part of the point factor, squared scene units
+  double error = 0;             ///< estimate of its absolute error
+  double spread = 0;            ///< between the values at its points
+  bool is_lit = false;          ///< its points see all of `b`
+  bool is_dark = false;         ///< its points see nothing
+  bool is_smooth = false;       ///< the same edges bound what all of its points see
+  bool is_exact = false;        ///< `value` is a closed form
+  int dark_levels = 0;          ///< times that it or what it is a part of was found dark
+  std::uint64_t signature = 0;  ///< of one of its points
+  /// Of its points, and of its corners once they were looked at.
+  Range hidden, visible, hidden_at_corners, visible_at_corners;
+};
+
+/// Evaluates cells of one pair of surfaces.
+class BlockedCells {
+ public:
+  BlockedCells(const SightScene& scene, int a, int b, const SightTolerance& tolerance)
+      : scene_(scene), a_(a), b_(b), tolerance_(tolerance) {}
+
+  /// A first look, by the rules of degree 1 and 2.
+  BlockedCell look(const Triangle3& corners);
+
+  /// Puts into `next` what is better than the cell alone: itself by a better rule, or parts of it.
+  /// With `along_kinks`, it is cut where what is seen of `b` changes, if that is one line.
+  void refine(const BlockedCell& cell, bool along_kinks, std::vector<BlockedCell>& next);
+
+  /// At which visible parts were found.
+  std::size_t points() const { return points_; }
+
+ private:
+  struct Sum;
+
+  PointFactor factor_at(const Vec3& point);
+  Sum sum_over(const Triangle3& corners, int degree);
+  BlockedCell evaluate(const BlockedCell& from, int degree);
+  BlockedCell raise(const BlockedCell& cell);
+  void estimate(const Sum& sum, BlockedCell& cell);
+  void estimate_dark(double whole, BlockedCell& cell);
+  void look_at_corners(BlockedCell& cell);
+  BlockedCell closed_form(const BlockedCell& dark) const;
+  void add_halves(const BlockedCell& cell, std::vector<BlockedCell>& next);
+  bool add_sides_of_kink(const BlockedCell& cell, std::vector<BlockedCell>& next);
+  Vec3 where_sight_changes(Vec3 from, Vec3 to, std::uint64_t signature);
+
+  const SightScene& scene_;
+  int a_, b_;
+  SightTolerance tolerance_;
+  std::size_t points_ = 0;
+};
+
+/// At most what may hide surface `b` from a triangle of surface `a`, as a mutual area: 0 if nothing
+/// comes between, else what the two see of all that reaches into their hull. Not a bound to the
+/// letter, for it is found from few points.
+double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b);
+
+}  // namespace halfshade

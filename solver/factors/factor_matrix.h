@@ -1,0 +1,72 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/core/scene.h"
+#include "solver/factors/factor_scene.h"
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+enum class FactorMethod {
+  exact,  ///< closed forms and exactly visible parts
+  rays    ///< counted rays
+};
+
+struct FactorOptions {
+  FactorUnit unit = FactorUnit::group;
+  FactorMethod method = FactorMethod::exact;
+  double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
+  int max_points = 300000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
+  int rays = 10000;         ///< of each row, FactorMethod::rays, ≥ 1
+  double sparse_below = 0;  ///< entries that cannot reach this are left out, ≥ 0
+  bool enforce = false;     ///< scale A F symmetrically until rows, with space, sum to one
+};
+
+/// How a matrix came about.
+struct FactorReport {
+  std::size_t clear_pairs = 0;    ///< of surfaces that nothing comes between
+  std::size_t partial_pairs = 0;  ///< that something may come between
+  std::size_t points = 0;         ///< at which exactly visible parts were found
+  std::size_t rays = 0;
+  int rows_not_reached = 0;      ///< with an entry that is less exact than asked for
+  double row_sum_error_max = 0;  ///< largest |row_sum − 1|
+  double backs_max = 0;          ///< largest share that is swallowed by backs
+  int backs_row = 0;             ///< which row that is of
+  std::size_t left_out = 0;      ///< entries below FactorOptions::sparse_below
+  bool is_enforced = false;      ///< rows were scaled,
+  double enforced_by = 0;        ///< an entry by at most this share
+  bool is_complete = true;       ///< false if stopped: entries are missing
+};
+
+using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Form factors between faces, groups or materials: F(row, column) is the share of what leaves the
+/// row's surface evenly and by Lambert's law that reaches the column's.
+struct FactorMatrix {
+  std::vector<std::string> names;
+  Eigen::ArrayXd area;     ///< squared scene units
+  RowMajorMatrix factors;  ///< F; area(i) F(i,j) = area(j) F(j,i) but for rounding
+  /// Share that meets no front: that leaves the scene, or is swallowed by `backs`. Found like a
+  /// factor, as light that arrives at a box round the scene or at a back, not as what is missing.
+  Eigen::ArrayXd space;
+  Eigen::ArrayXd backs;    ///< share that is swallowed by backs of one-sided faces
+  Eigen::ArrayXd row_sum;  ///< Σ F + space before anything was put right
+  Eigen::ArrayXd error;    ///< bound of the absolute error of each entry of the row, space with it
+  std::string unit;        ///< of lengths
+  FactorReport report;
+};
+
+/// Computes each pair of surfaces once: nothing for those that cannot see each other, closed forms
+/// where nothing is in between, else cubature of exact point factors; see factors.md. No emitter is
+/// needed. Throws as make_factor_scene does, and Error(too_large) if the matrix would not fit into
+/// memory. If stopped, what comes back is not complete. The same for any number of threads. Cost:
+/// n²/2 shafts for n surfaces.
+FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
+                                const Progress& progress = {});
+
+}  // namespace halfshade

@@ -1,0 +1,144 @@
+#include "solver/factors/factor_scene.h"
+
+#include "meshing/core/planar.h"
+#include "meshing/repair/repair.h"
+#include "meshing/triangulation/ring_triangles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+/// How far the box of the surroundings stands off, relative to the scene's diagonal. Far enough
+/// that nothing is singular there, and near enough to keep digits.
+constexpr double stand_off = 0.5;
+
+/// Adds the box of the surroundings as six faces of a group and a material of their own.
+void add_surroundings(Scene& scene) {
+  Eigen::AlignedBox3d box;
+  for (const Face& face : scene.faces)
+    for (const int v : face.vertices) box.extend(scene.vertices[at(v)]);
+  const Vec3 margin = Vec3::Constant(stand_off * box.diagonal().norm());
+  const int first = static_cast<int>(scene.vertices.size());
+  const Vec3 low = box.min() - margin, high = box.max() + margin;
+  for (int k = 0; k < 8; ++k)
+    scene.vertices.emplace_back((k & 1) ? high.x() : low.x(), (k & 2) ? high.y() : low.y(),
+                                (k & 4) ? high.z() : low.z());
+  scene.materials.emplace_back();
+  scene.groups.emplace_back();
+  // Counter-clockwise seen from inside.
+  constexpr int inside[6][4] = {{2, 6, 4, 0}, {5, 7, 3, 1}, {4, 5, 1, 0},
+                                {3, 7, 6, 2}, {1, 3, 2, 0}, {6, 7, 5, 4}};
+  for (const auto& corners : inside) {
+    Face face;
+    for (const int k : corners) face.vertices.push_back(first + k);
+    face.material = static_cast<int>(scene.materials.size()) - 1;
+    face.group = static_cast<int>(scene.groups.size()) - 1;
+    scene.faces.push_back(std::move(face));
+  }
+}
+
+/// Gives every face a group of its own, so that the repair joins none.
+void set_apart(Scene& scene) {
+  scene.groups.assign(scene.faces.size(), {});
+  for (std::size_t f = 0; f < scene.faces.size(); ++f) scene.faces[f].group = static_cast<int>(f);
+}
+
+Surface back_of(const Surface& front) {
+  Surface back = front;
+  back.back = true;
+  back.frame = {front.frame.origin, front.frame.e1, -front.frame.e2, -front.frame.normal};
+  const auto turn = [](std::vector<Ring>& rings) {
+    for (Ring& ring : rings) {
+      std::reverse(ring.begin(), ring.end());
+      for (Vec2& p : ring) p.y() = -p.y();
+    }
+  };
+  turn(back.rings);
+  turn(back.face_rings);
+  for (Segment2& line : back.contacts)
+    for (Vec2& p : line) p.y() = -p.y();
+  return back;
+}
+
+/// Whether a surface that looks the other way lies on some triangle's middle of this one.
+bool is_covered(const SoundScene& scene, const std::vector<int>& in_plane, const Surface& surface) {
+  std::vector<Vec2> corners;
+  for (const Ring& ring : surface.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+  for (const auto& t : ring_triangles(surface.rings)) {
+    const Vec3 middle =
+        surface.frame.to_space((corners[at(t[0])] + corners[at(t[1])] + corners[at(t[2])]) / 3);
+    for (const int s : in_plane) {
+      const Surface& other = scene.surfaces[at(s)];
+      if (other.frame.normal.dot(surface.frame.normal) < 0 &&
+          is_inside(other.rings, other.frame.to_plane(middle)))
+        return true;
+    }
+  }
+  return false;
+}
+
+void add_unused_backs(FactorScene& scene) {
+  SoundScene& sound = scene.sound;
+  std::map<int, std::vector<int>> in_plane;
+  for (std::size_t s = 0; s < sound.surfaces.size(); ++s)
+    in_plane[sound.surfaces[s].plane].push_back(static_cast<int>(s));
+  std::vector<Surface> backs;
+  for (std::size_t s = 0; s < sound.surfaces.size(); ++s) {
+    const Surface& surface = sound.surfaces[s];
+    if (scene.row[s] >= 0 && !surface.back && !is_covered(sound, in_plane[surface.plane], surface))
+      backs.push_back(back_of(surface));
+  }
+  for (Surface& back : backs) {
+    sound.surfaces.push_back(std::move(back));
+    scene.row.push_back(unused_back);
+  }
+}
+
+std::string name_of(const Scene& scene, FactorUnit unit, int id) {
+  if (unit == FactorUnit::face) return fmt::format("face {}", id + 1);
+  return unit == FactorUnit::group ? scene.groups[at(id)] : scene.materials[at(id)].name;
+}
+
+/// Which face, group or material a surface is of.
+int id_of(const Surface& surface, FactorUnit unit) {
+  if (unit == FactorUnit::material) return surface.material;
+  return unit == FactorUnit::face ? surface.faces.front() : surface.group;
+}
+
+}  // namespace
+
+FactorScene make_factor_scene(const Scene& scene, FactorUnit unit) {
+  validate(scene);
+  Scene surrounded = scene;
+  add_surroundings(surrounded);
+  if (unit == FactorUnit::face) set_apart(surrounded);
+  FactorScene result;
+  result.unit = scene.unit;
+  result.sound = make_sound(surrounded);
+  const std::vector<Surface>& surfaces = result.sound.surfaces;
+  const auto is_around = [&](const Surface& surface) {
+    return surface.faces.front() >= static_cast<int>(scene.faces.size());
+  };
+  std::map<std::pair<int, bool>, int> rows;
+  for (const Surface& surface : surfaces)
+    if (!is_around(surface)) rows.emplace(std::pair(id_of(surface, unit), surface.back), 0);
+  for (auto& [key, row] : rows) {
+    row = result.rows();
+    result.names.push_back(name_of(scene, unit, key.first) + (key.second ? " back" : ""));
+    result.areas.push_back(0);
+  }
+  for (const Surface& surface : surfaces) {
+    const int row = is_around(surface) ? surroundings : rows[{id_of(surface, unit), surface.back}];
+    result.row.push_back(row);
+    if (row >= 0) result.areas[at(row)] += area(surface);
+  }
+  add_unused_backs(result);
+  return result;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,69 @@
+#include "meshing/geometry/shaft.h"
+#include "solver/factors/blocked_cell.h"
+
+#include <algorithm>
+#include <span>
+
+namespace halfshade {
+namespace {
+
+double size_of_triangle(const Triangle3& t) {
+  return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm();
+}
+
+Polygon3 clipped(Polygon3 polygon, const Shaft& shaft) {
+  for (const Shaft::Side& side : shaft.sides) {
+    if (polygon.empty()) break;
+    polygon = clip_to_front(polygon, side.limit * side.normal, -side.normal);
+  }
+  return polygon;
+}
+
+/// From a point to either side of a polygon.
+double factor_to(const Vec3& point, const Vec3& normal, const Polygon3& polygon) {
+  const Polygon3 turned(polygon.rbegin(), polygon.rend());
+  return std::max(point_to_polygon(point, normal, polygon),
+                  point_to_polygon(point, normal, turned));
+}
+
+Vec3 middle_of(std::span<const Vec3> points) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+/// Mutual area of a cell and what may hide something from it, seen from both: one of them has
+/// points near enough to see it well.
+double hidden_by(const Triangle3& cell, const Vec3& normal, const Polygon3& blocker) {
+  const Vec3 blocker_area = area_vector(blocker);
+  const double size = blocker_area.norm();
+  if (!(size > 0)) return 0;
+  double most = factor_to(middle_of(cell), normal, blocker);
+  for (const Vec3& corner : cell) most = std::max(most, factor_to(corner, normal, blocker));
+  const Polygon3 outline(cell.begin(), cell.end());
+  const Vec3 middle = middle_of(blocker), up = blocker_area / size;
+  const double seen = std::max(factor_to(middle, up, outline), factor_to(middle, -up, outline));
+  return std::max(size_of_triangle(cell) * most, size * seen);
+}
+
+}  // namespace
+
+double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b) {
+  const PlaneFrame& plane = scene.surfaces[at(a)].frame;
+  double sum = 0;
+  for (const Polygon3& piece : scene.surfaces[at(b)].pieces) {
+    const Polygon3 other = clip_to_front(piece, plane.origin, plane.normal);
+    if (other.empty()) continue;
+    const std::vector<int> roots = roots_between(scene, part, a, other, b);
+    if (roots.empty()) continue;
+    const Shaft shaft = make_shaft(part, other, 0);
+    for (const int root : roots) {
+      const Triangle3 triangle = scene.reflecting.roots.triangle(root);
+      const Polygon3 between = clipped({triangle.begin(), triangle.end()}, shaft);
+      if (!between.empty()) sum += hidden_by(part, plane.normal, between);
+    }
+  }
+  return sum;
+}
+
+}  // namespace halfshade

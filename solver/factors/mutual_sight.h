@@ -1,0 +1,38 @@
+#pragma once
+
+#include "solver/exchange/form_factor.h"
+#include "solver/factors/sight_scene.h"
+
+#include <cstddef>
+
+namespace halfshade {
+
+/// How exact a mutual area is to be.
+struct SightTolerance {
+  double relative = 1e-9;    ///< of it, in (0, 1)
+  double absolute = 0;       ///< what is good enough in any case, squared scene units, ≥ 0
+  int max_points = 1000000;  ///< at which a pair is looked at, ≥ 1
+};
+
+/// Mutual area of what two surfaces see of each other.
+struct MutualSight {
+  double value = 0;        ///< A_a F(a,b) = A_b F(b,a), squared scene units
+  double error = 0;        ///< bound of its absolute error
+  std::size_t points = 0;  ///< at which visible parts were found
+  bool is_reached = true;  ///< the error is as small as asked for
+};
+
+/// Of two surfaces as if nothing were between them: mutual_area, by convex pieces.
+MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance);
+
+/// Of a part of surface `a` alone.
+MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
+                        const SightTolerance& tolerance);
+
+/// Of two surfaces that something may come between: what they would see without it less what it
+/// hides, by cubature of exact point factors over `a`; see factors.md. If stopped, the error is
+/// what it is by then, and is_reached false.
+MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
+                          const std::stop_token& stop = {});
+
+}  // namespace halfshade

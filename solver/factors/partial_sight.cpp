@@ -1,0 +1,150 @@
+#include "solver/factors/blocked_cell.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace halfshade {
+namespace {
+
+/// At how many points each of the two surfaces is tried before the better one is gone on with.
+constexpr std::size_t points_to_try = 150;
+
+/// Errors this many times too large are worth looking for kinks, about 30 points each: without,
+/// cells grow like the root of it.
+constexpr double far_off = 20;
+
+/// Errors of two sides that differ by less than this factor check each other.
+constexpr double comparable = 4;
+
+bool is_worse(const BlockedCell& a, const BlockedCell& b) { return a.error < b.error; }
+
+struct Total {
+  double value = 0, error = 0;
+};
+
+Total total_of(const std::vector<BlockedCell>& cells) {
+  Total total;
+  for (const BlockedCell& cell : cells) {
+    total.value += cell.value;
+    total.error += cell.error;
+  }
+  return total;
+}
+
+/// Cubature of what is hidden of one surface over the triangles of the other, the worst cell first.
+class HiddenIntegral {
+ public:
+  HiddenIntegral(const SightScene& scene, int a, int b, const FacingTriangles& facing,
+                 const SightTolerance& tolerance)
+      : evaluator_(scene, a, b, tolerance) {
+    for (const Triangle3& triangle : facing.triangles) cells_.push_back(evaluator_.look(triangle));
+    std::make_heap(cells_.begin(), cells_.end(), is_worse);
+    total_ = total_of(cells_);
+  }
+
+  const Total& total() const { return total_; }
+  std::size_t points() const { return evaluator_.points(); }
+
+  void refine_worst(bool along_kinks) {
+    std::pop_heap(cells_.begin(), cells_.end(), is_worse);
+    const BlockedCell worst = cells_.back();
+    cells_.pop_back();
+    evaluator_.refine(worst, along_kinks, next_);
+    total_.value -= worst.value;
+    total_.error -= worst.error;
+    for (const BlockedCell& cell : next_) {
+      total_.value += cell.value;
+      total_.error += cell.error;
+      cells_.push_back(cell);
+      std::push_heap(cells_.begin(), cells_.end(), is_worse);
+    }
+    // Sums of differences drift.
+    if (cells_.size() >= next_sum_) {
+      total_ = total_of(cells_);
+      next_sum_ = 2 * cells_.size();
+    }
+  }
+
+  void settle() { total_ = total_of(cells_); }
+
+ private:
+  BlockedCells evaluator_;
+  std::vector<BlockedCell> cells_, next_;
+  std::size_t next_sum_ = 64;
+  Total total_;
+};
+
+/// Two surfaces without what is between them.
+MutualSight unhidden(const SightScene& scene, int a, int b, const FacingTriangles& facing,
+                     const SightTolerance& tolerance) {
+  if (facing.is_all) return clear_sight(scene, a, b, tolerance);
+  MutualSight sum;
+  for (const Triangle3& triangle : facing.triangles) {
+    const MutualSight part = clear_sight(scene, triangle, b, tolerance);
+    sum.value += part.value;
+    sum.error += part.error;
+    sum.is_reached = sum.is_reached && part.is_reached;
+  }
+  return sum;
+}
+
+/// One side of a pair: what it sees unhidden, and what of that is hidden.
+struct OneSide {
+  MutualSight whole;
+  HiddenIntegral hidden;
+  SightTolerance tolerance;
+
+  OneSide(const SightScene& scene, int a, int b, const SightTolerance& asked)
+      : OneSide(scene, a, b, facing_triangles(scene, a, b), asked) {}
+
+  double value() const { return std::max(0., whole.value - hidden.total().value); }
+  double error() const { return whole.error + hidden.total().error; }
+  double allowed() const { return std::max(tolerance.absolute, tolerance.relative * value()); }
+  bool is_reached() const { return hidden.total().error <= allowed(); }
+  void refine_to(std::size_t points, const std::stop_token& stop) {
+    while (!is_reached() && hidden.points() < points && !stop.stop_requested())
+      hidden.refine_worst(hidden.total().error > far_off * allowed());
+    hidden.settle();
+  }
+
+ private:
+  OneSide(const SightScene& scene, int a, int b, const FacingTriangles& facing,
+          const SightTolerance& asked)
+      : whole(unhidden(scene, a, b, facing, asked)),
+        hidden(scene, a, b, facing, asked),
+        tolerance(asked) {}
+};
+
+}  // namespace
+
+MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
+                          const std::stop_token& stop) {
+  SightTolerance half = tolerance;  // for what is unhidden, and for what is hidden of it
+  half.absolute *= 0.5;
+  half.relative *= 0.5;
+  const auto most = static_cast<std::size_t>(tolerance.max_points);
+  OneSide first(scene, a, b, half);
+  first.refine_to(std::min(points_to_try, most), stop);
+  std::optional<OneSide> second;
+  if (!first.is_reached()) {
+    second.emplace(scene, b, a, half);
+    second->refine_to(std::min(points_to_try, most), stop);
+  }
+  const bool is_second_better = second && second->error() < first.error();
+  OneSide& better = is_second_better ? *second : first;
+  better.refine_to(most, stop);
+  MutualSight result = better.whole;
+  result.is_reached = result.is_reached && better.is_reached();
+  result.value = better.value();
+  result.error = better.error();
+  result.points = first.hidden.points() + (second ? second->hidden.points() : 0);
+  if (second) {
+    // Where both sides claim to be about as exact, what they say must not differ by more.
+    const OneSide& other = is_second_better ? first : *second;
+    if (other.error() < comparable * result.error)
+      result.error = std::max(result.error, std::abs(other.value() - result.value) - other.error());
+  }
+  return result;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,147 @@
+#include "solver/factors/surface_exchange.h"
+
+#include "meshing/core/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+struct Pair {
+  int other;
+  Sight sight;
+};
+
+/// For each surface with a row, those it may see: others with rows only once, and then all that
+/// have none.
+std::vector<std::vector<Pair>> find_pairs(const FactorScene& scene, const SightScene& sight,
+                                          const Progress& progress) {
+  const std::size_t count = sight.surfaces.size();
+  std::vector<std::vector<Pair>> pairs(count);
+  parallel_for(
+      count,
+      [&](std::size_t a) {
+        if (scene.row[a] < 0) return;
+        for (std::size_t b = 0; b < count; ++b) {
+          if (scene.row[b] >= 0 && b <= a) continue;
+          const int p = static_cast<int>(a), q = static_cast<int>(b);
+          const Sight seen = sight_between(sight, p, q);
+          if (seen != Sight::none) pairs[a].push_back({q, seen});
+        }
+      },
+      progress, "what surfaces see of each other");
+  return pairs;
+}
+
+/// Estimates are several times what entries are off by, and these add up like the root of their
+/// number: shares that fall like its fourth root keep rows of thousands near the tolerance.
+constexpr double root_of_row = 0.25;
+
+/// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
+/// entries are off independently of each other, hardly by more.
+class ErrorShares {
+ public:
+  ErrorShares(const FactorScene& scene, const std::vector<std::vector<Pair>>& pairs)
+      : scene_(scene), of_row_(at(scene.rows())), of_entry_(at(scene.rows())) {
+    for (std::size_t a = 0; a < pairs.size(); ++a)
+      for (const Pair& pair : pairs[a]) {
+        if (pair.sight != Sight::partial) continue;
+        const int row = scene.row[a], other = scene.row[at(pair.other)];
+        of_row_[at(row)] += 1;
+        if (other >= 0 && other != row) of_row_[at(other)] += 1;
+        entry(row, other) += 1;
+      }
+  }
+
+  /// Mutual area that a pair may be off by.
+  double share(int row, int other, double tolerance) const {
+    double area = scene_.areas[at(row)], in_row = of_row_[at(row)];
+    if (other >= 0) {
+      area = std::min(area, scene_.areas[at(other)]);
+      in_row = std::max(in_row, of_row_[at(other)]);
+    }
+    const auto found = of_entry_[at(key(row, other)[0])].find(key(row, other)[1]);
+    const double in_entry = found == of_entry_[at(key(row, other)[0])].end() ? 1 : found->second;
+    return tolerance * area / std::max({1., in_entry, std::pow(in_row, root_of_row)});
+  }
+
+ private:
+  /// Surroundings and backs are one entry.
+  static std::array<int, 2> key(int row, int other) {
+    return other < 0 ? std::array{row, -1} : std::array{std::min(row, other), std::max(row, other)};
+  }
+  double& entry(int row, int other) {
+    return of_entry_[at(key(row, other)[0])][key(row, other)[1]];
+  }
+
+  const FactorScene& scene_;
+  std::vector<double> of_row_;
+  std::vector<std::map<int, double>> of_entry_;
+};
+
+}  // namespace
+
+void RowExchange::add(int row, int other, double value, double error) {
+  if (other < 0) {
+    space[row] += value;
+    space_error[row] += error;
+    if (other == unused_back) backs[row] += value;
+    return;
+  }
+  // A pair within a row is seen from both sides.
+  mutual(row, other) += row == other ? 2 * value : value;
+  mutual(other, row) = mutual(row, other);
+  mutual_error(row, other) += row == other ? 2 * error : error;
+  mutual_error(other, row) = mutual_error(row, other);
+}
+
+void RowExchange::add(int row, int other, Sight sight, const MutualSight& seen) {
+  add(row, other, seen.value, seen.error);
+  (sight == Sight::clear ? report.clear_pairs : report.partial_pairs) += 1;
+  report.points += seen.points;
+}
+
+RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
+                           const FactorOptions& options, const Progress& progress) {
+  const auto pairs = find_pairs(scene, sight, progress);
+  const ErrorShares shares(scene, pairs);
+  std::vector<std::vector<MutualSight>> found(pairs.size());
+  std::vector<std::array<std::size_t, 2>> hard;  // surface and number of its pair
+  for (std::size_t a = 0; a < pairs.size(); ++a) {
+    found[a].resize(pairs[a].size());
+    for (std::size_t k = 0; k < pairs[a].size(); ++k)
+      if (pairs[a][k].sight == Sight::partial) hard.push_back({a, k});
+  }
+  // Half for pairs that are clear, and half for those that are not.
+  const double half = 0.5 * options.tolerance;
+  const auto see_clear = [&](std::size_t a) {
+    for (std::size_t k = 0; k < pairs[a].size(); ++k)
+      if (pairs[a][k].sight == Sight::clear)
+        found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
+                                  {half, 0, options.max_points});
+  };
+  const auto see_partial = [&](std::size_t h) {
+    const auto [a, k] = hard[h];
+    int own = static_cast<int>(a), other = pairs[a][k].other;
+    const double share = shares.share(scene.row[a], scene.row[at(other)], half);
+    // From the smaller one the larger looks more alike.
+    if (sight.surfaces[at(other)].area < sight.surfaces[at(own)].area) std::swap(own, other);
+    found[a][k] =
+        partial_sight(sight, own, other, {half, share, options.max_points}, progress.stop);
+  };
+  RowExchange exchange(scene.rows());
+  exchange.report.is_complete =
+      parallel_for(pairs.size(), see_clear, progress, "form factors") &&
+      parallel_for(hard.size(), see_partial, progress, "hidden form factors") &&
+      !progress.stopped();
+  for (std::size_t a = 0; a < pairs.size(); ++a)
+    for (std::size_t k = 0; k < found[a].size(); ++k)
+      exchange.add(scene.row[a], scene.row[at(pairs[a][k].other)], pairs[a][k].sight, found[a][k]);
+  return exchange;
+}
+
+}  // namespace halfshade

@@ -1,0 +1,149 @@
+#include "solver/factors/factor_matrix.h"
+#include "solver/factors/mutual_sight.h"
+#include "tests/support/analytic.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+struct Span {
+  double low, high;
+};
+
+/// A sheet parallel to the unit squares in z = 0 and z = 1, at height h.
+struct Sheet {
+  Span x, y;
+  double h;
+};
+
+/// What a point of the lower square sees of the upper one through everything but the sheet, in one
+/// coordinate: [0, 1] and the sheet's shadow in it, relative to the point.
+Span shadow(double at, Span sheet, double h) {
+  const auto clip = [&](double v) { return std::clamp(at + (v - at) / h, 0., 1.); };
+  return {clip(sheet.low) - at, clip(sheet.high) - at};
+}
+
+/// Where that is not smooth: the shadow's limits pass those of the square.
+std::vector<double> breaks(Span sheet, double h) {
+  std::vector<double> result = {0, 1};
+  for (const double v : {sheet.low, sheet.high})
+    for (const double limit : {0., 1.})
+      if (const double at = (v - limit * h) / (1 - h); at > 0 && at < 1) result.push_back(at);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// ∫ f over the pieces, by Gauss's rule with five points in parts of each.
+template <class F>
+double integrate(const std::vector<double>& breaks, F f) {
+  constexpr double x[] = {0, 0.5384693101056831, 0.9061798459386640};
+  constexpr double w[] = {0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  constexpr int parts = 16;
+  double sum = 0;
+  for (std::size_t k = 0; k + 1 < breaks.size(); ++k) {
+    const double half = 0.5 * (breaks[k + 1] - breaks[k]) / parts;
+    for (int p = 0; p < parts; ++p) {
+      const double middle = breaks[k] + (2 * p + 1) * half;
+      sum += half * w[0] * f(middle);
+      for (int i = 1; i < 3; ++i)
+        sum += half * w[i] * (f(middle - half * x[i]) + f(middle + half * x[i]));
+    }
+  }
+  return sum;
+}
+
+/// Form factor between the squares: a closed form at points, integrated between its kinks.
+double expected_factor(const Sheet& sheet) {
+  const double hidden = integrate(breaks(sheet.x, sheet.h), [&](double x) {
+    const Span in_x = shadow(x, sheet.x, sheet.h);
+    return integrate(breaks(sheet.y, sheet.h), [&](double y) {
+      const Span in_y = shadow(y, sheet.y, sheet.h);
+      return test::point_parallel_rectangle(in_x.low, in_x.high, in_y.low, in_y.high, 1);
+    });
+  });
+  return test::opposed_rectangles(1, 1, 1) - hidden;
+}
+
+Scene scene_of(const Sheet& sheet) {
+  Scene scene;
+  const int material = test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
+  test::add_polygon(scene, {{0, 0, 1}, {0, 1, 1}, {1, 1, 1}, {1, 0, 1}}, material);
+  const auto [x, y, h] = sheet;
+  test::add_polygon(
+      scene, {{x.low, y.low, h}, {x.high, y.low, h}, {x.high, y.high, h}, {x.low, y.high, h}},
+      material);
+  return scene;
+}
+
+FactorMatrix factors(const Scene& scene, double tolerance) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  options.tolerance = tolerance;
+  return form_factor_matrix(scene, options);
+}
+
+const std::vector<Sheet> sheets = {{{.25, .75}, {.25, .75}, .5},  {{.1, .4}, {.3, .95}, .3},
+                                   {{.4, .6}, {.45, .55}, .7},    {{.49, .51}, {.49, .51}, .5},
+                                   {{-.3, .5}, {.2, 1.4}, .4},    {{.2, .7}, {.3, .6}, .05},
+                                   {{.31, .62}, {.17, .48}, .01}, {{.05, .95}, {.05, .95}, .9}};
+
+/// Factor between the squares and its error.
+MutualSight see(const Sheet& sheet, double tolerance) {
+  const FactorScene sound = make_factor_scene(scene_of(sheet), FactorUnit::face);
+  const SightScene sight = make_sight_scene(sound.sound);
+  return partial_sight(sight, 0, 1, {tolerance, tolerance, 300000});
+}
+
+TEST(HiddenFactors, SquaresWithASheetBetweenThem) {
+  for (const Sheet& sheet : sheets) {
+    const MutualSight seen = see(sheet, 1e-7);
+    EXPECT_NEAR(seen.value, expected_factor(sheet), 1e-7) << sheet.h;
+    EXPECT_TRUE(seen.is_reached) << sheet.h;
+  }
+}
+
+TEST(HiddenFactors, TheErrorIsABound) {
+  for (const Sheet& sheet : sheets) {
+    const double expected = expected_factor(sheet);
+    for (const double tolerance : {3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6}) {
+      const MutualSight seen = see(sheet, tolerance);
+      EXPECT_LE(std::abs(seen.value - expected), seen.error) << sheet.h << " " << tolerance;
+      EXPECT_LE(seen.error, 1.01 * tolerance);
+    }
+  }
+}
+
+TEST(HiddenFactors, RowsSumToOne) {
+  for (const Sheet& sheet : sheets)
+    EXPECT_LT((factors(scene_of(sheet), 1e-4).row_sum - 1).abs().maxCoeff(), 2e-4) << sheet.h;
+}
+
+TEST(HiddenFactors, TinyThingsAreNotOverlooked) {
+  // What six of 0.01 × 0.01 hide of each other is next to nothing.
+  Scene scene = scene_of({{.2, .21}, {.7, .71}, .01});
+  double expected =
+      test::opposed_rectangles(1, 1, 1) - expected_factor({{.2, .21}, {.7, .71}, .01});
+  for (int k = 1; k < 6; ++k) {
+    const Sheet sheet{{.12 * k, .12 * k + .01}, {.6 - .06 * k, .61 - .06 * k}, .03 + .13 * k};
+    const int first = static_cast<int>(scene.vertices.size());
+    const Scene other = scene_of(sheet);
+    Face face = other.faces[2];
+    for (int& v : face.vertices) v += first - 8;
+    scene.vertices.insert(scene.vertices.end(), other.vertices.begin() + 8, other.vertices.end());
+    scene.faces.push_back(face);
+    expected += test::opposed_rectangles(1, 1, 1) - expected_factor(sheet);
+  }
+  const FactorMatrix matrix = factors(scene, 1e-4);
+  const double hidden = test::opposed_rectangles(1, 1, 1) - matrix.factors(0, 1);
+  EXPECT_NEAR(hidden, expected, 0.02 * expected + matrix.error[0]);
+  EXPECT_GT(hidden, 0);
+}
+
+}  // namespace
+}  // namespace halfshade

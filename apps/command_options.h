@@ -51,6 +51,9 @@ CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, co
 /// Several, separated by commas.
 CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>& values,
                            const char* help);
+/// Two rising numbers, separated by a comma.
+CLI::Option* add_range(CLI::App& app, const char* name, std::optional<ValueRange>& value,
+                       const char* help);
 CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
                         const char* help);
 

@@ -44,6 +44,8 @@ void add_force(CLI::App& app, ForcedStages& force);
 /// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                        const char* help);
+CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                      const char* help);
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
                         const char* help);
 CLI::Option* add_positive(CLI::App& app, const char* name, double& value, const char* help);

@@ -54,6 +54,13 @@ CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<i
       ->type_name("N");
 }
 
+CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                      const char* help) {
+  const std::string what = fmt::format("an even number from {} to {}", range[0], range[1]);
+  const auto is_good = [range](int v) { return v >= range[0] && v <= range[1] && v % 2 == 0; };
+  return app.add_option(name, value, help)->check(check<int>(what, is_good))->type_name("N");
+}
+
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
                         const char* help) {
   const std::string what = fmt::format("a number from {} to {}", range[0], range[1]);

@@ -18,7 +18,7 @@ const Rgb ink = Rgb::Constant(0.8), faint = Rgb::Constant(0.2);
 /// Font size, as a share of the picture's height and at least and at most in pixels.
 constexpr double text_share = 1 / 42., least_text = 9, most_text = 60;
 /// Lengths in font sizes.
-constexpr double margin = 0.8, bar_width = 1.4, label_gap = 0.6, line_height = 1.35,
+constexpr double legend_margin = 0.8, bar_width = 1.4, label_gap = 0.6, line_height = 1.35,
                  tick_distance = 2.2;
 /// Decades over which 2 and 5 have room, too.
 constexpr double short_legend = 3;
@@ -54,7 +54,7 @@ struct Bar {
 Bar bar_of(const Legend& legend, int picture_height) {
   const double size = text_size(picture_height);
   const double lines = static_cast<double>(legend.title.size()) + 1;
-  return {size, std::min(margin * size + line_height * size * lines, picture_height - 1.),
+  return {size, std::min(legend_margin * size + line_height * size * lines, picture_height - 1.),
           std::max(picture_height - 1.5 * size, 1.)};
 }
 
@@ -124,14 +124,14 @@ int legend_width(const Legend& legend, int picture_height) {
   double width = (bar_width + label_gap) * bar.size + text;
   for (const std::string& line : legend.title)
     width = std::max<double>(width, text_width(line, bar.size));
-  return static_cast<int>(std::ceil(width + 2 * margin * bar.size));
+  return static_cast<int>(std::ceil(width + 2 * legend_margin * bar.size));
 }
 
 void draw_legend(LineCanvas& canvas, int x, const Legend& legend) {
   const Bar bar = bar_of(legend, canvas.height());
   canvas.fill(x, 0, canvas.width() - x, canvas.height(), background);
-  const double left = x + margin * bar.size;
-  double base = margin * bar.size + 0.8 * bar.size;
+  const double left = x + legend_margin * bar.size;
+  double base = legend_margin * bar.size + 0.8 * bar.size;
   for (const std::string& line : legend.title) {
     draw_text(canvas, {left, base}, line, {bar.size, Anchor::start, ink});
     base += line_height * bar.size;

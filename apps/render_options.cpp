@@ -39,8 +39,10 @@ void add_quantity(CLI::App& app, RenderCommand& command) {
            "Of the array: mean of its components, R, G, B or a number from 0")
       ->type_name("CHANNEL")
       ->capture_default_str();
-  add_range(app, "--range", command.colours.range,
-            "What the colours stand for (default: 98 % of what is seen)");
+  add_range(
+      app, "--range", command.colours.range,
+      "What the colours stand for, with --compare those of the difference (default: 98 % of what\n"
+      "is seen)");
   add_choice(
       app, "--scale", {"linear", "log"},
       [&command](std::size_t k) {
@@ -73,12 +75,13 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
   add_quantity(app, command);
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.footer(footer(
-      "Examples:\n"
-      "  halfshade render cornell.vtu -o cornell.png --mesh\n"
-      "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
-      "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n"
-      "  halfshade render s1.vtu -o h.png --quantity irradiance --scale log --width 400\n\n"));
+  app.footer(
+      footer("Examples:\n"
+             "  halfshade render cornell.vtu -o cornell.png --mesh\n"
+             "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
+             "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n"
+             "  halfshade render s1.vtu -o h.png --quantity irradiance --scale log --width 400 "
+             "--height 300\n\n"));
 }
 
 }  // namespace halfshade

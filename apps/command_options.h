@@ -45,6 +45,8 @@ void add_force(CLI::App& app, ForcedStages& force);
 /// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                        const char* help);
+CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                      const char* help);
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
                         const char* help);
 CLI::Option* add_positive(CLI::App& app, const char* name, double& value, const char* help);
@@ -52,6 +54,9 @@ CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, co
 /// Several, separated by commas.
 CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>& values,
                            const char* help);
+/// Two rising numbers, separated by a comma.
+CLI::Option* add_range(CLI::App& app, const char* name, std::optional<ValueRange>& value,
+                       const char* help);
 CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,
                         const char* help);
 

@@ -2,6 +2,7 @@
 
 #include "io/picture/curve_picture.h"
 #include "io/picture/picture.h"
+#include "io/picture/value_picture.h"
 #include "io/study/study.h"
 #include "io/write/write_result.h"
 #include "meshing/core/progress.h"
@@ -80,6 +81,12 @@ struct RenderCommand {
   std::optional<Vec3> position, target, up;
   double vertical_fov = 40;
   PictureOptions options;
+  std::string quantity;           ///< in false colours; empty: the light itself
+  std::string channel = "mean";   ///< of the quantity
+  ValuePictureOptions colours;    ///< of the quantity
+  std::filesystem::path curves;   ///< drawn over the picture; empty: none
+  std::filesystem::path compare;  ///< what is subtracted; empty: nothing
+  bool side_by_side = false;      ///< both and the difference
 };
 
 struct ProbeCommand {

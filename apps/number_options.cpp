@@ -34,6 +34,15 @@ CLI::Option* add_real(CLI::App& app, const char* name, double& value, const CLI:
   return app.add_option(name, value, help)->check(valid)->type_name(type);
 }
 
+/// Both ends of "lo,hi".
+std::optional<ValueRange> parsed_range(const std::string& text) {
+  const std::size_t comma = std::min(text.find(','), text.size());
+  const auto low = parsed<double>(text.substr(0, comma));
+  const auto high = parsed<double>(text.substr(std::min(comma + 1, text.size())));
+  if (!low || !high || !std::isfinite(*low) || !std::isfinite(*high)) return std::nullopt;
+  return ValueRange{*low, *high};
+}
+
 }  // namespace
 
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
@@ -43,6 +52,13 @@ CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<i
   return app.add_option(name, value, help)
       ->check(check<int>(what, [range](int v) { return v >= range[0] && v <= range[1]; }))
       ->type_name("N");
+}
+
+CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
+                      const char* help) {
+  const std::string what = fmt::format("an even number from {} to {}", range[0], range[1]);
+  const auto is_good = [range](int v) { return v >= range[0] && v <= range[1] && v % 2 == 0; };
+  return app.add_option(name, value, help)->check(check<int>(what, is_good))->type_name("N");
 }
 
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,
@@ -72,6 +88,26 @@ CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>&
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NUMBER,…");
+}
+
+CLI::Option* add_range(CLI::App& app, const char* name, std::optional<ValueRange>& value,
+                       const char* help) {
+  const CLI::Validator is_range(
+      [](const std::string& text) -> std::string {
+        const auto range = parsed_range(text);
+        if (!range) return fmt::format("'{}' is not two numbers with a comma between them", text);
+        return range->low < range->high ? ""
+                                        : fmt::format(
+                                              "'{}' does not rise: the lower end comes "
+                                              "first",
+                                              text);
+      },
+      "");
+  return app
+      .add_option_function<std::string>(
+          name, [&value](const std::string& text) { value = parsed_range(text); }, help)
+      ->check(is_range)
+      ->type_name("LOW,HIGH");
 }
 
 CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& value,

@@ -1,24 +1,28 @@
 #include "apps/command_files.h"
 #include "apps/console.h"
+#include "apps/render_pictures.h"
 #include "apps/run_end.h"
+#include "io/picture/radiance_picture.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace halfshade {
 namespace {
+
+constexpr FileFormats render_formats = {"pictures", {".png", ".hdr"}};
 
 CommandFiles checked_files(const RenderCommand& command, const CommonOptions& common) {
   CommandFiles files = has_format(command.input, shaded_formats)
                            ? CommandFiles{{{"INPUT", command.input}}, {{"--json", common.json}}}
                            : scene_files(command.input, command.materials, common);
+  files.inputs.push_back({"--curves", command.curves});
+  files.inputs.push_back({"--compare", command.compare});
   add_outputs(files, "-o", {command.output});
   require_apart(files);
   require_place(common.json);
-  check_output(command.output, picture_formats);
+  check_output(command.output, render_formats);
   return files;
 }
 
@@ -34,8 +38,8 @@ SoundScene sound_for_picture(const Scene& scene) {
   }
 }
 
-ShadedMesh load(const RenderCommand& command, const CommandFiles& files, const Context& context) {
-  if (has_format(command.input, shaded_formats)) return read_shaded(command.input);
+ShadedMesh load_scene(const RenderCommand& command, const CommandFiles& files,
+                      const Context& context) {
   const SceneFile file =
       read_scene(command.input, command.materials, context.common.orientation, files);
   ShadedMesh mesh = shaded(sound_for_picture(file.scene), file.scene.cameras);
@@ -43,52 +47,63 @@ ShadedMesh load(const RenderCommand& command, const CommandFiles& files, const C
   return mesh;
 }
 
-Camera named_camera(const ShadedMesh& mesh, const RenderCommand& command) {
-  if (command.camera.empty()) return default_camera(mesh);
-  const auto found = std::find_if(mesh.cameras.begin(), mesh.cameras.end(),
-                                  [&](const Camera& c) { return c.name == command.camera; });
-  if (found != mesh.cameras.end()) return *found;
-  std::string names;
-  for (const Camera& camera : mesh.cameras) names += (names.empty() ? "" : ", ") + camera.name;
-  throw Error(ErrorCode::usage, command.input.string(),
-              fmt::format("there is no camera '{}'; the file has {}", command.camera,
-                          names.empty() ? "none" : names));
+void print_rendering(const RenderReport& report, const Context& context) {
+  if (report.exposure > 0) fmt::print(context.summary, "exposure     {:.4g}\n", report.exposure);
+  if (report.quantity.name.empty()) return;
+  const std::string unit = report.quantity.unit.empty() ? "" : " " + report.quantity.unit;
+  fmt::print(context.summary, "range        {:.4g} to {:.4g}{}\n", report.range.low,
+             report.range.high, unit);
+  if (report.difference)
+    fmt::print(context.summary,
+               "difference   {:.3g}{} (root mean square of what is seen), {:.2g} of the other; "
+               "largest {:.3g}\n",
+               report.difference->rms, unit, report.difference->relative,
+               report.difference->largest);
 }
 
-Camera choose_camera(const ShadedMesh& mesh, const RenderCommand& command) {
-  Camera camera = named_camera(mesh, command);
-  if (command.position) {
-    camera.position = *command.position;
-    camera.vertical_fov = command.vertical_fov;
+ExitCode finish(const RenderCommand& command, const RenderReport& report, const Context& context) {
+  if (!context.common.json.empty())
+    write_report(report, run_info(context, exit_done, {command.output}), context.common.json);
+  if (!context.common.quiet) {
+    print_rendering(report, context);
+    print_outputs(context, {command.output});
   }
-  if (command.target) camera.direction = *command.target - camera.position;
-  if (command.up) camera.up = *command.up;
-  if (!(camera.direction.cross(camera.up).norm() >
-        least_sine * camera.direction.norm() * camera.up.norm()))
-    throw Error(ErrorCode::usage, "render",
-                "the camera looks along its up vector or nowhere; give another --up or --target");
-  return camera;
+  return exit_done;
+}
+
+ExitCode run_radiance(const RenderCommand& command, const Context& context) {
+  const ShadedMesh mesh = read_shaded(command.input);
+  const Camera camera = chosen_camera(mesh, command);
+  const RadiancePicture picture = draw_radiance(mesh, camera, command.options, context.progress);
+  context.progress_ends();
+  if (context.progress.stopped()) return end_without_results();
+  write_hdr(picture, command.output);
+  return finish(command, {picture.width, picture.height, 0, camera, {}, {}, {}}, context);
+}
+
+Rendering rendered(const RenderCommand& command, const CommandFiles& files,
+                   const Context& context) {
+  if (!has_format(command.input, shaded_formats))
+    return render_light(load_scene(command, files, context), command, context.progress);
+  const ResultFile file = read_result(command.input);
+  if (!command.compare.empty())
+    return render_difference(file, read_result(command.compare), command, context.progress);
+  if (!command.quantity.empty()) return render_quantity(file, command, context.progress);
+  return render_light(shaded(file), command, context.progress);
 }
 
 }  // namespace
 
 ExitCode run(const RenderCommand& command, const Context& context) {
+  require_meaning(command);
   const CommandFiles files = checked_files(command, context.common);
-  const ShadedMesh mesh = load(command, files, context);
-  const Camera camera = choose_camera(mesh, command);
-  const Picture picture = draw(mesh, camera, command.options, context.progress);
+  if (has_format(command.output, radiance_formats)) return run_radiance(command, context);
+  const Rendering rendering = rendered(command, files, context);
   context.progress_ends();
   // A picture does not show what of it is missing.
   if (context.progress.stopped()) return end_without_results();
-  write_png(picture, command.output);
-  if (!context.common.json.empty())
-    write_report(RenderReport{picture.width, picture.height, picture.exposure, camera},
-                 run_info(context, exit_done, {command.output}), context.common.json);
-  if (!context.common.quiet) {
-    fmt::print(context.summary, "exposure     {:.4g}\n", picture.exposure);
-    print_outputs(context, {command.output});
-  }
-  return exit_done;
+  write_png(rendering.picture, command.output);
+  return finish(command, rendering.report, context);
 }
 
 }  // namespace halfshade

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+
 namespace halfshade {
 namespace {
 
@@ -28,6 +30,36 @@ void add_picture(CLI::App& app, PictureOptions& options) {
   app.add_flag("--mesh", options.mesh_lines, "Draw the element edges");
 }
 
+void add_quantity(CLI::App& app, RenderCommand& command) {
+  add_text(app, "--quantity", command.quantity,
+           "Draw an array of the result in false colours, with a legend beside the picture:\n"
+           "radiosity, irradiance, direct_irradiance, error_estimate, order, region, …")
+      ->type_name("ARRAY");
+  add_text(app, "--channel", command.channel,
+           "Of the array: mean of its components, R, G, B or a number from 0")
+      ->type_name("CHANNEL")
+      ->capture_default_str();
+  add_range(
+      app, "--range", command.colours.range,
+      "What the colours stand for, with --compare those of the difference (default: 98 % of what\n"
+      "is seen)");
+  add_choice(
+      app, "--scale", {"linear", "log"},
+      [&command](std::size_t k) {
+        command.colours.scale = std::array{ValueScale::linear, ValueScale::log}.at(k);
+      },
+      "Of the colours");
+  add_file(app, "--curves", command.curves,
+           "Draw curves of mesh --curves (.vtp) over it, where they are seen: D0 red, D1 blue,\n"
+           "D2 pink, of three edges yellow");
+  CLI::Option* compare =
+      add_file(app, "--compare", command.compare,
+               "Draw INPUT minus this result of the same scene (default --quantity: radiosity)");
+  app.add_flag("--side-by-side", command.side_by_side,
+               "Draw INPUT, the other and the difference beside each other")
+      ->needs(compare);
+}
+
 }  // namespace
 
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common) {
@@ -40,13 +72,16 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
   add_materials(app, command.materials, "Materials file, as for solve (scenes only)");
   add_camera(app, command);
   add_picture(app, command.options);
+  add_quantity(app, command);
   add_orientation(app, common.orientation);
   add_common(app, common);
   app.footer(
       footer("Examples:\n"
              "  halfshade render cornell.vtu -o cornell.png --mesh\n"
              "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
-             "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n\n"));
+             "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n"
+             "  halfshade render s1.vtu -o h.png --quantity irradiance --scale log --width 400 "
+             "--height 300\n\n"));
 }
 
 }  // namespace halfshade

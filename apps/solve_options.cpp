@@ -57,8 +57,19 @@ void add_light(CLI::App& app, SolveOptions& options) {
       },
       "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
       "by whichever takes less time ('auto')");
+  add_choice(
+      app, "--factors", {"rays", "hemicube", "exact"},
+      [&options](std::size_t k) {
+        options.exchange.factors =
+            std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
+      },
+      "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
+      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact')");
+  add_even(app, "--hemicube", options.exchange.hemicube_pixels, {2, 4096},
+           "Pixels along an edge of hemicubes")
+      ->capture_default_str();
   add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
-            "Visibility rays for a pair of elements, on average, with --method matrix")
+            "Visibility rays for a pair of elements, on average, with --factors rays")
       ->capture_default_str();
   add_choice(
       app, "--solver",
@@ -125,6 +136,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       "  halfshade solve data/cornell_box.obj -o cornell.vtu -o cornell.ply -o cornell.png\n"
       "  halfshade solve data/l_room.obj --elements 3000 --bounces 1 -o l_room.vtu\n"
       "  halfshade solve data/s1.obj --tolerance 1e-6 -o s1.vtu\n"
+      "  halfshade solve data/s1.obj --method matrix --factors hemicube --hemicube 32 -o "
+      "s1_cube.vtu\n"
       "  halfshade solve data/furnace_cube.obj --method matrix --elements 600 --json report.json "
       "-q\n\n"));
 }

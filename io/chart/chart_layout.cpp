@@ -1,6 +1,6 @@
 #include "io/chart/chart_layout.h"
 
-#include "io/chart/log_axis.h"
+#include "io/picture/log_axis.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/picture/text.h"
 #include "meshing/core/types.h"
 
 #include <cstdint>
@@ -23,8 +24,6 @@ struct DrawnArea {
   std::vector<Vec2> corners;
   Colour colour = 0;
 };
-
-enum class Anchor { start, middle, end };
 
 struct DrawnText {
   Vec2 place;  ///< of the base line's start, middle or end

@@ -1,11 +1,5 @@
 #include "io/chart/drawing.h"
-#include "io/picture/line_canvas.h"
-
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkStdString.h>
-#include <vtkTextProperty.h>
-#include <vtkTextRenderer.h>
+#include "io/picture/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,36 +58,9 @@ void draw(const DrawnLine& line, double scale, LineCanvas& canvas) {
   }
 }
 
-/// VTK's own font, by FreeType: the same on every machine, and without a display.
 void draw(const DrawnText& text, double scale, LineCanvas& canvas) {
-  constexpr int dots_per_inch = 72;  // one a point of the font's size
-  vtkNew<vtkTextProperty> property;
-  property->SetFontFamilyToArial();
-  property->SetFontSize(static_cast<int>(std::lround(scale * text.size)));
-  property->SetColor(1, 1, 1);
-  vtkNew<vtkImageData> image;
-  int size[2] = {0, 0};
-  if (text.text.empty() || !vtkTextRenderer::GetInstance()->RenderString(property, text.text, image,
-                                                                         size, dots_per_inch))
-    return;
-  int box[4];
-  vtkTextRenderer::GetInstance()->GetBoundingBox(property, text.text, box, dots_per_inch);
-  const double share = text.anchor == Anchor::start ? 0 : text.anchor == Anchor::middle ? 0.5 : 1;
-  const int shift = static_cast<int>(std::lround(-share * size[0]));
-  const int x0 = static_cast<int>(std::lround(scale * text.place.x()));
-  const int y0 = static_cast<int>(std::lround(scale * text.place.y()));
-  for (int row = 0; row < size[1]; ++row)
-    for (int column = 0; column < size[0]; ++column) {
-      const auto* pixel =
-          static_cast<const unsigned char*>(image->GetScalarPointer(column, row, 0));
-      const int along = shift + column, up = box[2] + row;
-      const double covered = pixel[3] / 255.;
-      if (covered <= 0) continue;
-      if (text.upwards)
-        canvas.blend(x0 - up, y0 - along, covered, linear(text.colour));
-      else
-        canvas.blend(x0 + along, y0 - up, covered, linear(text.colour));
-    }
+  draw_text(canvas, scale * text.place, text.text,
+            {scale * text.size, text.anchor, linear(text.colour), text.upwards});
 }
 
 }  // namespace

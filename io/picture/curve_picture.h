@@ -39,6 +39,12 @@ Picture draw_curves(const SoundScene& scene, const DirectLightIndex& light,
                     const Discontinuities& found, std::span<const int> surfaces,
                     const CurvePictureOptions& options = {}, const Progress& progress = {});
 
+inline constexpr FileFormats overlay_formats = {"curves to draw", {".vtp"}};
+
+/// Reads curves that write_curves has written, in the colours of their order, the lowest order
+/// last. Throws Error(invalid_input) for anything else, whatever is in the file.
+std::vector<OverlaidCurve> read_curves(const std::filesystem::path& path);
+
 /// Colours as bytes of sRGB.
 std::array<std::uint8_t, 3> curve_colour(const DiscontinuityCurve& curve, CurveColour by);
 

@@ -8,13 +8,14 @@
 
 namespace halfshade::detail {
 
-Rgb decode_srgb(const std::array<std::uint8_t, 3>& bytes) {
+Rgb linear_of_srgb(const Rgb& encoded) {
   // IEC 61966-2-1.
-  const auto decode = [](std::uint8_t byte) {
-    const double v = byte / 255.;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
-  return {decode(bytes[0]), decode(bytes[1]), decode(bytes[2])};
+  return encoded.unaryExpr(
+      [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); });
+}
+
+Rgb decode_srgb(const std::array<std::uint8_t, 3>& bytes) {
+  return linear_of_srgb(Rgb(bytes[0] / 255., bytes[1] / 255., bytes[2] / 255.));
 }
 
 LineCanvas::LineCanvas(int width, int height, const Rgb& background)
@@ -28,6 +29,12 @@ void LineCanvas::blend(int x, int y, double share, const Rgb& colour) {
   Rgb& pixel = colours_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                         static_cast<std::size_t>(x)];
   pixel += share * (colour - pixel);
+}
+
+void LineCanvas::fill(int x, int y, int width, int height, const Rgb& colour) {
+  for (int row = std::max(y, 0); row < std::min(y + height, height_); ++row)
+    for (int column = std::max(x, 0); column < std::min(x + width, width_); ++column)
+      colours_[at(row) * at(width_) + at(column)] = colour;
 }
 
 void LineCanvas::line(std::span<const Vec2> points, double width, const Rgb& colour) {

@@ -8,19 +8,20 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace halfshade {
 
-/// Triangles that carry light, ready to be drawn.
+/// Triangles that carry radiosity in W/m², or another quantity, ready to be drawn.
 struct ShadedMesh {
   std::vector<Vec3> points;
   std::vector<std::array<int, 3>> triangles;
   /// [k]: whether the edge from corner k to k+1 is one of an element; empty: all are.
   std::vector<std::array<bool, 3>> is_border;
-  std::vector<Rgb> point_radiosity;     ///< W/m²
-  std::vector<Rgb> triangle_radiosity;  ///< W/m²
+  std::vector<Rgb> point_value;  ///< empty: each triangle has one value
+  std::vector<Rgb> triangle_value;
   std::vector<std::uint8_t> emits;  ///< 1 for triangles with exitance; the exposure ignores them
   std::vector<Camera> cameras;
   bool headlight =
@@ -36,8 +37,8 @@ ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras);
 
 inline constexpr FileFormats shaded_formats = {"results to draw", {".vtu", ".vtp"}};
 
-/// Reads a .vtu or .vtp that write_result has written. Throws Error(invalid_input) for anything
-/// else, whatever is in the file.
+/// Reads the light of a .vtu or .vtp that write_result has written. Throws Error(invalid_input) for
+/// anything else, whatever is in the file.
 ShadedMesh read_shaded(const std::filesystem::path& path);
 
 /// Limits of what is drawn.
@@ -49,12 +50,20 @@ inline constexpr double least_sine = 1e-9;
 
 enum class Shading { smooth, flat };
 
+/// A line in space, drawn over a picture where the surface it lies on is seen.
+struct OverlaidCurve {
+  std::vector<Vec3> points;
+  std::array<std::uint8_t, 3> colour{};  ///< sRGB
+};
+
 struct PictureOptions {
   int width = 800, height = 800;  ///< pixels, 1…most_pixels
   int samples = 16;               ///< rays per pixel, 1…most_samples; rounded up to a square
   double exposure = 0;  ///< factor from W/m² to [0,1] display values; 0: from the picture
   Shading shading = Shading::smooth;
-  bool mesh_lines = false;  ///< draw the element edges
+  bool mesh_lines = false;            ///< draw the element edges
+  std::vector<OverlaidCurve> curves;  ///< the last ones on top
+  double curve_width = 1.5;           ///< pixels, > 0
 };
 
 /// 8-bit sRGB pixels, three bytes each, top row first.
@@ -82,6 +91,11 @@ Camera default_camera(const ShadedMesh& mesh);
 /// black. Throws Error(contract) for options out of range or a camera that cannot be used.
 Picture draw(const ShadedMesh& mesh, const Camera& camera, const PictureOptions& options = {},
              const Progress& progress = {});
+
+/// Pictures of the same height from left to right, with each one's title in its upper left corner;
+/// the others' exposures and comments must be the first one's. Throws Error(contract) unless there
+/// are as many titles as pictures, at least one.
+Picture beside(std::span<const Picture> pictures, std::span<const std::string> titles);
 
 inline constexpr FileFormats picture_formats = {"pictures", {".png"}};
 

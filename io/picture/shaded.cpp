@@ -25,9 +25,9 @@ ShadedMesh shaded(const SolveResult& result) {
   mesh.is_border = linear.is_border;
   mesh.cameras = result.cameras;
   for (Eigen::Index i = 0; i < linear.radiosity.rows(); ++i)
-    mesh.point_radiosity.emplace_back(linear.radiosity.row(i));
+    mesh.point_value.emplace_back(linear.radiosity.row(i));
   for (Eigen::Index e = 0; e < linear.elements.count(); ++e) {
-    mesh.triangle_radiosity.emplace_back(linear.solution.radiosity.row(e));
+    mesh.triangle_value.emplace_back(linear.solution.radiosity.row(e));
     mesh.emits.push_back((linear.solution.exitance.row(e) > 0).any());
   }
   return mesh;
@@ -44,11 +44,11 @@ ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras) {
     const int first = static_cast<int>(mesh.points.size());
     for (const Vec2& q : triangles.points) {
       mesh.points.push_back(surface.frame.to_space(q));
-      mesh.point_radiosity.push_back(colour);
+      mesh.point_value.push_back(colour);
     }
     for (const auto& t : triangles.triangles) {
       mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
-      mesh.triangle_radiosity.push_back(colour);
+      mesh.triangle_value.push_back(colour);
       mesh.emits.push_back((material.exitance > 0).any());
     }
   }

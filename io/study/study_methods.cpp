@@ -46,18 +46,30 @@ Words uniform(double tolerance) {
 }
 
 /// The error of constant elements falls as one over the square root of their number.
-Words matrix(double tolerance) {
+Words constant_elements(double tolerance, const Words& more) {
   const double elements = std::max(1., std::round(1 / (tolerance * tolerance)));
   if (elements > most_matrix_elements) return {};
-  return {"--method",
-          "matrix",
-          "--no-discontinuity",
-          "--tolerance",
-          fmt::format("{}", tolerance),
-          "--elements",
-          fmt::format("{:.0f}", elements),
-          "--max-elements",
-          "200000"};
+  Words words = {"--method",
+                 "matrix",
+                 "--no-discontinuity",
+                 "--tolerance",
+                 fmt::format("{}", tolerance),
+                 "--elements",
+                 fmt::format("{:.0f}", elements),
+                 "--max-elements",
+                 "200000"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+Words matrix(double tolerance) { return constant_elements(tolerance, {}); }
+
+Words hemicube(double tolerance) {
+  return constant_elements(tolerance, {"--factors", "hemicube", "--direct-light", "matrix"});
+}
+
+Words exact_factors(double tolerance) {
+  return constant_elements(tolerance, {"--factors", "exact", "--direct-light", "matrix"});
 }
 
 }  // namespace
@@ -74,7 +86,11 @@ const std::vector<StudyMethod>& study_methods() {
       {"adaptive-linear", "elements of order 1, halved where the error is, without curves",
        adaptive_linear},
       {"adaptive-constant", "constant elements, halved where the error is, without curves",
-       adaptive_constant}};
+       adaptive_constant},
+      {"hemicube", "as matrix, all light by hemicubes of 64 pixels along an edge: how it began",
+       hemicube},
+      {"exact-factors", "as matrix, all light by factors to exactly visible parts of elements",
+       exact_factors}};
   return methods;
 }
 

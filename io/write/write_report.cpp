@@ -179,12 +179,30 @@ void write_report(const StudyReport& report, const RunInfo& run,
   write(json, path);
 }
 
+namespace {
+
+Json false_colours_json(const RenderReport& report) {
+  Json json = {{"name", report.quantity.name},
+               {"channel", report.quantity.channel},
+               {"unit", report.quantity.unit},
+               {"range", {report.range.low, report.range.high}}};
+  if (report.difference)
+    json["difference"] = {{"rms", report.difference->rms},
+                          {"mean", report.difference->mean},
+                          {"largest", report.difference->largest},
+                          {"relative_rms", report.difference->relative}};
+  return json;
+}
+
+}  // namespace
+
 void write_report(const RenderReport& report, const RunInfo& run,
                   const std::filesystem::path& path) {
   Json json = head_json(run);
   json["width"] = report.width;
   json["height"] = report.height;
-  json["exposure"] = report.exposure;
+  if (report.exposure > 0) json["exposure"] = report.exposure;
+  if (!report.quantity.name.empty()) json["quantity"] = false_colours_json(report);
   json["camera"] = {{"name", report.camera.name},
                     {"position", to_json(report.camera.position)},
                     {"direction", to_json(report.camera.direction)},

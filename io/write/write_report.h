@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/picture/value_picture.h"
 #include "io/write/run_info.h"
 #include "solver/pipeline/mesh_scene.h"
 
@@ -48,12 +49,15 @@ void write_report(const StudyReport& report, const RunInfo& run, const std::file
 /// How a picture was drawn.
 struct RenderReport {
   int width = 0, height = 0;  ///< pixels
-  double exposure = 0;        ///< factor from W/m² to display values
+  double exposure = 0;        ///< factor from W/m² to display values; 0: there is none
   Camera camera;
+  Quantity quantity;                         ///< in false colours; without a name: none
+  ValueRange range;                          ///< of it
+  std::optional<SeenDifference> difference;  ///< of two results
 };
 
-/// Writes what every report begins with, width, height, exposure, camera, outputs.
-/// Throws Error(unwritable).
+/// Writes what every report begins with, width, height, camera, outputs; exposure; with false
+/// colours quantity, range and difference. Throws Error(unwritable).
 void write_report(const RenderReport& report, const RunInfo& run,
                   const std::filesystem::path& path);
 

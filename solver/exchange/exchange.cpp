@@ -5,6 +5,7 @@
 #include "solver/exchange/cells.h"
 #include "solver/exchange/enclosures.h"
 #include "solver/exchange/estimated_factors.h"
+#include "solver/exchange/point_factors.h"
 #include "solver/exchange/scaled_operator.h"
 
 #include <fmt/format.h>
@@ -22,12 +23,17 @@ namespace {
 constexpr double memory_share = 0.7;
 /// Rows that are off by more than this are not put right by scaling: light was lost on the way.
 constexpr double far_off = 0.03;
+/// The same where factors are from points: those of neighbours are off by much, and scaling is all
+/// that can be done.
+constexpr double far_off_from_points = 0.5;
 /// Estimated rows may be off by so many standard deviations more.
 constexpr double most_deviations = 6;
 /// A non-zero of the matrix (12 bytes) and its half of a pair that is held before (16 bytes).
 constexpr double bytes_per_factor = 20;
+/// The same with factors from points, of which each pair has two.
+constexpr double bytes_per_point_factor = 40;
 
-void require_memory(const ElementTable& elements) {
+void require_memory(const ElementTable& elements, FactorsBy factors) {
   // Elements of one surface do not see each other.
   std::vector<double> in_surface;
   for (const int r : elements.surface) {
@@ -39,7 +45,8 @@ void require_memory(const ElementTable& elements) {
   for (const double m : in_surface) pairs -= m * m;
   const double available = static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
                            static_cast<double>(sysconf(_SC_PAGESIZE)) * memory_share;
-  const double needed = pairs * bytes_per_factor;
+  const double needed =
+      pairs * (factors == FactorsBy::rays ? bytes_per_factor : bytes_per_point_factor);
   if (needed > available || pairs > std::numeric_limits<int>::max())
     throw Error(
         ErrorCode::too_large, "compute_exchange",
@@ -80,7 +87,7 @@ Eigen::ArrayXd variance_of_rows(const Exchange& exchange) {
 }
 
 /// Which rows are to sum to one. Leaves out what scaling would only hide.
-std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
+std::vector<bool> closed_rows(Exchange& exchange, Closure closure, double most_off) {
   const Enclosures& enclosures = exchange.enclosures;
   const Eigen::ArrayXd sees =
       multiply(exchange.matrix, Eigen::VectorXd::Ones(exchange.area.size())).array();
@@ -89,7 +96,7 @@ std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
   for (std::size_t e = 0; e < enclosures.of_element.size(); ++e) {
     const auto row = static_cast<Eigen::Index>(e);
     if (sees[row] > 0 && std::abs(sees[row] / exchange.area[row] - 1) >
-                             far_off + most_deviations * std::sqrt(variance[row]))
+                             most_off + most_deviations * std::sqrt(variance[row]))
       is_off[at(enclosures.of_element[e])] = true;
   }
   for (std::size_t k = 0; k < is_off.size(); ++k)
@@ -103,8 +110,9 @@ std::vector<bool> closed_rows(Exchange& exchange, Closure closure) {
   return rows;
 }
 
-void close(Exchange& exchange, Closure closure, bool has_all_rows) {
-  const std::vector<bool> rows = closed_rows(exchange, closure);
+void close(Exchange& exchange, const ExchangeOptions& options, bool has_all_rows) {
+  const double most_off = options.factors == FactorsBy::rays ? far_off : far_off_from_points;
+  const std::vector<bool> rows = closed_rows(exchange, options.closure, most_off);
   ExchangeReport& report = exchange.report;
   if (has_all_rows && std::find(rows.begin(), rows.end(), true) != rows.end())
     report.closure_enforced = enforce_closure(exchange.matrix, exchange.area, rows);
@@ -114,7 +122,7 @@ void close(Exchange& exchange, Closure closure, bool has_all_rows) {
   for (std::size_t e = 0; e < rows.size(); ++e)
     // What sees nothing cannot be scaled.
     if (rows[e] && exchange.lost[static_cast<Eigen::Index>(e)] <
-                       far_off * exchange.area[static_cast<Eigen::Index>(e)])
+                       most_off * exchange.area[static_cast<Eigen::Index>(e)])
       exchange.lost[static_cast<Eigen::Index>(e)] = 0;
 }
 
@@ -136,14 +144,16 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
     throw Error(ErrorCode::contract, "compute_exchange",
                 fmt::format("tolerance {} must lie in (0, 1) and rays per pair {} be at least 1",
                             options.tolerance, options.rays_per_pair));
-  require_memory(elements);
+  require_memory(elements, options.factors);
   Exchange exchange;
   exchange.area = Eigen::Map<const Eigen::ArrayXd>(elements.area.data(),
                                                    static_cast<Eigen::Index>(elements.area.size()));
   const SpaceCells cells = find_cells(scene, elements);
   const bool was_stopped = progress.stopped();
   AssembledFactors factors =
-      assemble_factors(scene, elements, cells, visibility, options, progress);
+      options.factors == FactorsBy::rays
+          ? assemble_factors(scene, elements, cells, visibility, options, progress)
+          : factors_from_points(scene, elements, cells, visibility, options, progress);
   exchange.report.complete = factors.complete;
   exchange.report.rays = factors.rays;
   exchange.report.refined_rows = factors.refined_rows;
@@ -156,7 +166,7 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
   exchange.report.factors = static_cast<std::size_t>(exchange.matrix.nonZeros());
   exchange.enclosures = find_enclosures(scene, elements, cells, exchange.matrix);
   report_closure(exchange);
-  close(exchange, options.closure, !(is_cut_short && was_stopped));
+  close(exchange, options, !(is_cut_short && was_stopped));
   return exchange;
 }
 

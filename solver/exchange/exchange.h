@@ -22,8 +22,17 @@ enum class Closure {
   leave
 };
 
+/// How form factors among elements are found.
+enum class FactorsBy {
+  rays,      ///< pairs by closed forms, times what rays between them find visible
+  hemicube,  ///< pixels round each element's centroid, as radiosity began
+  exact      ///< closed forms on exactly visible parts at six points of each element
+};
+
 struct ExchangeOptions {
-  double tolerance = 1e-4;  ///< relative error of an unobstructed form factor, in (0, 1)
+  FactorsBy factors = FactorsBy::rays;
+  int hemicube_pixels = 64;  ///< along an edge, even and ≥ 2; of hemicubes
+  double tolerance = 1e-4;   ///< relative error of an unobstructed form factor, in (0, 1)
   int rays_per_pair = 16;  ///< visibility samples for a pair of elements of mean form factor, ≥ 1
   Closure closure = Closure::automatic;
 };
@@ -74,12 +83,13 @@ struct Exchange {
   ExchangeReport report;
 };
 
-/// Computes A_i F(i,j) for all pairs of elements, each pair once, so that reciprocity holds by
-/// construction, and none for elements in different cells of space. Rows of closed enclosures that
-/// are off get more rays, and are only scaled once they are near; see enforce_closure. Throws
+/// Computes A_i F(i,j) for all pairs of elements, and none for elements in different cells of
+/// space. By rays, each pair is computed once, so that reciprocity holds by construction; else it
+/// is the mean of what the two elements find, see factors_from_points. Rows of closed enclosures
+/// that are off get more rays, and are only scaled once they are near; see enforce_closure. Throws
 /// Error(too_large) if the matrix would not fit into the machine's memory. If stopped on the way,
 /// rows not yet reached are estimated; if stopped before, they stay empty. Cost: n²/2 factors for n
-/// elements; 12 bytes a non-zero.
+/// elements, or n hemicubes; 12 bytes a non-zero.
 Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
                           const VisibilityIndex& visibility, const ExchangeOptions& options = {},
                           const Progress& progress = {});

@@ -61,7 +61,9 @@ Exchange find_exchange(const PreparedScene& prepared, const ElementTable& elemen
     return exchange.report.factors;
   });
   stages.leave_out_if(exchange.report.rays == 0, "visibility rays",
-                      "no surface can come between two others");
+                      options.factors == FactorsBy::exact
+                          ? "visible parts are exact"
+                          : "no surface can come between two others");
   stages.leave_out_if(!exchange.report.closure_enforced && !exchange.report.closed, "closure",
                       "light can leave the scene");
   return exchange;

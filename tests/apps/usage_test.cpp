@@ -68,11 +68,16 @@ TEST_F(Usage, BadValuesNameTheirOption) {
                              {"solve", s1_, "--materials", ""},
                              {"solve", s1_, "--closure", "maybe"},
                              {"solve", s1_, "--threads", "0"},
+                             {"solve", s1_, "--factors", "guesses"},
+                             {"solve", s1_, "--hemicube", "33"},
+                             {"solve", s1_, "--hemicube", "0"},
                              {"probe", s1_, "-o", "a.csv", "--grid", "x", "--spacing", "nan"},
                              {"probe", s1_, "-o", "a.csv", "--spacing", "inf", "--grid", ""},
                              {"render", s1_, "-o", "a.png", "--fov", "nan"},
                              {"render", s1_, "-o", "a.png", "--exposure", "inf"},
                              {"render", s1_, "-o", "a.png", "--width", "-3"},
+                             {"render", s1_, "-o", "a.png", "--scale", "square"},
+                             {"render", s1_, "-o", "a.png", "--range", "1,nan"},
                              {"render", s1_, "-o", "a.png", "--position", "1", "2", "nan"},
                              {"render", s1_, "-o", "a.png", "--up", "0", "0"}};
   for (const Arguments& arguments : cases) {

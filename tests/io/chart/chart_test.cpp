@@ -1,7 +1,7 @@
 #include "io/chart/chart.h"
 
 #include "io/chart/drawing.h"
-#include "io/chart/log_axis.h"
+#include "io/picture/log_axis.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/files.h"
 

@@ -3,6 +3,7 @@
 #include "io/files/atomic_file.h"
 #include "io/write/write_result.h"
 #include "meshing/repair/repair.h"
+#include "tests/support/drawn_squares.h"
 #include "tests/support/files.h"
 #include "tests/support/sample_result.h"
 #include "tests/support/scenes.h"
@@ -18,46 +19,18 @@ namespace halfshade {
 namespace {
 
 namespace fs = std::filesystem;
-using Pixel = std::array<int, 3>;
+using test::Pixel;
 
-/// Adds a square parallel to the xy plane that looks towards +z, or away from it.
-void add_square(ShadedMesh& mesh, const Vec3& centre, double half, const Rgb& radiosity,
-                bool emits = false, bool away = false) {
-  const int p = static_cast<int>(mesh.points.size());
-  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
-    mesh.points.push_back(centre + half * Vec3(x, y, 0));
-    mesh.point_radiosity.push_back(radiosity);
-  }
-  for (std::array<int, 3> t : {std::array{p, p + 1, p + 2}, {p, p + 2, p + 3}}) {
-    if (away) std::swap(t[1], t[2]);
-    mesh.triangles.push_back(t);
-    mesh.triangle_radiosity.push_back(radiosity);
-    mesh.emits.push_back(emits);
-  }
-}
-
-/// Looks along −z from z = 1; the unit square [−1, 1]² in z = 0 fills the picture exactly.
-Camera facing() {
-  Camera camera;
-  camera.position = {0, 0, 1};
-  camera.vertical_fov = 90;
-  return camera;
-}
+using test::add_square, test::facing;
+constexpr Pixel background = test::picture_background;
 
 PictureOptions options(int width, int height, int samples = 4) {
-  PictureOptions result;
-  result.width = width;
-  result.height = height;
-  result.samples = samples;
-  return result;
+  return test::picture_options(width, height, samples);
 }
 
 Pixel at(const Picture& picture, int column, int row) {
-  const auto i = static_cast<std::size_t>(3 * (row * picture.width + column));
-  return {picture.pixels[i], picture.pixels[i + 1], picture.pixels[i + 2]};
+  return test::pixel_of(picture, column, row);
 }
-
-const Pixel background = {33, 33, 33};  // of linear 0.015: 255·(1.055·0.015^(1/2.4) − 0.055)
 
 TEST(Draw, AUniformSquareIsUniformAndCentred) {
   ShadedMesh mesh;
@@ -153,7 +126,7 @@ TEST(Draw, ShadesSmoothlyFromPointsAndFlatlyFromTriangles) {
   ShadedMesh mesh;
   add_square(mesh, Vec3::Zero(), 1, Rgb::Constant(0.1));
   for (std::size_t i = 0; i < 4; ++i)
-    mesh.point_radiosity[i] = Rgb::Constant(0.25 + 0.25 * mesh.points[i].x());
+    mesh.point_value[i] = Rgb::Constant(0.25 + 0.25 * mesh.points[i].x());
   PictureOptions set = options(16, 16, 1);
   set.exposure = 1;
   const auto srgb = [](double v) { return 255 * (1.055 * std::pow(v, 1 / 2.4) - 0.055); };
@@ -275,14 +248,14 @@ void add_box(ShadedMesh& mesh, double half, bool outwards) {
         p[(axis + 1) % 3] = a * half;
         p[(axis + 2) % 3] = b * half;
         mesh.points.push_back(p);
-        mesh.point_radiosity.push_back(Rgb::Constant(1));
+        mesh.point_value.push_back(Rgb::Constant(1));
       }
       const bool turned = (side > 0) != outwards;
       for (const auto& t : {std::array{0, 1, 2}, {0, 2, 3}}) {
         std::array<int, 3> corners = {first + t[0], first + t[1], first + t[2]};
         if (turned) std::swap(corners[1], corners[2]);
         mesh.triangles.push_back(corners);
-        mesh.triangle_radiosity.push_back(Rgb::Constant(1));
+        mesh.triangle_value.push_back(Rgb::Constant(1));
         mesh.emits.push_back(0);
       }
     }
@@ -316,7 +289,7 @@ TEST(Shaded, ASolutionCarriesItsLightAndItsLamps) {
   EXPECT_EQ(mesh.emits, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 0, 0, 0}));
   EXPECT_FALSE(mesh.headlight);
   for (Eigen::Index e = 0; e < 8; ++e)
-    EXPECT_TRUE((mesh.triangle_radiosity[static_cast<std::size_t>(e)] ==
+    EXPECT_TRUE((mesh.triangle_value[static_cast<std::size_t>(e)] ==
                  result.solution.radiosity.row(e).transpose())
                     .all());
 }
@@ -335,7 +308,7 @@ TEST(Shaded, ASceneIsCoveredByItsTrianglesAndShowsItsReflectances) {
     area += normal.norm() / 2;
     EXPECT_GT(normal.dot(Vec3(1, 1.5, 0.5) - corner(0)), 0) << "looks inwards";
     if (normal.x() > 0) {
-      EXPECT_TRUE((mesh.triangle_radiosity[t] == scene.materials[0].rho).all());
+      EXPECT_TRUE((mesh.triangle_value[t] == scene.materials[0].rho).all());
     }
     EXPECT_EQ(mesh.emits[t], normal.z() < 0 ? 1 : 0);
   }

@@ -42,12 +42,12 @@ TEST_P(ReadShaded, GivesBackWhatWasWritten) {
   EXPECT_EQ(actual.points, expected.points);
   EXPECT_EQ(actual.triangles, expected.triangles);
   EXPECT_EQ(actual.emits, expected.emits);
-  ASSERT_EQ(actual.point_radiosity.size(), expected.point_radiosity.size());
-  for (std::size_t i = 0; i < expected.point_radiosity.size(); ++i)
-    EXPECT_TRUE((actual.point_radiosity[i] == expected.point_radiosity[i]).all());
-  ASSERT_EQ(actual.triangle_radiosity.size(), expected.triangle_radiosity.size());
-  for (std::size_t i = 0; i < expected.triangle_radiosity.size(); ++i)
-    EXPECT_TRUE((actual.triangle_radiosity[i] == expected.triangle_radiosity[i]).all());
+  ASSERT_EQ(actual.point_value.size(), expected.point_value.size());
+  for (std::size_t i = 0; i < expected.point_value.size(); ++i)
+    EXPECT_TRUE((actual.point_value[i] == expected.point_value[i]).all());
+  ASSERT_EQ(actual.triangle_value.size(), expected.triangle_value.size());
+  for (std::size_t i = 0; i < expected.triangle_value.size(); ++i)
+    EXPECT_TRUE((actual.triangle_value[i] == expected.triangle_value[i]).all());
   ASSERT_EQ(actual.cameras.size(), 1U);
   EXPECT_EQ(actual.cameras[0].name, "above");
   EXPECT_EQ(actual.cameras[0].position, Vec3(0.5, 0.5, 3));

@@ -213,7 +213,7 @@ TEST_F(WritePolynomials, WhatIsDrawnIsClose) {
   write_result(result, {}, path("a.vtu"));
   const ShadedMesh mesh = read_shaded(path("a.vtu"));
   EXPECT_GT(mesh.triangles.size(), result.elements.corners.size());
-  ASSERT_EQ(mesh.triangle_radiosity.size(), mesh.triangles.size());
+  ASSERT_EQ(mesh.triangle_value.size(), mesh.triangles.size());
   ASSERT_EQ(mesh.emits.size(), mesh.triangles.size());
   double largest = 0, area = 0;
   for (int e = 1; e < result.elements.count(); ++e)  // the first emits
@@ -225,7 +225,7 @@ TEST_F(WritePolynomials, WhatIsDrawnIsClose) {
     std::array<Rgb, 3> value;
     for (std::size_t k = 0; k < 3; ++k) {
       corners[k] = mesh.points[at(mesh.triangles[i][k])];
-      value[k] = mesh.point_radiosity[at(mesh.triangles[i][k])];
+      value[k] = mesh.point_value[at(mesh.triangles[i][k])];
     }
     area += (corners[1] - corners[0]).cross(corners[2] - corners[0]).z() / 2;
     const int e = element_at(result.elements, (corners[0] + corners[1] + corners[2]) / 3);
@@ -235,7 +235,7 @@ TEST_F(WritePolynomials, WhatIsDrawnIsClose) {
       return radiosity_at(result, e, place_of(result.elements.triangle(e), p));
     };
     EXPECT_EQ(mesh.emits[i], e == 0 ? 1 : 0);
-    EXPECT_TRUE((mesh.triangle_radiosity[i].transpose() == result.solution.radiosity.row(e)).all());
+    EXPECT_TRUE((mesh.triangle_value[i].transpose() == result.solution.radiosity.row(e)).all());
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_LT((value[k] - exact(corners[k])).abs().maxCoeff(), 1e-11) << e;
     const TrianglePlace place = random_place(random);

@@ -23,7 +23,7 @@ struct Tick {
 LogAxis fitting_axis(const std::vector<double>& values, double start, double end);
 
 /// A line at each 1, 2, …, 9 times a power of ten, and labels at powers of ten, or also at 2 and 5
-/// times one where the axis is short, or at every other where it is long.
-std::vector<Tick> ticks(const LogAxis& axis);
+/// times one where the axis is short (decades), or at every other where it is long.
+std::vector<Tick> ticks(const LogAxis& axis, double short_axis = 1.6);
 
 }  // namespace halfshade::detail

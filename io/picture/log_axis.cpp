@@ -1,4 +1,4 @@
-#include "io/chart/log_axis.h"
+#include "io/picture/log_axis.h"
 
 #include <fmt/format.h>
 
@@ -29,9 +29,9 @@ LogAxis fitting_axis(const std::vector<double>& values, double start, double end
   return {low - margin, high + margin, start, end};
 }
 
-std::vector<Tick> ticks(const LogAxis& axis) {
+std::vector<Tick> ticks(const LogAxis& axis, double short_axis) {
   const double decades = axis.high - axis.low;
-  constexpr double short_axis = 1.6, long_axis = 7;
+  constexpr double long_axis = 7;
   const int step = decades > long_axis ? 2 : 1;
   std::vector<Tick> result;
   for (int power = static_cast<int>(std::floor(axis.low)); power <= axis.high; ++power)

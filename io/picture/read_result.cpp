@@ -1,0 +1,101 @@
+#include "io/files/camera_numbers.h"
+#include "io/files/extension.h"
+#include "io/picture/detail/vtk_input.h"
+#include "io/picture/result_file.h"
+#include "solver/elements/polynomial.h"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkFieldData.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+using detail::nodes_of, detail::points_of, detail::reject;
+using std::filesystem::path;
+
+bool is_whole(vtkDataArray* array) {
+  const int type = array->GetDataType();
+  return type != VTK_FLOAT && type != VTK_DOUBLE;
+}
+
+/// All arrays of numbers that have as many rows as there are points or cells.
+std::vector<ResultArray> arrays_of(vtkFieldData* data, vtkIdType count, const path& file) {
+  std::vector<ResultArray> arrays;
+  for (int k = 0; k < data->GetNumberOfArrays(); ++k) {
+    vtkDataArray* array = data->GetArray(k);
+    if (array == nullptr || array->GetName() == nullptr) continue;
+    if (array->GetNumberOfTuples() != count)
+      reject(file, fmt::format("the array '{}' has {} rows instead of {}", array->GetName(),
+                               array->GetNumberOfTuples(), count));
+    ResultArray result{array->GetName(), array->GetNumberOfComponents(), is_whole(array), {}};
+    for (vtkIdType i = 0; i < count; ++i)
+      for (int c = 0; c < result.components; ++c)
+        result.values.push_back(array->GetComponent(i, c));
+    arrays.push_back(std::move(result));
+  }
+  return arrays;
+}
+
+/// The order of a cell that write_result has written.
+int order_of(vtkPointSet* grid, vtkIdType cell, vtkIdType nodes, const path& file) {
+  const int type = grid->GetCellType(cell);
+  for (int order = 1; order <= max_order; ++order)
+    if (nodes == basis_size(order) && type == (order == 1   ? VTK_TRIANGLE
+                                               : order == 2 ? VTK_QUADRATIC_TRIANGLE
+                                                            : VTK_LAGRANGE_TRIANGLE))
+      return order;
+  reject(file, fmt::format("cell {} is not a triangle", cell));
+}
+
+std::vector<double> field_numbers(vtkFieldData* data, const char* name, int components) {
+  vtkDataArray* array = data->GetArray(name);
+  if (array == nullptr || array->GetNumberOfComponents() != components) return {};
+  std::vector<double> values;
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int c = 0; c < components; ++c) values.push_back(array->GetComponent(i, c));
+  return values;
+}
+
+std::vector<Camera> cameras(vtkFieldData* data, const path& file) {
+  detail::CameraNumbers numbers;
+  numbers.values = field_numbers(data, "cameras", detail::camera_components);
+  for (const double value : numbers.values)
+    if (!std::isfinite(value)) reject(file, "the cameras in the file are not finite");
+  for (const double code : field_numbers(data, "camera_names", 1))
+    numbers.names.push_back(static_cast<int>(std::clamp(code, 0., 255.)));
+  return to_cameras(numbers);
+}
+
+ResultFile to_result(vtkPointSet* grid, const path& file) {
+  ResultFile result;
+  result.path = file;
+  const vtkIdType points = grid->GetNumberOfPoints(), cells = grid->GetNumberOfCells();
+  if (points == 0 || cells == 0) reject(file, "there are no triangles in the file");
+  result.points = points_of(grid, file);
+  for (vtkIdType i = 0; i < cells; ++i) {
+    result.cells.push_back(nodes_of(grid, i, file));
+    const auto nodes = static_cast<vtkIdType>(result.cells.back().size());
+    result.order.push_back(order_of(grid, i, nodes, file));
+  }
+  result.point_arrays = arrays_of(grid->GetPointData(), points, file);
+  result.cell_arrays = arrays_of(grid->GetCellData(), cells, file);
+  result.cameras = cameras(grid->GetFieldData(), file);
+  return result;
+}
+
+}  // namespace
+
+ResultFile read_result(const path& file) {
+  if (!has_format(file, shaded_formats))
+    reject(file, "only results written as .vtu or .vtp can be read");
+  return to_result(detail::read_sealed(file), file);
+}
+
+}  // namespace halfshade

@@ -128,14 +128,14 @@ CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::
           name, [place, choose](const std::string& word) { choose(place(word)); }, help)
       ->check(is_known)
       ->default_str(words.front())
-      ->type_name("WORD");
+      ->type_name(fmt::format("{}", fmt::join(words, "|")));
 }
 
 std::string footer(const std::string& text) {
   return text +
-         "Exit codes: 0 done, 2 wrong usage, 3 invalid input, 4 written, but the radiosity\n"
-         "iteration did not reach its tolerance, 5 could not write, 130 interrupted (what was\n"
-         "computed so far is written and marked).";
+         "Exit codes: 0 done, 2 wrong usage, 3 invalid input, 4 written, but not as\n"
+         "exact as was asked for, 5 could not write, 130 interrupted (what was computed so far\n"
+         "is written and marked).";
 }
 
 }  // namespace halfshade

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+
 namespace halfshade {
 
 void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& common) {
@@ -14,9 +16,11 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
            "and areas beside it in .names.csv); '-': .csv to stdout")
       ->required();
   add_choice(
-      app, "--by", {"face", "group", "material"},
-      [&options](std::size_t k) { options.unit = static_cast<FactorUnit>(k); },
-      "What has a row (default: group)");
+      app, "--by", {"group", "face", "material"},
+      [&options](std::size_t k) {
+        options.unit = std::array{FactorUnit::group, FactorUnit::face, FactorUnit::material}.at(k);
+      },
+      "What has a row");
   add_number(app, "--tolerance", options.tolerance, {1e-12, 0.5},
              "Error allowed in a form factor, absolute")
       ->capture_default_str();

@@ -97,6 +97,7 @@ TEST_F(Usage, HelpShowsChoicesAsWords) {
     for (const char* internal : {"auto->", "order->", "VALUE", "ENUM", "{", "INT in", "FLOAT"})
       EXPECT_EQ(help.find(internal), std::string::npos) << command << internal;
   }
+  EXPECT_NE(run({"solve", "--help"}).out.find("--method fields|matrix"), std::string::npos);
   EXPECT_EQ(run({"solve", s1_, "--closure", "ENFORCE", "--elements", "20", "-q"}).exit_code, 0);
 }
 

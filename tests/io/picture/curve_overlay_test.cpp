@@ -76,7 +76,8 @@ TEST(CurveOverlay, PiecesThatPassTheCameraAreCutThere) {
 TEST(ReadCurves, GivesBackWhatWasWrittenLowestOrderLast) {
   const test::TempDir folder;
   const Discontinuities found = test::hand_made_curves();
-  write_curves(test::s1(), found, folder.path() / "c.vtp");
+  const SoundScene scene = test::s1();
+  write_curves(scene, found, folder.path() / "c.vtp");
   const std::vector<OverlaidCurve> curves = read_curves(folder.path() / "c.vtp");
   ASSERT_EQ(curves.size(), found.curves.size());
   std::vector<const DiscontinuityCurve*> sorted;
@@ -86,7 +87,7 @@ TEST(ReadCurves, GivesBackWhatWasWrittenLowestOrderLast) {
   });
   for (std::size_t k = 0; k < curves.size(); ++k) {
     EXPECT_EQ(curves[k].colour, curve_colour(*sorted[k], CurveColour::order));
-    const Surface& receiver = test::s1().surfaces[static_cast<std::size_t>(sorted[k]->receiver)];
+    const Surface& receiver = scene.surfaces[static_cast<std::size_t>(sorted[k]->receiver)];
     EXPECT_LT(
         (curves[k].points.front() - receiver.frame.to_space(point_at(sorted[k]->arc, 0))).norm(),
         1e-12);

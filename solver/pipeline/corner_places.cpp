@@ -15,8 +15,11 @@ constexpr double nearest = 0.5;
 /// The places of a circle stand for the ring of √2 times more and less its radius.
 constexpr double ring_area = 1.5 * M_PI;
 
+/// What lies before a plane by less, of a surface's size, lies in it.
+constexpr double in_plane = 1e-9;
+
 bool reaches_before(const Surface& surface, const PlaneFrame& plane) {
-  const double least = 1e-9 * size_of(surface);
+  const double least = in_plane * size_of(surface);
   return std::any_of(
       surface.rings.front().begin(), surface.rings.front().end(),
       [&](const Vec2& p) { return plane.height(surface.frame.to_space(p)) > least; });

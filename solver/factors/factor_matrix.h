@@ -56,8 +56,9 @@ struct FactorMatrix {
   Eigen::ArrayXd space;
   Eigen::ArrayXd backs;    ///< share that is swallowed by backs of one-sided faces
   Eigen::ArrayXd row_sum;  ///< Σ F + space before anything was put right
-  Eigen::ArrayXd error;    ///< bound of the absolute error of each entry of the row, space with it
-  std::string unit;        ///< of lengths
+  Eigen::ArrayXd error;  ///< of each entry of the row, absolute, space with it: an estimate on the
+                         ///< safe side, see factors.md, and no proof
+  std::string unit;      ///< of lengths
   FactorReport report;
 };
 

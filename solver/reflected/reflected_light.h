@@ -66,7 +66,9 @@ struct ReflectedReport {
   /// singular value. What is left of the residual is at most this times it.
   double amplification = 1;
   /// Estimated error of G in the L2 norm relative to all irradiance: of the polynomials and of the
-  /// rays, two standard deviations of the estimate, and a fifth of that for what is reflected on.
+  /// rays, two standard deviations of the estimate, and a fifth of that for what is reflected on;
+  /// what is not known of the light that open systems lose; what the linear solver left. 1 if it
+  /// was stopped before anything was found.
   double error = 0;
   double noise = 0;              ///< the rays' part in it
   double mean_square_total = 0;  ///< of all irradiance, summed over the channels, (W/m²)²

@@ -61,6 +61,20 @@ std::vector<int> join(const SoundScene& scene, const Corners& corners,
   return vertex;
 }
 
+/// Whether the projections along some axis show that a line passes a box.
+bool line_misses(const Vec3& point, const Vec3& along, const Bounds& box) {
+  const Vec3 offset = box.centre() - point, half = box.half_size();
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const Eigen::Index i = (k + 1) % 3, j = (k + 2) % 3;
+    const double reach = half[i] * std::abs(along[j]) + half[j] * std::abs(along[i]);
+    // A box of no size on the line must not be lost to rounding.
+    const double slack = margins::line_slack *
+                         (std::abs(offset[i] * along[j]) + std::abs(offset[j] * along[i]) + reach);
+    if (std::abs(offset[i] * along[j] - offset[j] * along[i]) > reach + slack) return true;
+  }
+  return false;
+}
+
 /// Appends the vertices that lie within `reach` of the inside of a straight edge, in order.
 struct EdgeFiller {
   const std::vector<Vec3>& vertices;
@@ -70,10 +84,13 @@ struct EdgeFiller {
   void add(int from, int to, int edge, double reach,
            std::vector<OpaqueTopology::OutlineVertex>& outline) {
     const Vec3 a = vertices[at(from)], along = vertices[at(to)] - a;
-    Bounds box = box_about(a, reach);
-    box.include(box_about(vertices[at(to)], reach));
+    const Bounds box{a.cwiseMin(vertices[at(to)]), a.cwiseMax(vertices[at(to)])};
+    const auto may_reach = [&](const Bounds& other) {
+      const Bounds grown = other.grown(reach);
+      return box.meets(grown) && !line_misses(a, along, grown);
+    };
     found.clear();
-    visit_overlaps(tree, box, [&](int v) {
+    visit_reached(tree, may_reach, [&](int v) {
       if (v == from || v == to) return;
       const Vec3 offset = vertices[at(v)] - a;
       const double t = along.dot(offset) / along.squaredNorm();

@@ -42,6 +42,9 @@ inline constexpr double pyramid_margin = 8;
 inline constexpr double box_margin = 1e-9;
 inline constexpr double blur_margin = 1e5;
 
+// A line counts as passing a box only beyond so many roundings of the products that tell.
+inline constexpr double line_slack = 16 * std::numeric_limits<double>::epsilon();
+
 // Sines, cosines and shares.
 
 // Sine of the angle between two arcs' planes below which their crossing is found along the arcs.

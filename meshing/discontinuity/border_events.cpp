@@ -73,13 +73,13 @@ std::optional<CommonLine> common_line(const PlaneFrame& receiver, const PlaneFra
 
 /// Parameters along the line between which the view of the emitter's corners, along its plane, is
 /// limited by the same things.
-std::vector<double> view_limits(const OpaqueScene& opaque, const EmitterScene& emitter_scene,
+std::vector<double> view_limits(std::span<const Vec3> limits, const EmitterScene& emitter_scene,
                                 const CommonLine& line) {
   const PlaneFrame& plane = emitter_scene.frame;
   const Vec2 p = plane.to_plane(line.origin);
   const Vec2 u(plane.e1.dot(line.direction), plane.e2.dot(line.direction));
   std::vector<double> cuts;
-  for (const Vec3& limit : limits_in_plane(opaque.topology(), emitter_scene))
+  for (const Vec3& limit : limits)
     for (const OutlinePoint& corner : emitter_scene.corners) {
       const Vec2 apex = plane.to_plane(corner.position);
       const Vec2 onwards = plane.to_plane(limit) - apex;
@@ -122,50 +122,62 @@ void append_plane_curve(const EmitterScene& emitter_scene, int receiver, const V
 
 }  // namespace
 
-void emitter_plane_curves(const SoundScene& scene, const OpaqueScene& opaque,
-                          const EmitterScene& emitter_scene, int receiver,
-                          std::vector<DiscontinuityCurve>& curves) {
-  if (receiver == emitter_scene.emitter) return;
-  const Surface& target = scene.surfaces[at(receiver)];
-  const std::optional<CommonLine> line = common_line(target.frame, emitter_scene.frame);
-  if (!line) return;
+BorderSearch::BorderSearch(const SoundScene& scene, const OpaqueScene& opaque,
+                           const EmitterScene& emitter_scene)
+    : scene_(scene),
+      emitter_scene_(emitter_scene),
+      limits_(limits_in_plane(opaque.topology(), emitter_scene)),
+      finder_(opaque) {}
+
+/// Sees the emitter from a point of a receiver.
+const VisiblePart& BorderSearch::look(const Vec3& point, const Surface& receiver) {
+  ++looks_;
+  finder_.find(point, receiver.frame.normal, emitter_scene_.emitter, part_);
+  return part_;
+}
+
+bool BorderSearch::add_plane_curves(int receiver, std::size_t most_looks,
+                                    std::vector<DiscontinuityCurve>& curves) {
+  if (receiver == emitter_scene_.emitter) return true;
+  const Surface& target = scene_.surfaces[at(receiver)];
+  const std::optional<CommonLine> line = common_line(target.frame, emitter_scene_.frame);
+  if (!line) return true;
   const auto inside = stretches(target, line->start, line->along);
-  if (inside.empty()) return;
-  const std::vector<double> cuts = view_limits(opaque, emitter_scene, *line);
+  if (inside.empty()) return true;
+  const std::vector<double> cuts = view_limits(limits_, emitter_scene_, *line);
   // Into the half-space in front of the emitter.
   const Vec3 left = target.frame.normal.cross(line->direction);
-  const double ahead = emitter_scene.frame.normal.dot(left) > 0 ? 1 : -1;
+  const double ahead = emitter_scene_.frame.normal.dot(left) > 0 ? 1 : -1;
   const double step = side_step(target);
   const auto place = [&](double t) -> Vec2 { return line->start + t * line->along; };
-  VisiblePartFinder finder(opaque);
-  VisiblePart part;
+  const std::size_t looks_before = looks_;
   for (const auto& range : inside) {
     const std::vector<double> t = cut_range(range, cuts);
     for (std::size_t k = 1; k < t.size(); ++k) {
       if (t[k] - t[k - 1] < margins::least_steps * step) continue;
+      if (looks_ - looks_before >= most_looks) return false;
       const Vec3 point =
           target.frame.to_space(place(0.5 * (t[k - 1] + t[k]))) + ahead * step * left;
-      finder.find(point, target.frame.normal, emitter_scene.emitter, part);
-      if (part.region == Region::umbra || part.region == Region::away) continue;
-      append_plane_curve(emitter_scene, receiver, place(t[k - 1]), place(t[k]), step, curves);
+      const Region region = look(point, target).region;
+      if (region == Region::umbra || region == Region::away) continue;
+      append_plane_curve(emitter_scene_, receiver, place(t[k - 1]), place(t[k]), step, curves);
     }
   }
+  return true;
 }
 
-void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
-                    const EmitterScene& emitter_scene, int receiver,
-                    std::vector<DiscontinuityCurve>& curves) {
-  const Surface& target = scene.surfaces[at(receiver)];
+bool BorderSearch::add_contact_curves(int receiver, std::size_t most_looks,
+                                      std::vector<DiscontinuityCurve>& curves) {
+  const Surface& target = scene_.surfaces[at(receiver)];
   const double step = side_step(target);
-  VisiblePartFinder finder(opaque);
-  VisiblePart part;
+  const auto factor = [&](const Vec2& p) {
+    const Vec3 point = target.frame.to_space(p);
+    return enclosed_factor(point, target.frame.normal, look(point, target).pieces);
+  };
+  const std::size_t looks_before = looks_;
   for (const Segment2& contact : target.contacts) {
+    if (looks_ - looks_before >= most_looks) return false;
     const Vec2 along = contact[1] - contact[0], left = Vec2(-along.y(), along.x()).normalized();
-    const auto factor = [&](const Vec2& p) {
-      const Vec3 point = target.frame.to_space(p);
-      finder.find(point, target.frame.normal, emitter_scene.emitter, part);
-      return enclosed_factor(point, target.frame.normal, part.pieces);
-    };
     bool jumps = false;
     for (int k = 0; k < contact_samples && !jumps; ++k) {
       const Vec2 p = contact[0] + (k + 0.5) / contact_samples * along;
@@ -174,7 +186,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
     if (!jumps) continue;
     DiscontinuityCurve curve;
     curve.receiver = receiver;
-    curve.emitter = emitter_scene.emitter;
+    curve.emitter = emitter_scene_.emitter;
     curve.kind = CurveKind::contact;
     curve.order = 0;
     curve.step = step;
@@ -182,6 +194,7 @@ void contact_curves(const SoundScene& scene, const OpaqueScene& opaque,
     curve.sources = {{CurveKind::contact, {}, 0}};
     curves.push_back(std::move(curve));
   }
+  return true;
 }
 
 }  // namespace halfshade

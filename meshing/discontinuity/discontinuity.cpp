@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace halfshade {
 namespace {
@@ -53,7 +54,10 @@ class Search {
         tracers_([this] {
           return SwathTracer(scene_, opaque_, emitter_scene_,
                              {options_.irradiance_tolerance / exitance_, options_.max_length});
-        }) {}
+        }),
+        borders_([this] { return BorderSearch(scene_, opaque_, emitter_scene_); }) {
+    if (budget_.is_limited()) sampled_ = sample_lines();
+  }
 
   Curves run() {
     report_.silhouette_edges += emitter_scene_.edges.size();
@@ -123,82 +127,135 @@ class Search {
   }
 
   Curves find_border_events() {
-    const double look = look_work(counts_so_far(), emitter_scene_.edges.size());
-    std::size_t contacts = 0;
-    for (const Surface& surface : scene_.surfaces) contacts += surface.contacts.size();
-    // In the emitter's plane each limit of its view is seen from each of its corners.
-    const double lines = static_cast<double>(scene_.surfaces.size()) *
-                         static_cast<double>(emitter_scene_.corners.size()) *
-                         static_cast<double>(emitter_scene_.outline.size());
-    const bool planes =
-        options_.face && budget_.allows(CurveKind::face, plane_looks * look * lines);
-    const bool touching =
-        options_.contact &&
-        budget_.allows(CurveKind::contact, contact_looks * look * static_cast<double>(contacts));
+    const double look = SearchBudget::of_look_along_borders *
+                        look_work(counts_so_far(), emitter_scene_.edges.size());
+    // A method of BorderSearch as the job of each receiver.
+    const auto find = [&](auto method) {
+      return [this, look, method](std::size_t receiver, double most, Curves& found) {
+        BorderSearch& borders = borders_.local();
+        const std::size_t before = borders.looks();
+        const std::size_t most_looks = std::isfinite(most)
+                                           ? static_cast<std::size_t>(most / look)
+                                           : std::numeric_limits<std::size_t>::max();
+        const bool is_done = (borders.*method)(static_cast<int>(receiver), most_looks, found);
+        return Done{look * static_cast<double>(borders.looks() - before), is_done};
+      };
+    };
+    const std::size_t count = scene_.surfaces.size();
     Curves found;
-    for (int r = 0; r < static_cast<int>(scene_.surfaces.size()); ++r) {
-      if (progress_.stopped()) break;
-      if (planes) emitter_plane_curves(scene_, opaque_, emitter_scene_, r, found);
-      if (touching) contact_curves(scene_, opaque_, emitter_scene_, r, found);
-    }
+    if (options_.face)
+      found = run_all(CurveKind::face, {count, 0, "plane of the light"},
+                      find(&BorderSearch::add_plane_curves));
+    if (options_.contact)
+      append(run_all(CurveKind::contact, {count, 0, "contact lines"},
+                     find(&BorderSearch::add_contact_curves)),
+             found);
     return found;
   }
 
+  /// What lines of sight from the emitter to some of the surfaces meet, so that it is known how
+  /// deep the scene is before anything is traced.
+  TraceCounts sample_lines() const {
+    constexpr std::size_t most = 64;
+    const std::size_t count = scene_.surfaces.size(), lines = std::min(most, count);
+    SightCaster caster(scene_, opaque_);
+    TraceCounts counts;
+    for (std::size_t k = 0; k < lines; ++k) {
+      const Surface& target = scene_.surfaces[k * count / lines];
+      const Vec3 from = emitter_scene_.corners[k % emitter_scene_.corners.size()].position;
+      const Vec3 to = target.frame.to_space(target.rings.front().front());
+      if (emitter_scene_.frame.height(to) <= emitter_scene_.slack) continue;
+      caster.cast({from, from, (to - from).normalized()});
+      ++counts.pieces;
+      counts.crossings += caster.crossing_count();
+    }
+    return counts;
+  }
+
   TraceCounts counts_so_far() const {
-    TraceCounts sum;
+    TraceCounts sum = sampled_;
     for (const SwathTracer& tracer : tracers_) sum += tracer.counts();
     return sum;
   }
 
-  /// What makes swaths, one job after the other.
+  /// What is done one by one, in parallel.
   struct Jobs {
     std::size_t count;
-    double work;  ///< of each, before anything is traced
+    double work;  ///< of each, that is known before it is done
     const char* name;
   };
+  /// What came of one of them.
+  struct Done {
+    double work;
+    bool is_done;  ///< not ended early
+  };
 
-  /// Traces the swaths of all jobs, in parallel, and keeps the curves in the jobs' order. Does so
-  /// with some of them first, and leaves the others out if all would take too much work.
+  /// Traces the swaths of all jobs and keeps the curves.
   template <class Generate>
   void trace(CurveKind kind, const Jobs& jobs, const Generate& generate) {
+    append(run_all(kind, jobs,
+                   [&](std::size_t i, double most, Curves& found) {
+                     SwathTracer& tracer = tracers_.local();
+                     tracer.begin();
+                     const TraceCounts before = tracer.counts();
+                     const auto work = [&] {
+                       return budget_.work_of(tracer.counts() - before, found.size());
+                     };
+                     bool is_done = true;
+                     generate(static_cast<int>(i), [&](const Swath& swath) {
+                       if (progress_.stopped()) return;
+                       is_done = is_done && work() <= most;
+                       if (is_done) tracer.trace(swath, found);
+                     });
+                     return Done{work(), is_done};
+                   }),
+           curves_);
+  }
+
+  /// Runs all jobs, in parallel, and returns the curves in the jobs' order. Does so with some of
+  /// them first, and leaves the others out if all would take too much work: of a job that ends
+  /// early it is only known that it takes more, so that it may go on until that decides. `run`
+  /// appends a job's curves and ends it early, if it can, at the work given.
+  template <class Run>
+  Curves run_all(CurveKind kind, const Jobs& jobs, const Run& run) {
+    const double known = jobs.work * static_cast<double>(jobs.count);
+    if (!budget_.allows(kind, known)) return {};
     std::vector<Curves> found(jobs.count);
-    std::vector<double> work(jobs.count, 0);
-    std::vector<char> is_done(jobs.count, 0);
-    const auto run = [&](std::size_t i, double most) {
-      SwathTracer& tracer = tracers_.local();
-      tracer.begin();
-      const TraceCounts before = tracer.counts();
-      is_done[i] = 1;
+    std::vector<Done> done(jobs.count, Done{0, false});
+    const auto run_one = [&](std::size_t i, double most) {
       found[i].clear();
-      generate(static_cast<int>(i), [&](const Swath& swath) {
-        if (progress_.stopped()) return;
-        work[i] = budget_.work_of(tracer.counts() - before, found[i].size());
-        is_done[i] = is_done[i] && work[i] <= most;
-        if (is_done[i]) tracer.trace(swath, found[i]);
-      });
-      work[i] = budget_.work_of(tracer.counts() - before, found[i].size());
+      done[i] = run(i, most, found[i]);
     };
-    const double making = jobs.work * static_cast<double>(jobs.count);
-    if (!budget_.allows(kind, making)) return;
     const std::vector<std::size_t> sample = budget_.sample(jobs.count);
-    const double most = budget_.most_for_one(jobs.count);
-    parallel_for(
-        sample.size(), [&](std::size_t k) { run(sample[k], most); }, progress_, jobs.name);
-    double tried = 0;
-    for (const std::size_t i : sample) tried += work[i];
-    const bool is_affordable =
-        sample.empty() || budget_.allows(kind, tried * static_cast<double>(jobs.count) /
-                                                   static_cast<double>(sample.size()));
-    if (!is_affordable) return budget_.use(tried + making);
+    for (double most = budget_.most_for_one(jobs.count); !sample.empty(); most *= 4) {
+      parallel_for(
+          sample.size(),
+          [&](std::size_t k) {
+            if (!done[sample[k]].is_done) run_one(sample[k], most);
+          },
+          progress_, jobs.name);
+      double tried = 0;
+      for (const std::size_t i : sample) tried += done[i].work;
+      const double scale = static_cast<double>(jobs.count) / static_cast<double>(sample.size());
+      if (progress_.stopped()) return {};
+      if (!budget_.allows(kind, tried * scale)) {
+        budget_.use(known + tried);
+        return {};
+      }
+      if (std::all_of(sample.begin(), sample.end(), [&](std::size_t i) { return done[i].is_done; }))
+        break;
+    }
     parallel_for(
         jobs.count,
         [&](std::size_t i) {
-          if (!is_done[i]) run(i, HUGE_VAL);
+          if (!done[i].is_done) run_one(i, HUGE_VAL);
         },
         progress_, jobs.name);
-    for (const double done : work) budget_.use(done);
-    budget_.use(making);
-    for (Curves& curves : found) append(std::move(curves), curves_);
+    budget_.use(known);
+    for (const Done& one : done) budget_.use(one.work);
+    Curves all;
+    for (Curves& curves : found) append(std::move(curves), all);
+    return all;
   }
 
   /// Receiver by receiver, each with its own idea of what is the same.
@@ -238,7 +295,9 @@ class Search {
   const Progress& progress_;
   DiscontinuityReport& report_;
   SearchBudget budget_;
+  TraceCounts sampled_;  ///< of lines cast to know the scene; none if work is not limited
   PerThread<SwathTracer> tracers_;
+  PerThread<BorderSearch> borders_;
   Curves curves_;
 };
 

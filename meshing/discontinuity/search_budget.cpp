@@ -42,7 +42,7 @@ bool SearchBudget::allows(CurveKind kind, double work) {
 
 std::vector<std::size_t> SearchBudget::sample(std::size_t count) const {
   std::vector<std::size_t> jobs;
-  if (std::isfinite(most_))
+  if (is_limited())
     for (std::size_t k = 0; k < std::min(sample_size, count); ++k)
       jobs.push_back(k * count / std::min(sample_size, count));
   return jobs;

@@ -29,12 +29,13 @@ struct BorderScene : test::LitScene {
   }
   std::vector<DiscontinuityCurve> plane_curves(int face) const {
     std::vector<DiscontinuityCurve> curves;
-    emitter_plane_curves(scene, opaque, emitter_scene, surface_of(face), curves);
+    BorderSearch(scene, opaque, emitter_scene).add_plane_curves(surface_of(face), 1000000, curves);
     return curves;
   }
   std::vector<DiscontinuityCurve> contacts(int face) const {
     std::vector<DiscontinuityCurve> curves;
-    contact_curves(scene, opaque, emitter_scene, surface_of(face), curves);
+    BorderSearch(scene, opaque, emitter_scene)
+        .add_contact_curves(surface_of(face), 1000000, curves);
     return curves;
   }
   Span3 ends(const DiscontinuityCurve& curve) const {

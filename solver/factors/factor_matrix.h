@@ -59,6 +59,7 @@ struct FactorMatrix {
   Eigen::ArrayXd error;  ///< of each entry of the row, absolute, space with it: an estimate on the
                          ///< safe side, see factors.md, and no proof
   std::string unit;      ///< of lengths
+  std::string source;    ///< the file that it was read from; empty if it was computed
   FactorReport report;
 };
 
@@ -69,5 +70,8 @@ struct FactorMatrix {
 /// n²/2 shafts for n surfaces.
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
                                 const Progress& progress = {});
+
+/// Throws Error(too_large) if what goes with a matrix of so many rows would not fit into memory.
+void require_factor_memory(int rows);
 
 }  // namespace halfshade

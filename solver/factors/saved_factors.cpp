@@ -14,8 +14,8 @@ namespace {
 
 /// Areas are written with all their digits; what is more than this apart, relative, are two.
 constexpr double same_area = 1e-9;
-/// A form factor of more than this, in the smaller of two areas, is no rounding.
-constexpr double rounding = 1e-9;
+/// How far the two halves of A F may be apart, of the smaller of two areas.
+constexpr double reciprocal_within = 1e-9;
 
 [[noreturn]] void refuse(const FactorMatrix& saved, const std::string& sentence) {
   throw Error(ErrorCode::invalid_input, saved.source, sentence);
@@ -75,7 +75,7 @@ RowMajorMatrix mutual_areas(const FactorMatrix& saved) {
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < i; ++j) {
       const double there = mutual(i, j), back = mutual(j, i);
-      if (!(std::abs(there - back) <= rounding * std::min(saved.area[i], saved.area[j])))
+      if (!(std::abs(there - back) <= reciprocal_within * std::min(saved.area[i], saved.area[j])))
         refuse(saved, fmt::format("the form factors between '{}' and '{}' are not reciprocal: area "
                                   "times factor is {} one way and {} the other",
                                   saved.names[static_cast<std::size_t>(i)],

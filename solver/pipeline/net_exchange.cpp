@@ -48,7 +48,7 @@ void require_known_space(const Scene& scene, const Heat& heat) {
                       material.name));
 }
 
-std::vector<Part> find_parts(const Scene& scene, const Heat& heat, const Rgb& space) {
+std::vector<Part> find_signed_parts(const Scene& scene, const Heat& heat, const Rgb& space) {
   std::vector<Part> parts;
   for (int band = 0; band < bands_of(heat); ++band)
     for (const double sign : {1., -1.}) {
@@ -188,7 +188,7 @@ SolveResult solve_net_exchange(const Scene& scene, const Heat& heat,
   }
   require_known_space(scene, heat);
   const Rgb space = blackbody_exitance(*heat.surroundings, heat.bands);
-  const std::vector<Part> parts = find_parts(scene, heat, space);
+  const std::vector<Part> parts = find_signed_parts(scene, heat, space);
   SolveResult result = solve(scene_of_parts(scene, parts, space));
   result.heat = heat;
   result.reflected_light.reset();  // it knows the parts only

@@ -183,6 +183,22 @@ TEST_F(NetExchange, OfBlackSurfacesIsTheSameByAnyMethod) {
   }
 }
 
+TEST_F(NetExchange, OfAPlateUnderTheSkyIsItsOwn) {
+  folder_.write("plate.obj",
+                "mtllib plate.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nusemtl m\nf 1 2 3 4\n");
+  folder_.write("plate.mtl", "newmtl m\nemissivity 0.3\ntemperature 400\n");
+  for (const double kelvin : {250., 500.}) {
+    const Json report = exchange({"--surroundings", std::to_string(kelvin)}, "plate.obj");
+    const double expected = 2 * 0.3 * (black(400) - black(kelvin));
+    const Json& net = report.at("net_exchange");
+    EXPECT_NEAR(net.at("groups").at(0).at("net_power_w").at(0).get<double>(), expected, 1e-9);
+    EXPECT_NEAR(net.at("surroundings_net_power_w").at(0).get<double>(), -expected, 1e-9);
+    const Json& group = report.at("groups").at(0);
+    EXPECT_NEAR(group.at("mean_irradiance_w_per_m2").at(0).get<double>(), black(kelvin), 1e-9);
+    EXPECT_TRUE(report.at("warnings").empty());
+  }
+}
+
 TEST_F(NetExchange, WithSurroundingsOfTheSameTemperatureIsNothing) {
   const auto heat = folder_.write("even.json", R"({
     "floor": {"temperature": 800}, "x_low": {"temperature": 800}, "x_high": {"temperature": 800},

@@ -29,11 +29,16 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       ->capture_default_str()
       ->excludes(from);
   add_choice(
-      app, "--method", {"exact", "rays"},
+      app, "--method", {"exact", "rays", "hemicube"},
       [&options](std::size_t k) { options.method = static_cast<FactorMethod>(k); },
-      "Closed forms and exactly visible parts, or counted rays")
+      "Closed forms and exactly visible parts, counted rays, or item buffers")
       ->excludes(from);
-  add_whole(app, "--rays", options.rays, {1, 1000000000}, "Rays of each row, with --method rays")
+  add_whole(app, "--rays", options.rays, {1, 1000000000},
+            "Rays of each row, with --method rays; pixels of each row with hemicube")
+      ->capture_default_str()
+      ->excludes(from);
+  add_even(app, "--hemicube", options.hemicube_pixels, {2, 4096},
+           "Pixels along an edge of hemicubes; at least four stand on a surface")
       ->capture_default_str()
       ->excludes(from);
   add_not_negative(app, "--sparse-below", options.sparse_below,

@@ -35,7 +35,9 @@ FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options
   const SightScene sight = make_sight_scene(sound.sound, progress);
   const RowExchange exchange = options.method == FactorMethod::exact
                                    ? exact_exchange(sound, sight, options, progress)
-                                   : sampled_exchange(sound, sight.reflecting, options, progress);
+                               : options.method == FactorMethod::rays
+                                   ? sampled_exchange(sound, sight.reflecting, options, progress)
+                                   : hemicube_exchange(sound, sight.reflecting, options, progress);
   // What rays were asked for is a number of them.
   const double tolerance = options.method == FactorMethod::exact ? options.tolerance : HUGE_VAL;
   return finished_matrix(sound, exchange, tolerance, options);

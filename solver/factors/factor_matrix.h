@@ -13,8 +13,9 @@
 namespace halfshade {
 
 enum class FactorMethod {
-  exact,  ///< closed forms and exactly visible parts
-  rays    ///< counted rays
+  exact,    ///< closed forms and exactly visible parts
+  rays,     ///< counted rays
+  hemicube  ///< item buffers at points, as radiosity began
 };
 
 struct FactorOptions {
@@ -22,9 +23,10 @@ struct FactorOptions {
   FactorMethod method = FactorMethod::exact;
   double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
   int max_points = 300000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
-  int rays = 10000;         ///< of each row, FactorMethod::rays, ≥ 1
-  double sparse_below = 0;  ///< entries that cannot reach this are left out, ≥ 0
-  bool enforce = false;     ///< scale A F symmetrically until rows, with space, sum to one
+  int rays = 10000;  ///< of each row but with FactorMethod::exact, ≥ 1; pixels count as rays
+  int hemicube_pixels = 64;  ///< along an edge, FactorMethod::hemicube, even and ≥ 2
+  double sparse_below = 0;   ///< entries that cannot reach this are left out, ≥ 0
+  bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one
 };
 
 /// How a matrix came about.

@@ -224,6 +224,25 @@ TEST(FactorMatrix, RaysAgreeWithinTheirErrors) {
   }
 }
 
+TEST(FactorMatrix, HemicubesAgreeWithinTheirErrors) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  options.method = FactorMethod::hemicube;
+  options.hemicube_pixels = 32;
+  options.rays = 50000;
+  const Scene scene = test::l_room(true);
+  const FactorMatrix seen = form_factor_matrix(scene, options);
+  const FactorMatrix exact = factors(scene, 1e-4);
+  EXPECT_GE(seen.report.rays, 50000u * seen.names.size());
+  for (Eigen::Index i = 0; i < exact.area.size(); ++i) {
+    EXPECT_NEAR(seen.row_sum[i], 1, 0.05);
+    EXPECT_LT(seen.error[i], 0.1);
+    EXPECT_NEAR(seen.space[i], exact.space[i], seen.error[i] + exact.error[i]);
+    for (Eigen::Index j = 0; j < exact.area.size(); ++j)
+      EXPECT_NEAR(seen.factors(i, j), exact.factors(i, j), seen.error[i] + exact.error[i]);
+  }
+}
+
 TEST(FactorMatrix, EnforcedRowsSumToOne) {
   FactorOptions options;
   options.tolerance = 1e-3;

@@ -1,6 +1,7 @@
 #include "apps/command_files.h"
 
 #include "io/files/same_file.h"
+#include "io/read/read_factors.h"
 #include "meshing/core/error.h"
 
 #include <fmt/format.h>
@@ -31,6 +32,12 @@ CommandFiles scene_files(const fs::path& scene, const fs::path& materials,
 
 void add_outputs(CommandFiles& files, const char* name, const std::vector<fs::path>& paths) {
   for (const fs::path& path : paths) files.outputs.push_back({name, path});
+}
+
+void add_factor_inputs(CommandFiles& files, const char* name, const fs::path& path) {
+  if (path.empty()) return;
+  files.inputs.push_back({name, path});
+  files.inputs.push_back({fmt::format("the names of {}", name), factor_names_file(path)});
 }
 
 void require_apart(const CommandFiles& files) {

@@ -28,6 +28,9 @@ CommandFiles scene_files(const std::filesystem::path& scene, const std::filesyst
 void add_outputs(CommandFiles& files, const char* name,
                  const std::vector<std::filesystem::path>& paths);
 
+/// Form factors and the table beside them; nothing if the path is empty.
+void add_factor_inputs(CommandFiles& files, const char* name, const std::filesystem::path& path);
+
 /// Throws Error(usage), naming both, if an output is also an input, or two outputs are one.
 void require_apart(const CommandFiles& files);
 

@@ -1,5 +1,7 @@
 #include "apps/command_options.h"
 
+#include "io/files/extension.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,6 +32,12 @@ std::vector<std::string> items(const std::vector<std::string>& lists) {
   return result;
 }
 
+/// Which of some words this is, whatever its letters' case; their number if it is none.
+std::size_t place_of(const std::string& word, const std::vector<std::string>& words) {
+  const auto found = std::find(words.begin(), words.end(), CLI::detail::to_lower(word));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
 }  // namespace
 
 void add_common(CLI::App& app, CommonOptions& common) {
@@ -41,7 +49,7 @@ void add_common(CLI::App& app, CommonOptions& common) {
 }
 
 void add_scene(CLI::App& app, std::filesystem::path& scene) {
-  app.add_option("scene", scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, …")
+  app.add_option("scene", scene, "Scene: .obj, .ply, .off, .gltf, .glb, .stl, .vs3, .msh, …")
       ->required()
       ->check(not_empty())
       ->type_name("SCENE");
@@ -112,23 +120,47 @@ void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary) {
 
 CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::string>& words,
                         const std::function<void(std::size_t)>& choose, const char* help) {
-  const auto place = [words](const std::string& word) {
-    const auto found = std::find(words.begin(), words.end(), CLI::detail::to_lower(word));
-    return static_cast<std::size_t>(found - words.begin());
-  };
   const CLI::Validator is_known(
-      [words, place](std::string& word) {
-        return place(word) < words.size()
+      [words](std::string& word) {
+        return place_of(word, words) < words.size()
                    ? std::string()
                    : fmt::format("'{}' is not one of {}", word, fmt::join(words, ", "));
       },
       "");
   return app
       .add_option_function<std::string>(
-          name, [place, choose](const std::string& word) { choose(place(word)); }, help)
+          name, [words, choose](const std::string& word) { choose(place_of(word, words)); }, help)
       ->check(is_known)
       ->default_str(words.front())
       ->type_name(fmt::format("{}", fmt::join(words, "|")));
+}
+
+CLI::Option* add_choice_or_file(CLI::App& app, const char* name,
+                                const std::vector<std::string>& words,
+                                const std::function<void(std::size_t)>& choose,
+                                const std::string& extension, std::filesystem::path& file,
+                                const char* help) {
+  const auto is_file = [extension](const std::string& word) {
+    return extension_of(word) == extension;
+  };
+  const CLI::Validator is_known(
+      [words, is_file, extension](std::string& word) {
+        return is_file(word) || place_of(word, words) < words.size()
+                   ? std::string()
+                   : fmt::format("'{}' is not one of {}, and no file {}", word,
+                                 fmt::join(words, ", "), extension);
+      },
+      "");
+  const auto take = [words, choose, is_file, &file](const std::string& word) {
+    if (is_file(word))
+      file = word;
+    else
+      choose(place_of(word, words));
+  };
+  return app.add_option_function<std::string>(name, take, help)
+      ->check(is_known)
+      ->default_str(words.front())
+      ->type_name(fmt::format("{}|FILE{}", fmt::join(words, "|"), extension));
 }
 
 std::string footer(const std::string& text) {

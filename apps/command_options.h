@@ -64,6 +64,13 @@ CLI::Option* add_vector(CLI::App& app, const char* name, std::optional<Vec3>& va
 CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::string>& words,
                         const std::function<void(std::size_t)>& choose, const char* help);
 
+/// One of some words, or else a file with this extension.
+CLI::Option* add_choice_or_file(CLI::App& app, const char* name,
+                                const std::vector<std::string>& words,
+                                const std::function<void(std::size_t)>& choose,
+                                const std::string& extension, std::filesystem::path& file,
+                                const char* help);
+
 /// Some of some words, separated by commas; `choose` gets for each whether it is given.
 CLI::Option* add_words(CLI::App& app, const char* name, const std::vector<std::string>& words,
                        const std::function<void(const std::vector<bool>&)>& choose,

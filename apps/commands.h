@@ -55,8 +55,10 @@ struct SolveCommand {
   std::filesystem::path materials;
   std::vector<std::filesystem::path>
       outputs;  ///< empty: the scene's name with .vtu, in the current folder; none with `values`
-  std::filesystem::path points;  ///< at which the solution is told; empty: none
-  std::filesystem::path values;  ///< a table of what it is there
+  std::filesystem::path points;   ///< at which the solution is told; empty: none
+  std::filesystem::path values;   ///< a table of what it is there
+  std::filesystem::path factors;  ///< by face, that were saved; empty: they are computed
+  double surroundings = 0;        ///< temperature of space, K
   SolveOptions options;
   ResultOptions result_options;
 };
@@ -106,6 +108,7 @@ struct FactorsCommand {
   std::filesystem::path scene;
   std::filesystem::path materials;
   std::filesystem::path output;  ///< "-": a table to the standard output
+  std::filesystem::path from;    ///< a matrix by face that is summed; empty: none
   FactorOptions options;
 };
 

@@ -2,7 +2,9 @@
 #include "apps/console.h"
 #include "apps/run_end.h"
 #include "io/files/same_file.h"
+#include "io/read/read_factors.h"
 #include "io/write/write_factors.h"
+#include "solver/factors/saved_factors.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +18,7 @@ constexpr double noticeable_backs = 1e-3;
 
 CommandFiles checked_files(const FactorsCommand& command, const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
+  add_factor_inputs(files, "--from", command.from);
   add_outputs(files, "-o", factor_files(command.output));
   require_apart(files);
   require_place(common.json);
@@ -40,7 +43,7 @@ void print_summary(const FactorMatrix& matrix, const Context& context) {
   fmt::print(out, "surfaces     {}\n", matrix.names.size());
   if (report.rays > 0)
     fmt::print(out, "rays         {}\n", report.rays);
-  else
+  else if (report.clear_pairs + report.partial_pairs > 0)
     fmt::print(out, "pairs        {} clear, {} with something between\n", report.clear_pairs,
                report.partial_pairs);
   fmt::print(out, "error        at most {:.2g} in a factor; rows sum to 1 within {:.2g}\n",
@@ -69,7 +72,10 @@ ExitCode run(const FactorsCommand& command, const Context& context) {
   const CommandFiles files = checked_files(command, context.common);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const FactorMatrix matrix = form_factor_matrix(file.scene, command.options, context.progress);
+  const FactorMatrix matrix =
+      command.from.empty()
+          ? form_factor_matrix(file.scene, command.options, context.progress)
+          : summed_factors(file.scene, read_factors(command.from), command.options);
   context.progress_ends();
   if (!matrix.report.is_complete) return end_without_results();
   const std::string sentence = not_reached(matrix, command.options);

@@ -15,6 +15,9 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
            "Result: .csv (surface,area,NAME…,space,row_sum,error), .mtx (MatrixMarket, with names\n"
            "and areas beside it in .names.csv); '-': .csv to stdout")
       ->required();
+  CLI::Option* from = add_file(
+      app, "--from", command.from,
+      "Sum a matrix by face of this scene that was saved (.mtx) instead of computing it again");
   add_choice(
       app, "--by", {"group", "face", "material"},
       [&options](std::size_t k) {
@@ -23,30 +26,40 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       "What has a row");
   add_number(app, "--tolerance", options.tolerance, {1e-12, 0.5},
              "Error allowed in a form factor, absolute")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(from);
   add_choice(
-      app, "--method", {"exact", "rays"},
+      app, "--method", {"exact", "rays", "hemicube"},
       [&options](std::size_t k) { options.method = static_cast<FactorMethod>(k); },
-      "Closed forms and exactly visible parts, or counted rays");
-  add_whole(app, "--rays", options.rays, {1, 1000000000}, "Rays of each row, with --method rays")
-      ->capture_default_str();
+      "Closed forms and exactly visible parts, counted rays, or item buffers")
+      ->excludes(from);
+  add_whole(app, "--rays", options.rays, {1, 1000000000},
+            "Rays of each row, with --method rays; pixels of each row with hemicube")
+      ->capture_default_str()
+      ->excludes(from);
+  add_even(app, "--hemicube", options.hemicube_pixels, {2, 4096},
+           "Pixels along an edge of hemicubes; at least four stand on a surface")
+      ->capture_default_str()
+      ->excludes(from);
   add_not_negative(app, "--sparse-below", options.sparse_below,
                    "Leave out form factors that cannot reach this, and say so in 'error'");
   app.add_flag("--enforce", options.enforce,
                "Scale rows and columns alike until rows, with space, sum to one");
   add_whole(app, "--max-points", options.max_points, {1, 1000000000},
             "Points at which a pair of surfaces is looked at, at most")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(from);
   add_materials(app, command.materials, "Materials file, as for solve");
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.footer(
-      footer("Examples:\n"
-             "  halfshade factors data/l_room.obj -o l_room.csv\n"
-             "  halfshade factors data/l_room.obj -o l_room.mtx --by face --tolerance 1e-6\n"
-             "  halfshade factors data/furnace_cube.obj -o - --by material --tolerance 1e-9\n"
-             "  halfshade factors data/table_and_chairs.obj -o chairs.csv --method rays --rays "
-             "20000 --enforce\n\n"));
+  app.footer(footer(
+      "Examples:\n"
+      "  halfshade factors data/l_room.obj -o l_room.csv\n"
+      "  halfshade factors data/l_room.obj -o l_room.mtx --by face --tolerance 1e-6\n"
+      "  halfshade factors data/l_room.obj --from l_room.mtx -o l_room_groups.csv --enforce\n"
+      "  halfshade factors data/furnace_cube.obj -o - --by material --tolerance 1e-9\n"
+      "  halfshade factors data/table_and_chairs.obj -o chairs.csv --method rays --rays "
+      "20000 --enforce\n\n"));
 }
 
 }  // namespace halfshade

@@ -2,9 +2,12 @@
 #include "apps/console.h"
 #include "apps/run_end.h"
 #include "io/files/same_file.h"
+#include "io/read/read_factors.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
 #include "meshing/repair/repair_sentence.h"
+#include "solver/pipeline/face_radiosity.h"
+#include "solver/pipeline/net_exchange.h"
 
 #include <fmt/format.h>
 
@@ -111,6 +114,7 @@ CommandFiles checked_files(const SolveCommand& command,
                            const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
   files.inputs.push_back({"--points", command.points});
+  add_factor_inputs(files, "--factors", command.factors);
   add_outputs(files, "-o", outputs);
   add_outputs(files, "--values", {command.values});
   require_apart(files);
@@ -118,6 +122,20 @@ CommandFiles checked_files(const SolveCommand& command,
   for (const auto& path : outputs) check_output(path, solve_formats);
   if (!is_standard_stream(command.values)) check_output(command.values, value_formats);
   return files;
+}
+
+SolveResult solved(const SceneFile& file, const SolveCommand& command, const Context& context) {
+  Heat heat = file.heat;
+  if (command.surroundings > 0) heat.surroundings = command.surroundings;
+  heat.is_given = heat.is_given || heat.surroundings;
+  // Better now than when the report is to be written.
+  if (heat.is_given && !context.common.json.empty()) require_metres_in(file.scene.unit);
+  const auto solve_scene = [&](const Scene& scene) {
+    if (command.factors.empty()) return solve(scene, command.options, context.progress);
+    return solve_by_faces(scene, read_factors(command.factors), command.options, context.progress);
+  };
+  if (!command.factors.empty() && !heat.surroundings) require_emitter(file.scene);
+  return solve_net_exchange(file.scene, heat, solve_scene);
 }
 
 }  // namespace
@@ -131,7 +149,7 @@ ExitCode run(const SolveCommand& command, const Context& context) {
   if (!command.points.empty()) table = read_points(command.points);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const SolveResult result = solve(file.scene, command.options, context.progress);
+  const SolveResult result = solved(file, command, context);
   context.progress_ends();
   print_warnings(file, result.warnings, context);
   if (!is_worth_writing(result)) return end_without_results();

@@ -1,11 +1,18 @@
 #include "apps/command_options.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <array>
 
 namespace halfshade {
 namespace {
+
+/// They ask for what form factors by face, that were computed before, leave no room for.
+constexpr const char* needless_with_saved_factors[] = {
+    "--tolerance", "--order",  "--refine",       "--method",          "--elements",
+    "--regions",   "--rays",   "--visibility",   "--hemicube",        "--closure",
+    "--force",     "--events", "--direct-light", "--no-discontinuity"};
 
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
@@ -42,10 +49,15 @@ void add_size(CLI::App& app, SolveOptions& options) {
       ->capture_default_str();
 }
 
-void add_light(CLI::App& app, SolveOptions& options) {
+void add_light(CLI::App& app, SolveCommand& command) {
+  SolveOptions& options = command.options;
   add_whole(app, "--bounces", options.radiosity.bounces, {0, 100000},
             "Only light that arrives after at most N reflections: 0 is direct light, 1 adds one\n"
             "reflection (default: all)");
+  add_not_negative(app, "--surroundings", command.surroundings,
+                   "Temperature in K of all that is seen through openings; 0: dark")
+      ->capture_default_str()
+      ->excludes("--bounces");
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
   add_choice(
@@ -57,14 +69,17 @@ void add_light(CLI::App& app, SolveOptions& options) {
       },
       "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
       "by whichever takes less time ('auto')");
-  add_choice(
+  add_choice_or_file(
       app, "--factors", {"rays", "hemicube", "exact"},
       [&options](std::size_t k) {
         options.exchange.factors =
             std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
       },
+      ".mtx", command.factors,
       "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
-      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact')");
+      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact').\n"
+      "FILE.mtx: what 'factors --by face' has saved of this scene; radiosity is then constant on\n"
+      "each face");
   add_even(app, "--hemicube", options.exchange.hemicube_pixels, {2, 4096},
            "Pixels along an edge of hemicubes")
       ->capture_default_str();
@@ -109,7 +124,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   add_outputs(app, command.outputs,
               "Result: .vtu, .vtp, .ply or .png; may repeat (default: SCENE.vtu in this folder)");
   add_materials(app, command.materials,
-                "JSON: object, group or material name -> reflectance, exitance, two_sided");
+                "JSON: object, group or material name -> reflectance, exitance, two_sided; or\n"
+                "emissivity, temperature (K), net_flux (0); bands: channels with names");
   CLI::Option* points =
       add_file(app, "--points", command.points, "Points on surfaces, a table as for probe");
   CLI::Option* values = add_file(app, "--values", command.values,
@@ -121,15 +137,22 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
                "Straight triangles in .vtu, for readers that know no polynomials");
   add_accuracy(app, command.options);
   add_size(app, command.options);
-  add_light(app, command.options);
+  add_light(app, command);
   add_curves(app, command.options);
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.parse_complete_callback([&app, &options = command.options] {
+  app.parse_complete_callback([&app, &command] {
+    SolveOptions& options = command.options;
     const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
+    if (command.factors.empty()) return;
+    for (const char* name : needless_with_saved_factors)
+      if (given(name))
+        throw CLI::ValidationError(
+            name, fmt::format("has no part in a solution by saved form factors (--factors {})",
+                              command.factors.string()));
   });
   app.footer(footer(
       "Examples:\n"
@@ -138,6 +161,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       "  halfshade solve data/s1.obj --tolerance 1e-6 -o s1.vtu\n"
       "  halfshade solve data/s1.obj --method matrix --factors hemicube --hemicube 32 -o "
       "s1_cube.vtu\n"
+      "  halfshade solve data/thermal_furnace.obj --surroundings 300 -o furnace.vtu --json "
+      "furnace.json\n"
       "  halfshade solve data/furnace_cube.obj --method matrix --elements 600 --json report.json "
       "-q\n\n"));
 }

@@ -158,7 +158,8 @@ std::string channel_name(const ResultArray& array, int channel) {
 std::string unit_of(const std::string& name) {
   static const std::map<std::string, std::string> units = {
       {"radiosity", "W/m²"}, {"irradiance", "W/m²"},     {"direct_irradiance", "W/m²"},
-      {"exitance", "W/m²"},  {"error_estimate", "W/m²"}, {"quality", "degrees"}};
+      {"exitance", "W/m²"},  {"error_estimate", "W/m²"}, {"quality", "degrees"},
+      {"net_flux", "W/m²"},  {"temperature", "K"}};
   const auto found = units.find(name);
   return found == units.end() ? "" : found->second;
 }

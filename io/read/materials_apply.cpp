@@ -1,3 +1,4 @@
+#include "io/read/heat_values.h"
 #include "io/read/materials_json.h"
 #include "io/read/read_text.h"
 
@@ -16,22 +17,28 @@ using nlohmann::json;
 using std::filesystem::path;
 
 struct Override {
-  std::optional<Rgb> rho, exitance;
+  MaterialEntry entry;
   std::optional<bool> two_sided;
 };
 
-/// One number or three; each at least 0 and at most `most`.
-Rgb channels(const json& value, double most, const path& file, const std::string& key) {
+/// One number, or as many as there are bands, or three; each at least 0 and at most `most`.
+Rgb channels(const json& value, double most, const std::vector<Band>& bands, const path& file,
+             const std::string& key) {
+  const std::size_t count = bands.empty() ? 3 : bands.size();
   Rgb result = Rgb::Constant(NAN);
   if (value.is_number()) {
     result = Rgb::Constant(value.get<double>());
-  } else if (value.is_array() && value.size() == 3) {
-    for (int c = 0; c < 3; ++c)
-      if (const json& number = value[static_cast<std::size_t>(c)]; number.is_number())
-        result[c] = number.get<double>();
+  } else if (value.is_array() && value.size() == count) {
+    for (std::size_t c = 0; c < 3; ++c)
+      if (const json& number = value[std::min(c, count - 1)]; number.is_number())
+        result[static_cast<int>(c)] = number.get<double>();
   }
   if (!result.allFinite())
-    fail(file, 0, fmt::format("{} must be a number or three numbers [r, g, b]", key));
+    fail(file, 0,
+         bands.empty() ? fmt::format("{} must be a number or three numbers [r, g, b]", key)
+                       : fmt::format("{} must be a number or a list of one for each of the {} "
+                                     "bands",
+                                     key, count));
   for (const double channel : result)
     if (!(channel >= 0 && channel <= most))
       fail(file, 0,
@@ -40,27 +47,39 @@ Rgb channels(const json& value, double most, const path& file, const std::string
   return result;
 }
 
-Override read_override(const json& entry, const path& file, const std::string& key) {
-  require_object(entry, file, key);
-  require_known_keys(entry, {"reflectance", "exitance", "two_sided"}, file, key);
+double single_number(const json& value, const path& file, const std::string& key) {
+  if (!value.is_number()) fail(file, 0, fmt::format("{} must be a number", key));
+  return value.get<double>();
+}
+
+Override read_override(const json& object, const std::vector<Band>& bands, const path& file,
+                       const std::string& key) {
+  require_object(object, file, key);
+  require_known_keys(
+      object, {"reflectance", "exitance", "emissivity", "temperature", "net_flux", "two_sided"},
+      file, key);
   Override result;
-  if (const auto at = entry.find("reflectance"); at != entry.end())
-    result.rho = channels(*at, 1, file, key_path(key, "reflectance"));
-  if (const auto at = entry.find("exitance"); at != entry.end())
-    result.exitance = channels(*at, HUGE_VAL, file, key_path(key, "exitance"));
-  if (const auto at = entry.find("two_sided"); at != entry.end()) {
-    if (!at->is_boolean())
-      fail(file, 0, fmt::format("{} must be true or false", key_path(key, "two_sided")));
-    result.two_sided = at->get<bool>();
+  MaterialEntry& entry = result.entry;
+  for (const auto& [name, value] : object.items()) {
+    const std::string place = key_path(key, name);
+    if (name == "reflectance") entry.rho = channels(value, 1, bands, file, place);
+    if (name == "exitance") entry.exitance = channels(value, HUGE_VAL, bands, file, place);
+    if (name == "emissivity") entry.emissivity = channels(value, 1, bands, file, place);
+    if (name == "temperature") entry.temperature = single_number(value, file, place);
+    if (name == "net_flux") entry.net_flux = single_number(value, file, place);
+    if (name != "two_sided") continue;
+    if (!value.is_boolean()) fail(file, 0, fmt::format("{} must be true or false", place));
+    result.two_sided = value.get<bool>();
   }
+  require_consistent(entry, file, 0, key);
   return result;
 }
 
-void apply(const Override& change, const path& file, Material& material, MaterialOrigin& origin) {
-  if (change.rho) material.rho = *change.rho;
-  if (change.rho) origin.rho_place = file.string();
-  if (change.exitance) material.exitance = *change.exitance;
-  if (change.exitance) origin.exitance_place = file.string();
+void apply(const Override& change, bool by_band, const path& file, Material& material,
+           MaterialOrigin& origin) {
+  apply_entry(change.entry, file.string(), material, origin);
+  if (change.entry.rho || change.entry.emissivity) origin.rho_by_band = by_band;
+  if (change.entry.exitance) origin.exitance_by_band = by_band;
   if (change.two_sided) material.two_sided = *change.two_sided;
   origin.undefined_place.clear();
   origin.from_json = true;
@@ -72,7 +91,7 @@ bool apply_by_material(const Override& change, const path& file, const std::stri
   bool any = false;
   for (std::size_t m = 0; m < draft.origins.size(); ++m)
     if (draft.origins[m].name == name) {
-      apply(change, file, draft.scene.materials[m], draft.origins[m]);
+      apply(change, !draft.bands.empty(), file, draft.scene.materials[m], draft.origins[m]);
       any = true;
     }
   return any;
@@ -94,7 +113,7 @@ void apply_by_group(const std::map<int, Override>& changes, const path& file, Sc
       const std::string& group = scene.groups[static_cast<std::size_t>(face.group)];
       material.name =
           origin.name == default_name ? group : fmt::format("{} ({})", origin.name, group);
-      apply(change->second, file, material, origin);
+      apply(change->second, !draft.bands.empty(), file, material, origin);
       scene.materials.push_back(std::move(material));
       draft.origins.push_back(std::move(origin));
     }
@@ -127,8 +146,12 @@ void apply_materials(const json& materials, const path& file, const std::string&
                      SceneDraft& draft) {
   require_object(materials, file, key);
   std::map<int, Override> by_group;
+  const auto bands = materials.find("bands");
+  const bool has_bands = bands != materials.end() && bands->is_array();
+  if (has_bands) take_bands(*bands, file, key_path(key, "bands"), draft);
   for (const auto& [name, entry] : materials.items()) {
-    const Override change = read_override(entry, file, key_path(key, name));
+    if (has_bands && name == "bands") continue;
+    const Override change = read_override(entry, draft.bands, file, key_path(key, name));
     if (const auto group = draft.group_ids.find(name); group != draft.group_ids.end()) {
       if (means_two_things(name, group->second, draft))
         draft.warnings.push_back(
@@ -137,6 +160,10 @@ void apply_materials(const json& materials, const path& file, const std::string&
                         file.string(), key_path(key, name)));
       by_group[group->second] = change;
     } else if (!apply_by_material(change, file, name, draft)) {
+      if (draft.named_groups.count(name) > 0)
+        fail(file, 0,
+             fmt::format("{} is a group of {} that has no faces", key_path(key, name),
+                         draft.scene.source));
       fail(file, 0,
            fmt::format("{} is neither a group nor a material of {}; its groups are {}, its "
                        "materials {}",

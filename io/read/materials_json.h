@@ -14,12 +14,18 @@ namespace halfshade::reading {
 /// The value in a file; comments are allowed. Throws Error(invalid_input) with file and line.
 nlohmann::json read_json(const std::filesystem::path& path);
 
-/// Applies an object {name: {"reflectance", "exitance", "two_sided"}}. A name is a group's or else
-/// a material's; of the two, the group's entry wins on its faces, which get a material of their
-/// own. `key` says where the object stands in the file ("materials"), empty for the whole file.
-/// Throws Error(invalid_input) naming file and key.
+/// Applies an object {name: {"reflectance", "exitance", "emissivity", "temperature", "net_flux",
+/// "two_sided"}}, and {"bands": […]} beside them. A name is a group's or else a material's; of the
+/// two, the group's entry wins on its faces, which get a material of their own. `key` says where
+/// the object stands in the file ("materials"), empty for the whole file. Throws
+/// Error(invalid_input) naming file and key.
 void apply_materials(const nlohmann::json& materials, const std::filesystem::path& path,
                      const std::string& key, SceneDraft& draft);
+
+/// Makes the bands of a list [name or {"name", "wavelengths_um": [shortest, longest]}, …] the
+/// scene's channels. Throws Error(invalid_input) naming file and key.
+void take_bands(const nlohmann::json& value, const std::filesystem::path& path,
+                const std::string& key, SceneDraft& draft);
 
 /// Applies a scene's sidecar: unit, cameras, materials. Warns of keys it does not know.
 void apply_sidecar(const std::filesystem::path& path, SceneDraft& draft);

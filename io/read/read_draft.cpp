@@ -23,11 +23,16 @@ int group_id(SceneDraft& draft, const std::string& name) {
 }
 
 void add_plain_face(SceneDraft& draft, const std::vector<long long>& corners, int line) {
+  add_face(draft, corners, line, default_name);
+}
+
+void add_face(SceneDraft& draft, const std::vector<long long>& corners, int line,
+              const std::string& group, const std::string& material) {
   Scene& scene = draft.scene;
   Face face;
   face.line = line;
-  face.material = material_id(draft, default_name);
-  face.group = group_id(draft, default_name);
+  face.material = material_id(draft, material);
+  face.group = group_id(draft, group);
   scene.faces.push_back(face);
   const auto reject = [&](const std::string& sentence) {
     throw Error(ErrorCode::invalid_input, scene.source,

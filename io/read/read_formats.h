@@ -1,9 +1,11 @@
 #pragma once
 
 #include "meshing/core/scene.h"
+#include "solver/heat/heat.h"
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -18,6 +20,9 @@ struct MaterialOrigin {
   std::string exitance_place;   ///< "file:line"; empty if not given
   std::string undefined_place;  ///< where it is used, if no file defines it; else empty
   bool from_json = false;       ///< given by a materials file or a sidecar
+  HeatMaterial heat;            ///< as the last file says
+  bool says_heat = false;       ///< an emissivity, a temperature or a net flux was given
+  bool rho_by_band = false, exitance_by_band = false;  ///< given where the bands were known
 };
 
 struct MissingFile {
@@ -35,6 +40,8 @@ struct SceneDraft {
   std::vector<MissingFile> missing;
   std::unordered_map<std::string, int> material_ids;  ///< by the name in the scene file
   std::unordered_map<std::string, int> group_ids;
+  std::vector<Band> bands;             ///< channels that a file names
+  std::set<std::string> named_groups;  ///< that the file names, whether they have faces or not
 };
 
 /// The name of the material and of the group of faces that the file gives none.
@@ -44,6 +51,8 @@ SceneDraft read_obj(const std::filesystem::path& path);
 SceneDraft read_ply(const std::filesystem::path& path);
 SceneDraft read_off(const std::filesystem::path& path);
 SceneDraft read_stl(const std::filesystem::path& path);
+SceneDraft read_vs3(const std::filesystem::path& path);
+SceneDraft read_msh(const std::filesystem::path& path);
 SceneDraft read_with_assimp(const std::filesystem::path& path);
 
 /// Adds what an MTL file defines to the draft's materials.
@@ -65,8 +74,12 @@ int material_id(SceneDraft& draft, const std::string& name);
 /// The id of the group with this name, which is appended if it is new.
 int group_id(SceneDraft& draft, const std::string& name);
 
-/// Appends a polygon whose corners count from 0, with the default material and group. Fails if a
-/// corner is out of range of the vertices read so far or if there are fewer than three.
+/// Appends a polygon whose corners count from 0. Fails if a corner is out of range of the vertices
+/// read so far or if there are fewer than three.
+void add_face(SceneDraft& draft, const std::vector<long long>& corners, int line,
+              const std::string& group, const std::string& material = default_name);
+
+/// The same with the default material and group.
 void add_plain_face(SceneDraft& draft, const std::vector<long long>& corners, int line);
 
 }  // namespace halfshade::reading

@@ -1,5 +1,7 @@
-// Wavefront MTL: Kd is the reflectance, Ke the exitance in W/m².
+// Wavefront MTL: Kd is the reflectance, Ke the exitance in W/m²; emissivity, temperature (K) and
+// net_flux are ours.
 
+#include "io/read/heat_values.h"
 #include "io/read/read_formats.h"
 #include "io/read/read_text.h"
 
@@ -37,12 +39,29 @@ class MtlReader {
     } else if (small == "kd") {
       draft_.scene.materials[present(keyword)].rho = colour();
       draft_.origins[present(keyword)].rho_place = place(file_, line_);
+      entry_.rho = colour();
     } else if (small == "ke") {
       draft_.scene.materials[present(keyword)].exitance = colour();
       draft_.origins[present(keyword)].exitance_place = place(file_, line_);
+      entry_.exitance = colour();
+    } else if (small == "emissivity" || small == "temperature" || small == "net_flux") {
+      heat(small);
     } else {
       unused(keyword);
     }
+  }
+
+  /// Ours, by the words of materials files; other programs pass over them.
+  void heat(const std::string& keyword) {
+    present(keyword);
+    heat_line_ = line_;
+    const Rgb value = colour();
+    if (keyword == "emissivity") {
+      entry_.emissivity = value;
+      return;
+    }
+    if (words_.size() != 2) fail(file_, line_, fmt::format("{} is a single number", keyword));
+    (keyword == "temperature" ? entry_.temperature : entry_.net_flux) = value[0];
   }
 
   void start_material(std::string_view name) {
@@ -54,12 +73,22 @@ class MtlReader {
     Material& material = draft_.scene.materials[id];
     material = Material{};
     material.name = name;
-    draft_.origins[id] = {material.name, {}, {}, {}, false};
+    draft_.origins[id] = {};
+    draft_.origins[id].name = material.name;
+    entry_ = {};
+    heat_line_ = 0;
     material_ = id;
   }
 
   void finish_material() {
-    if (material_ && draft_.origins[*material_].rho_place.empty()) {
+    if (material_ && heat_line_ > 0) {
+      Material& material = draft_.scene.materials[*material_];
+      require_consistent(entry_, file_, heat_line_, "material " + in_quotes(material.name));
+      apply_entry(entry_, place(file_, heat_line_), material, draft_.origins[*material_]);
+    }
+    const bool needs_rho = material_ && draft_.origins[*material_].rho_place.empty() &&
+                           !draft_.origins[*material_].heat.is_adiabatic;
+    if (needs_rho) {
       const Material& material = draft_.scene.materials[*material_];
       draft_.warnings.push_back(
           fmt::format("{}: material {} has no Kd; its reflectance is taken as {}", file_.string(),
@@ -122,6 +151,8 @@ class MtlReader {
   std::vector<std::string_view> words_;
   int line_ = 0;
   std::optional<std::size_t> material_;
+  MaterialEntry entry_;  ///< what is said of it
+  int heat_line_ = 0;    ///< the last that says something of heat; 0: none
   std::set<std::size_t> defined_;
   std::set<std::string> warned_;
 };

@@ -1,6 +1,7 @@
 #include "io/read/read_scene.h"
 
 #include "io/files/extension.h"
+#include "io/read/heat_values.h"
 #include "io/read/materials_json.h"
 #include "io/read/read_formats.h"
 #include "io/read/read_text.h"
@@ -24,13 +25,16 @@ SceneDraft read_by_extension(const path& file) {
   if (extension == ".ply") return reading::read_ply(file);
   if (extension == ".off") return reading::read_off(file);
   if (extension == ".stl") return reading::read_stl(file);
+  if (extension == ".vs3") return reading::read_vs3(file);
+  if (extension == ".msh") return reading::read_msh(file);
   for (const std::string_view known : {".gltf", ".glb", ".dae", ".3ds"})
     if (extension == known) return reading::read_with_assimp(file);
-  throw Error(ErrorCode::usage, file.string(),
-              fmt::format("{} of a scene; known are .obj, .ply, .off, .gltf, .glb, .stl, .dae and "
-                          ".3ds",
-                          extension.empty() ? "there is no extension that tells the format"
-                                            : "'" + extension + "' is not a known format"));
+  throw Error(
+      ErrorCode::usage, file.string(),
+      fmt::format("{} of a scene; known are .obj, .ply, .off, .gltf, .glb, .stl, .dae, .3ds, "
+                  ".vs3 and .msh",
+                  extension.empty() ? "there is no extension that tells the format"
+                                    : "'" + extension + "' is not a known format"));
 }
 
 void apply_json_files(const path& scene, const path& materials, SceneDraft& draft) {
@@ -105,7 +109,8 @@ void check_libraries(const SceneDraft& draft) {
 std::vector<std::string> guesses_in(const SceneDraft& draft) {
   std::vector<std::string> guesses;
   for (std::size_t m = 0; m < draft.origins.size(); ++m) {
-    if (draft.origins[m].name != reading::default_name || !draft.origins[m].rho_place.empty())
+    if (draft.origins[m].name != reading::default_name || !draft.origins[m].rho_place.empty() ||
+        draft.origins[m].heat.is_adiabatic)
       continue;
     const auto& faces = draft.scene.faces;
     const auto count = std::count_if(faces.begin(), faces.end(), [&](const Face& face) {
@@ -129,13 +134,14 @@ SceneFile read_scene(const path& file, const path& materials) {
   apply_json_files(file, materials, draft);
   drop_unused_materials(draft);
   check_libraries(draft);
+  Heat heat = reading::apply_heat(draft);
   check_materials(draft);
   for (const reading::MissingFile& missing : draft.missing)
     draft.warnings.push_back(missing.place + ": " + missing.sentence);
   std::vector<std::string> guesses = guesses_in(draft);
   validate(draft.scene);
   return {std::move(draft.scene), std::move(draft.warnings), std::move(guesses),
-          std::move(draft.files)};
+          std::move(draft.files), std::move(heat)};
 }
 
 }  // namespace halfshade

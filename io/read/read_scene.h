@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/scene.h"
+#include "solver/heat/heat.h"
 
 #include <filesystem>
 #include <string>
@@ -15,20 +16,27 @@ struct SceneFile {
   std::vector<std::string> guesses;   ///< what is taken where the files say nothing, likewise
   std::vector<std::filesystem::path>
       files;  ///< read besides the scene: material libraries, buffers
+  Heat heat;  ///< what is said of temperatures, bands and net fluxes
 };
 
-/// Reads a scene by its extension: .obj (+ .mtl), .ply, .off and .stl as text in double
+/// Reads a scene by its extension: .obj (+ .mtl), .ply, .off, .vs3, .msh and .stl as text in double
 /// precision, .stl binary in its single one; .gltf, .glb, .dae and .3ds through assimp in single
-/// precision. Polygons stay polygons. Applies the
-/// sidecar (the scene's path with .json as extension, if there is one) and then the materials file
-/// `materials` (none if empty), and validates the result.
+/// precision. Polygons stay polygons. Applies the sidecar (the scene's path with .json as
+/// extension, if there is one) and then the materials file `materials` (none if empty), and
+/// validates the result.
 ///
 /// OBJ: `Kd` is the reflectance, `Ke` the exitance in W/m²; `g` and `o` start groups; faces before
 /// any usemtl, and formats without materials, get a material named "default". glTF and COLLADA:
-/// groups are nodes, base or diffuse colour is the reflectance, emission the exitance. Materials
+/// groups are nodes, base or diffuse colour is the reflectance, emission the exitance. View3D
+/// (.vs3): surfaces are groups by their names, those that are combined one group; the reflectance
+/// is 1 − emissivity; obstructions are black. Gmsh (.msh): physical surfaces are groups. Materials
 /// that no face uses are left out; a material that only a usemtl names must be given by a materials
 /// file. Names in a materials file are groups' or else materials'; a group's entry wins on its
 /// faces, which get a material of their own.
+///
+/// Heat: `emissivity` (1 − reflectance), `temperature` (K, for the exitance) and `net_flux` (0: the
+/// reflectance is 1, the temperature is found) of .mtl and materials files become reflectances and
+/// exitances. `bands` in a materials file name 1 to 3 channels, with or without wavelengths_um.
 ///
 /// Throws Error(usage) for an unknown extension and Error(invalid_input) with file, line or face
 /// for anything that is not a sound scene.

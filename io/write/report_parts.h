@@ -41,5 +41,7 @@ Json exchange_json(const ExchangeReport& report);
 Json direct_json(const AdaptiveFieldReport& report, const ElementField& field);
 Json reflected_json(const ReflectedReport& report);
 Json radiosity_json(const RadiosityReport& report);
+/// In SI units, whatever the scene's is. Throws as sum_heat does.
+Json net_exchange_json(const SolveResult& result);
 
 }  // namespace halfshade::detail

@@ -2,6 +2,7 @@
 
 #include "io/files/atomic_file.h"
 #include "io/files/same_file.h"
+#include "io/read/read_factors.h"
 #include "io/write/report_parts.h"
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ std::string matrix_market_bytes(const FactorMatrix& matrix, const Provenance& pr
 
 std::vector<fs::path> factor_files(const fs::path& path) {
   if (is_standard_stream(path) || extension_of(path) != ".mtx") return {path};
-  return {path, fs::path(path).replace_extension(".names.csv")};
+  return {path, factor_names_file(path)};
 }
 
 void write_factors(const FactorMatrix& matrix, const Provenance& provenance, const fs::path& path) {

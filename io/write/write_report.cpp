@@ -137,6 +137,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
   }
   json["radiosity"] = radiosity_json(result.radiosity);
   json["groups"] = groups_json(result);
+  if (result.heat.is_given) json["net_exchange"] = net_exchange_json(result);
   json["outputs"] = to_json(run.outputs);
   write(json, path);
 }

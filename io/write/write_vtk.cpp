@@ -1,6 +1,7 @@
 #include "io/write/detail/vtk_file.h"
 #include "io/write/result_bytes.h"
 #include "solver/pipeline/linear_result.h"
+#include "solver/pipeline/net_exchange.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -14,8 +15,20 @@ struct CellData {
   const ElementTable& elements;
   const Solution& solution;
   const std::vector<Region>& regions;
+  const Heat& heat;
   std::vector<int> order;
 };
+
+/// What surfaces give net, and how hot they are.
+void add_heat(const CellData& cells, vtkFieldData* data) {
+  if (!cells.heat.is_given) return;
+  const Solution& solution = cells.solution;
+  add_channels(data, "net_flux", solution.radiosity - solution.irradiance);
+  const Eigen::ArrayXd kelvin =
+      temperatures(cells.heat, cells.elements.material, solution.irradiance);
+  if (!kelvin.isNaN().all())
+    add_numbers(data, "temperature", {kelvin.data(), kelvin.data() + kelvin.size()});
+}
 
 void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* data) {
   const Solution& solution = cells.solution;
@@ -29,6 +42,7 @@ void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* da
   if (!solution.region.empty()) add_integers(data, "region", region_codes(solution.region));
   if (!cells.regions.empty())
     add_integers(data, "regions", region_codes(cells.regions), static_cast<int>(emitters));
+  add_heat(cells, data);
   add_integers(data, "order", cells.order);
   add_element_data(cells.elements, data);
 }
@@ -45,7 +59,7 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension) 
   const LinearResult linear = linear_result(result);
   const auto grid = element_grid(linear.elements, extension);
   const bool is_constant = result.irradiance.count() == 0;
-  add_cell_data({linear.elements, linear.solution, linear.regions,
+  add_cell_data({linear.elements, linear.solution, linear.regions, result.heat,
                  std::vector<int>(linear.elements.corners.size(), is_constant ? 0 : 1)},
                 result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
@@ -58,8 +72,9 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension) 
 std::string polynomial_bytes(const SolveResult& result) {
   const NodeValues nodes = node_values(result);
   const auto grid = polynomial_grid(nodes.points, nodes.order);
-  add_cell_data({result.elements, result.solution, result.regions, result.irradiance.order},
-                result.emitters.size(), grid->GetCellData());
+  add_cell_data(
+      {result.elements, result.solution, result.regions, result.heat, result.irradiance.order},
+      result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
   add_field_data(result, grid->GetFieldData());

@@ -15,7 +15,7 @@ constexpr int highest_symmetric = 6;  // triangle_rule
 /// none of them found anything.
 constexpr double share_of_unseen = 0.5;
 /// The same of what might be seen through gaps, where nothing is seen; by how often it was looked.
-constexpr std::array<double, 3> share_of_gaps = {0.1, 0.01, 0};
+constexpr std::array<double, 6> share_of_gaps = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 0};
 /// Of the spread of values, what a first cell may be off by, though two rules agree by chance; half
 /// of it after each halving.
 constexpr double share_of_spread = 0.1;

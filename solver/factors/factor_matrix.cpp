@@ -1,12 +1,11 @@
 #include "solver/factors/factor_matrix.h"
 
 #include "meshing/core/error.h"
-#include "solver/exchange/exchange.h"
+#include "solver/factors/finished_matrix.h"
 #include "solver/factors/surface_exchange.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <unistd.h>
 
@@ -17,7 +16,9 @@ namespace {
 constexpr double memory_share = 0.7;
 constexpr double matrices = 4;
 
-void require_memory_for(int rows) {
+}  // namespace
+
+void require_factor_memory(int rows) {
   const double bytes = matrices * sizeof(double) * std::pow(static_cast<double>(rows), 2);
   const double machine =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -27,105 +28,19 @@ void require_memory_for(int rows) {
                             rows, bytes * 1e-9, machine * 1e-9));
 }
 
-FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
-  FactorMatrix result;
-  result.names = scene.names;
-  result.unit = scene.unit;
-  result.report = exchange.report;
-  result.area = Eigen::Map<const Eigen::ArrayXd>(scene.areas.data(), scene.rows());
-  result.factors = result.area.inverse().matrix().asDiagonal() * exchange.mutual;
-  result.space = exchange.space / result.area;
-  result.backs = exchange.backs / result.area;
-  result.row_sum = result.factors.rowwise().sum().array() + result.space;
-  result.error =
-      exchange.mutual_error.rowwise().maxCoeff().array().max(exchange.space_error) / result.area;
-  return result;
-}
-
-void fill_report(double tolerance, FactorMatrix& result) {
-  FactorReport& report = result.report;
-  for (Eigen::Index i = 0; i < result.area.size(); ++i) {
-    const bool is_off = result.error[i] > tolerance;
-    report.rows_not_reached += is_off ? 1 : 0;
-    report.row_sum_error_max = std::max(report.row_sum_error_max, std::abs(result.row_sum[i] - 1));
-    if (result.backs[i] <= report.backs_max) continue;
-    report.backs_max = result.backs[i];
-    report.backs_row = static_cast<int>(i);
-  }
-}
-
-/// A F with the surroundings as one more row.
-ExchangeMatrix with_surroundings(const RowExchange& exchange) {
-  const Eigen::Index n = exchange.mutual.rows();
-  RowMajorMatrix all = RowMajorMatrix::Zero(n + 1, n + 1);
-  all.topLeftCorner(n, n) = exchange.mutual;
-  all.col(n).head(n) = exchange.space.matrix();
-  all.row(n).head(n) = exchange.space.matrix().transpose();
-  return all.sparseView();
-}
-
-/// Scales A F symmetrically until Σ F + space = 1 in every row. What the surroundings see is not
-/// known to sum to anything.
-void enforce(const RowExchange& exchange, FactorMatrix& result) {
-  const Eigen::Index n = result.area.size();
-  ExchangeMatrix scaled = with_surroundings(exchange);
-  Eigen::ArrayXd area = Eigen::ArrayXd::Ones(n + 1);
-  area.head(n) = result.area;
-  std::vector<bool> rows(static_cast<std::size_t>(n), true);
-  rows.push_back(false);
-  if (!enforce_closure(scaled, area, rows)) return;
-  const RowMajorMatrix dense(scaled);
-  const RowMajorMatrix factors =
-      result.area.inverse().matrix().asDiagonal() * dense.topLeftCorner(n, n);
-  const Eigen::ArrayXd space = dense.col(n).head(n).array() / result.area;
-  FactorReport& report = result.report;
-  report.is_enforced = true;
-  const auto note = [&](Eigen::Index i, double before, double after, double error) {
-    if (before == after) return;
-    report.enforced_by = std::max(report.enforced_by, std::abs(after / before - 1));
-    result.error[i] = std::max(result.error[i], error / result.area[i] + std::abs(after - before));
-  };
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j)
-      note(i, result.factors(i, j), factors(i, j), exchange.mutual_error(i, j));
-    note(i, result.space[i], space[i], exchange.space_error[i]);
-  }
-  result.factors = factors;
-  result.space = space;
-}
-
-/// Leaves out pairs neither of whose factors can reach the limit.
-void make_sparse(const RowExchange& exchange, double limit, FactorMatrix& result) {
-  const auto most = [&](Eigen::Index i, Eigen::Index j) {
-    return result.factors(i, j) + exchange.mutual_error(i, j) / result.area[i];
-  };
-  for (Eigen::Index i = 0; i < result.area.size(); ++i)
-    for (Eigen::Index j = i; j < result.area.size(); ++j) {
-      if (result.factors(i, j) == 0 || most(i, j) >= limit || most(j, i) >= limit) continue;
-      result.error[i] = std::max(result.error[i], most(i, j));
-      result.error[j] = std::max(result.error[j], most(j, i));
-      result.report.left_out += i == j ? 1 : 2;
-      result.factors(i, j) = result.factors(j, i) = 0;
-    }
-}
-
-}  // namespace
-
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options,
                                 const Progress& progress) {
   const FactorScene sound = make_factor_scene(scene, options.unit);
-  require_memory_for(sound.rows());
+  require_factor_memory(sound.rows());
   const SightScene sight = make_sight_scene(sound.sound, progress);
   const RowExchange exchange = options.method == FactorMethod::exact
                                    ? exact_exchange(sound, sight, options, progress)
-                                   : sampled_exchange(sound, sight.reflecting, options, progress);
-  FactorMatrix result = matrix_of(sound, exchange);
-  if (!result.report.is_complete) return result;
+                               : options.method == FactorMethod::rays
+                                   ? sampled_exchange(sound, sight.reflecting, options, progress)
+                                   : hemicube_exchange(sound, sight.reflecting, options, progress);
   // What rays were asked for is a number of them.
-  fill_report(options.method == FactorMethod::exact ? options.tolerance : HUGE_VAL, result);
-  if (options.enforce) enforce(exchange, result);
-  if (options.sparse_below > 0) make_sparse(exchange, options.sparse_below, result);
-  return result;
+  const double tolerance = options.method == FactorMethod::exact ? options.tolerance : HUGE_VAL;
+  return finished_matrix(sound, exchange, tolerance, options);
 }
 
 }  // namespace halfshade

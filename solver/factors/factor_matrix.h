@@ -13,8 +13,9 @@
 namespace halfshade {
 
 enum class FactorMethod {
-  exact,  ///< closed forms and exactly visible parts
-  rays    ///< counted rays
+  exact,    ///< closed forms and exactly visible parts
+  rays,     ///< counted rays
+  hemicube  ///< item buffers at points, as radiosity began
 };
 
 struct FactorOptions {
@@ -22,9 +23,10 @@ struct FactorOptions {
   FactorMethod method = FactorMethod::exact;
   double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
   int max_points = 300000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
-  int rays = 10000;         ///< of each row, FactorMethod::rays, ≥ 1
-  double sparse_below = 0;  ///< entries that cannot reach this are left out, ≥ 0
-  bool enforce = false;     ///< scale A F symmetrically until rows, with space, sum to one
+  int rays = 10000;  ///< of each row but with FactorMethod::exact, ≥ 1; pixels count as rays
+  int hemicube_pixels = 64;  ///< along an edge, FactorMethod::hemicube, even and ≥ 2
+  double sparse_below = 0;   ///< entries that cannot reach this are left out, ≥ 0
+  bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one
 };
 
 /// How a matrix came about.
@@ -59,6 +61,7 @@ struct FactorMatrix {
   Eigen::ArrayXd error;  ///< of each entry of the row, absolute, space with it: an estimate on the
                          ///< safe side, see factors.md, and no proof
   std::string unit;      ///< of lengths
+  std::string source;    ///< the file that it was read from; empty if it was computed
   FactorReport report;
 };
 
@@ -69,5 +72,8 @@ struct FactorMatrix {
 /// n²/2 shafts for n surfaces.
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
                                 const Progress& progress = {});
+
+/// Throws Error(too_large) if what goes with a matrix of so many rows would not fit into memory.
+void require_factor_memory(int rows);
 
 }  // namespace halfshade

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 namespace halfshade {
 namespace {
@@ -104,13 +103,17 @@ std::string name_of(const Scene& scene, FactorUnit unit, int id) {
   return unit == FactorUnit::group ? scene.groups[at(id)] : scene.materials[at(id)].name;
 }
 
-/// Which face, group or material a surface is of.
-int id_of(const Surface& surface, FactorUnit unit) {
-  if (unit == FactorUnit::material) return surface.material;
-  return unit == FactorUnit::face ? surface.faces.front() : surface.group;
+/// The row that a surface counts for.
+FactorRow key_of(const Surface& surface, FactorUnit unit) {
+  if (unit == FactorUnit::material) return {surface.material, surface.back};
+  return {unit == FactorUnit::face ? surface.faces.front() : surface.group, surface.back};
 }
 
 }  // namespace
+
+std::string row_name(const Scene& scene, FactorUnit unit, const FactorRow& row) {
+  return name_of(scene, unit, row.id) + (row.is_back ? " back" : "");
+}
 
 FactorScene make_factor_scene(const Scene& scene, FactorUnit unit) {
   validate(scene);
@@ -124,16 +127,17 @@ FactorScene make_factor_scene(const Scene& scene, FactorUnit unit) {
   const auto is_around = [&](const Surface& surface) {
     return surface.faces.front() >= static_cast<int>(scene.faces.size());
   };
-  std::map<std::pair<int, bool>, int> rows;
+  std::map<FactorRow, int> rows;
   for (const Surface& surface : surfaces)
-    if (!is_around(surface)) rows.emplace(std::pair(id_of(surface, unit), surface.back), 0);
+    if (!is_around(surface)) rows.emplace(key_of(surface, unit), 0);
   for (auto& [key, row] : rows) {
     row = result.rows();
-    result.names.push_back(name_of(scene, unit, key.first) + (key.second ? " back" : ""));
+    result.keys.push_back(key);
+    result.names.push_back(row_name(scene, unit, key));
     result.areas.push_back(0);
   }
   for (const Surface& surface : surfaces) {
-    const int row = is_around(surface) ? surroundings : rows[{id_of(surface, unit), surface.back}];
+    const int row = is_around(surface) ? surroundings : rows[key_of(surface, unit)];
     result.row.push_back(row);
     if (row >= 0) result.areas[at(row)] += area(surface);
   }

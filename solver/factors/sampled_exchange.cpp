@@ -1,5 +1,6 @@
 #include "meshing/core/parallel.h"
 #include "solver/factors/surface_exchange.h"
+#include "solver/factors/surface_origins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,38 +20,21 @@ struct RayCounts {
   std::size_t rays = 0;
 };
 
-/// Origins spread over the surface's roots by their areas, the next one a golden section on.
 RayCounts count_rays(const FactorScene& scene, const ReflectingScene& reflecting,
-                     const std::vector<int>& roots, int surface, std::size_t origins) {
-  constexpr double golden = 0.6180339887498949;
+                     SurfaceOrigins places, std::size_t origins) {
   RayCounts counts{Eigen::ArrayXd::Zero(scene.rows() + 2)};
-  double area = 0;
-  for (const int root : roots) area += reflecting.roots.area[at(root)];
   HemisphereRays caster(reflecting);
   std::vector<RayEnd> ends;
-  double along = 0.5;
-  for (std::size_t k = 0; k < origins; ++k, along += golden) {
-    double left = (along - std::floor(along)) * area;
-    std::size_t r = 0;
-    while (r + 1 < roots.size() && left > reflecting.roots.area[at(roots[r])])
-      left -= reflecting.roots.area[at(roots[r++])];
-    const auto seed = (static_cast<std::uint64_t>(surface) << 32) + k;
-    double u = random_number(seed, 0), v = random_number(seed, 1);
-    if (u + v > 1) {
-      u = 1 - u;
-      v = 1 - v;
-    }
-    const auto [p, q, s] = reflecting.roots.triangle(roots[r]);
-    const RayOrigin from{p + u * (q - p) + v * (s - p), reflecting.roots.normal[at(roots[r])],
-                         reflecting.cells.before(roots[r])};
+  for (std::size_t k = 0; k < origins; ++k) {
+    const RayOrigin from = places.next();
     ends.clear();
-    counts.rays += static_cast<std::size_t>(caster.cast(from, strata, seed + 1, ends));
+    counts.rays += static_cast<std::size_t>(caster.cast(from, strata, places.seed(), ends));
     for (const RayEnd& end : ends) {
       const int row = scene.row[at(reflecting.roots.surface[at(end.triangle)])];
       counts.mutual[row >= 0 ? row : row == surroundings ? scene.rows() : scene.rows() + 1] += 1;
     }
   }
-  counts.mutual *= area / static_cast<double>(counts.rays);
+  counts.mutual *= places.area() / static_cast<double>(counts.rays);
   return counts;
 }
 
@@ -73,16 +57,14 @@ void weigh(const FactorScene& scene, const RowMajorMatrix& from, double rays,
 
 RowExchange sampled_exchange(const FactorScene& scene, const ReflectingScene& reflecting,
                              const FactorOptions& options, const Progress& progress) {
-  std::vector<std::vector<int>> roots(scene.row.size());
-  for (int r = 0; r < reflecting.roots.count(); ++r)
-    roots[at(reflecting.roots.surface[at(r)])].push_back(r);
+  const std::vector<std::vector<int>> roots = roots_of_surfaces(reflecting, scene.row.size());
   std::vector<RayCounts> counts(scene.row.size());
   const auto cast = [&](std::size_t s) {
     if (scene.row[s] < 0) return;
     const double share = area(scene.sound.surfaces[s]) / scene.areas[at(scene.row[s])];
     const double origins = std::ceil(share * options.rays / (strata * strata));
-    counts[s] = count_rays(scene, reflecting, roots[s], static_cast<int>(s),
-                           static_cast<std::size_t>(origins));
+    counts[s] =
+        count_rays(scene, reflecting, {reflecting, roots[s], s}, static_cast<std::size_t>(origins));
   };
   RowExchange exchange(scene.rows());
   exchange.report.is_complete = parallel_for(counts.size(), cast, progress, "rays");

@@ -34,4 +34,10 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
 RowExchange sampled_exchange(const FactorScene& scene, const ReflectingScene& reflecting,
                              const FactorOptions& options, const Progress& progress);
 
+/// By hemicubes of options.hemicube_pixels at places spread over the surfaces, at least four each;
+/// both directions of a pair are weighed by their areas. Errors are three standard errors of what
+/// hemicubes see differently, and never less than a pixel.
+RowExchange hemicube_exchange(const FactorScene& scene, const ReflectingScene& reflecting,
+                              const FactorOptions& options, const Progress& progress);
+
 }  // namespace halfshade

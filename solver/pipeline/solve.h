@@ -9,6 +9,7 @@
 #include "solver/adapt/adaptive_field.h"
 #include "solver/elements/element_field.h"
 #include "solver/elements/solution.h"
+#include "solver/heat/heat.h"
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
@@ -49,6 +50,7 @@ struct SolveResult {
   RadiosityReport radiosity;
   /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
   double relative_error = 0;
+  Heat heat;                 ///< what is known of temperatures; see solve_net_exchange
   std::string not_reached;   ///< why the accuracy asked for was not; empty if it was
   bool interrupted = false;  ///< stopped early; see compute_exchange for factors not reached
 };

@@ -79,25 +79,25 @@ ExchangeOptions needed_exactness(const SoundScene& scene, ExchangeOptions option
   return options;
 }
 
-/// Refuses, by name, a closed enclosure that reflects all its light.
-void require_limits(const SoundScene& scene, const ElementTable& elements, const Exchange& exchange,
-                    const MaterialArrays& materials, const RadiosityOptions& options) {
+}  // namespace
+
+void require_limits(const std::vector<std::string>& group_names, std::span<const int> group,
+                    const Exchange& exchange, const MaterialArrays& materials,
+                    const RadiosityOptions& options) {
   if (options.bounces >= 0) return;
   const auto unlimited =
       find_unlimited(light_exchange(exchange), materials.rho, materials.exitance);
   if (!unlimited) return;
   std::set<std::string> groups;
-  for (int e = 0; e < elements.count(); ++e)
-    if (exchange.enclosures.of_element[at(e)] == unlimited->system)
-      groups.insert(scene.groups[at(elements.group[at(e)])]);
+  for (std::size_t e = 0; e < group.size(); ++e)
+    if (exchange.enclosures.of_element[e] == unlimited->system)
+      groups.insert(group_names[at(group[e])]);
   throw Error(ErrorCode::invalid_input, {},
               fmt::format("the group{} {} close{} in a space that reflects everything (reflectance "
                           "1) and emits {} W, so its radiosity has no limit; lower a reflectance",
                           groups.size() == 1 ? "" : "s", fmt::join(groups, ", "),
                           groups.size() == 1 ? "s" : "", unlimited->power));
 }
-
-}  // namespace
 
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
                         const Plan& plan, const SolveOptions& options, const Progress& progress,
@@ -118,7 +118,7 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
     direct_irradiance = irradiance_of(direct, scene);
   }
   const MaterialArrays materials = material_arrays(scene, elements);
-  require_limits(scene, elements, exchange, materials, options.radiosity);
+  require_limits(scene.groups, elements.group, exchange, materials, options.radiosity);
   SolvedLight light;
   light.exchange = exchange.report;
   RadiosityOptions radiosity_options = options.radiosity;

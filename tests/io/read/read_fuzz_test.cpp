@@ -6,6 +6,7 @@
 //   build/asan/tests/io_tests --gtest_filter='*ReadMutated*'
 
 #include "io/files/little_endian.h"
+#include "io/read/read_factors.h"
 #include "io/read/read_points.h"
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
@@ -55,6 +56,27 @@ const std::string ply_ascii =
 const std::string stl =
     "solid a b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0.5\n"
     "endloop\nendfacet\nendsolid\n";
+const std::string vs3 =
+    "T t\nF 3\n! # x y z\nV 1 0 0 0\nV 2 1 0 0\nV 3 1 1 0.\nV 4 0 1 0\n"
+    "S 1 1 2 3 4 0 0 0.9 a\nS 2 3 2 1 0 0 1 .5 b ! c\nO 3 4 3 1 0\nE\n";
+const std::string msh =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n"
+    "$PhysicalNames\n1\n2 1 \"a b\"\n$EndPhysicalNames\n"
+    "$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 1 0\n$EndEntities\n"
+    "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n$EndNodes\n"
+    "$Elements\n2 3 1 3\n2 1 3 1\n1 1 2 3 4\n2 1 2 2\n2 1 2 3\n3 4 3 1\n$EndElements\n";
+const std::string msh_2 =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+    "$EndNodes\n$Elements\n3\n1 1 2 0 1 1 2\n2 3 2 1 1 1 2 3 4\n3 2 2 2 1 3 2 1\n$EndElements\n";
+const std::string heat =
+    R"({"bands": [{"name": "a", "wavelengths_um": [0, 3e0]}, {"name": "b", "wavelengths_um": [3, null]}],
+ "m": {"emissivity": [0.5, 0.25], "temperature": 300.5}, "a": {"exitance": [1, 2]}})";
+const std::string heat_mtl = "newmtl m\nemissivity 0.25\ntemperature 3e2\nnewmtl n\nnet_flux 0\n";
+const std::string grey_mtl = "newmtl m\nKd 0.5\n";
+const std::string factors =
+    "%%MatrixMarket matrix coordinate real general\n% c\n2 2 2\n1 2 0.25\n2 1 5e-1\n";
+const std::string factor_names =
+    "# c\nsurface,area,space,row_sum,error\nface 1,2,0.75,1,1e-9\n\"face 2\",1,0.5,1,0\n";
 const std::string points = "id;x;y;z;nx;ny;nz\n# two\na;1;2;3e0;0;0;1\nb;-0.5;2;3;1;-1;0\n";
 
 std::string ply_binary() {
@@ -86,7 +108,9 @@ void PrintTo(const Seed& seed, std::ostream* out) { *out << seed.name; }
 class ReadMutated : public testing::TestWithParam<Seed> {
  protected:
   ReadMutated() {
-    folder_.write("scene.mtl", mtl);
+    folder_.write("scene.mtl", GetParam().content == heat ? grey_mtl : mtl);
+    folder_.write("f.mtx", factors);
+    folder_.write("f.names.csv", factor_names);
     folder_.write("scene.obj", obj);
     folder_.write(GetParam().file, GetParam().content);
   }
@@ -95,6 +119,8 @@ class ReadMutated : public testing::TestWithParam<Seed> {
     const fs::path path = folder_.path() / GetParam().scene;
     if (path.extension() == ".csv") {
       read_points(path);
+    } else if (path.extension() == ".mtx") {
+      read_factors(path);
     } else {
       const bool has_materials = GetParam().file == "materials.json";
       validate(
@@ -146,11 +172,18 @@ INSTANTIATE_TEST_SUITE_P(
                     Seed{"Sidecar", "scene.obj", "scene.json", sidecar, 1000},
                     Seed{"Cameras", "scene.obj", "scene.json", cameras, 1000},
                     Seed{"Materials", "scene.obj", "materials.json", materials, 1000},
+                    Seed{"Heat", "scene.obj", "materials.json", heat, 1000},
+                    Seed{"HeatMtl", "scene.obj", "scene.mtl", heat_mtl, 1000},
+                    Seed{"Factors", "f.mtx", "f.mtx", factors, 1000},
+                    Seed{"FactorNames", "f.mtx", "f.names.csv", factor_names, 1000},
                     Seed{"Off", "scene.off", "scene.off", off, 1500},
                     Seed{"PlyText", "scene.ply", "scene.ply", ply_ascii, 1500},
                     Seed{"PlyBinary", "scene.ply", "scene.ply", ply_binary(), 3000},
                     Seed{"StlText", "scene.stl", "scene.stl", stl, 1500},
                     Seed{"StlBinary", "scene.stl", "scene.stl", stl_binary(), 1500},
+                    Seed{"Vs3", "scene.vs3", "scene.vs3", vs3, 1500},
+                    Seed{"Msh", "scene.msh", "scene.msh", msh, 1500},
+                    Seed{"Msh2", "scene.msh", "scene.msh", msh_2, 1500},
                     Seed{"Gltf", "scene.gltf", "scene.gltf", test::gltf_triangle().dump(1), 1500},
                     Seed{"Glb", "scene.glb", "scene.glb", test::as_glb(test::gltf_triangle()),
                          1500},

@@ -10,6 +10,8 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 
+#include <cmath>
+
 namespace halfshade {
 namespace {
 
@@ -117,6 +119,24 @@ TEST_P(WriteVtk, RegionsOfEachEmitterAreThereIfAskedFor) {
   EXPECT_EQ(test::numbers(grid->GetFieldData(), "source_exitance"), (std::vector<double>{7, 3}));
   result.regions.pop_back();
   test::expect_error([&] { write(result); }, ErrorCode::contract, {"2 emitters have 3 regions"});
+}
+
+TEST_P(WriteVtk, NetFluxesAndTemperaturesAreThereWhereHeatIsGiven) {
+  SolveResult result = test::sample_result(2);
+  EXPECT_EQ(read(write(result))->GetCellData()->GetArray("net_flux"), nullptr);
+  result.heat.is_given = true;
+  const auto without = read(write(result));
+  expect_channels(without->GetCellData(), "net_flux",
+                  result.solution.radiosity - result.solution.irradiance);
+  EXPECT_EQ(without->GetCellData()->GetArray("temperature"), nullptr);
+  result.heat.materials.resize(result.scene.materials.size());
+  const int material = result.elements.material[0];
+  result.heat.materials[static_cast<std::size_t>(material)].temperature = 321.5;
+  const auto with = read(write(result));
+  vtkDataArray* kelvin = with->GetCellData()->GetArray("temperature");
+  ASSERT_NE(kelvin, nullptr);
+  EXPECT_EQ(kelvin->GetTuple1(0), 321.5);
+  EXPECT_TRUE(std::isnan(kelvin->GetTuple1(1))) << "of a material without one";
 }
 
 TEST_P(WriteVtk, TheFileSaysHowItCameAbout) {

@@ -153,6 +153,21 @@ TEST(FactorMatrix, RowsOfAnOpenSceneSumToOneWithSpaceFoundOnItsOwn) {
   EXPECT_NEAR(one.space[0], 1, 1e-8);
 }
 
+// What the floor sees of the box round the scene ends in corners, where nearly nothing is seen.
+TEST(FactorMatrix, SpaceIsWhatIsSeenThroughAnOpening) {
+  const auto box = test::box_faces({0, 0, 0}, {2, 1, 1.5}, true);
+  const FactorMatrix open = factors(scene_of({box.begin(), box.end() - 1}), 1e-8);
+  const double ends = test::perpendicular_rectangles(1, 1.5, 2),
+               sides = test::perpendicular_rectangles(2, 1.5, 1),
+               floor = test::opposed_rectangles(2, 1, 1.5);
+  const double expected[] = {ends, ends, sides, sides, floor};
+  for (Eigen::Index i = 0; i < 5; ++i) {
+    EXPECT_LE(open.error[i], 1e-8);
+    EXPECT_NEAR(open.space[i], expected[i], open.error[i]) << i;
+    EXPECT_NEAR(open.row_sum[i], 1, open.error[i]) << i;
+  }
+}
+
 TEST(FactorMatrix, FacesGroupsAndMaterials) {
   Scene scene = test::room({2, 1, 1}, {});
   scene.groups = {"sides", "bottom", "top", "nothing"};
@@ -221,6 +236,25 @@ TEST(FactorMatrix, RaysAgreeWithinTheirErrors) {
       for (Eigen::Index j = 0; j < exact.area.size(); ++j)
         EXPECT_NEAR(sampled.factors(i, j), exact.factors(i, j), sampled.error[i] + exact.error[i]);
     }
+  }
+}
+
+TEST(FactorMatrix, HemicubesAgreeWithinTheirErrors) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  options.method = FactorMethod::hemicube;
+  options.hemicube_pixels = 32;
+  options.rays = 50000;
+  const Scene scene = test::l_room(true);
+  const FactorMatrix seen = form_factor_matrix(scene, options);
+  const FactorMatrix exact = factors(scene, 1e-4);
+  EXPECT_GE(seen.report.rays, 50000u * seen.names.size());
+  for (Eigen::Index i = 0; i < exact.area.size(); ++i) {
+    EXPECT_NEAR(seen.row_sum[i], 1, 0.05);
+    EXPECT_LT(seen.error[i], 0.15);
+    EXPECT_NEAR(seen.space[i], exact.space[i], seen.error[i] + exact.error[i]);
+    for (Eigen::Index j = 0; j < exact.area.size(); ++j)
+      EXPECT_NEAR(seen.factors(i, j), exact.factors(i, j), seen.error[i] + exact.error[i]);
   }
 }
 

@@ -1,0 +1,268 @@
+// Heat that surfaces exchange, against the small linear systems of data/thermal_furnace.md.
+
+#include "solver/heat/heat.h"
+#include "tests/support/analytic.h"
+#include "tests/support/files.h"
+#include "tests/support/process.h"
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+namespace halfshade {
+namespace {
+
+using Json = nlohmann::json;
+using Vector5 = Eigen::Matrix<double, 5, 1>;
+
+const std::string furnace = test::data_file("thermal_furnace.obj").string();
+
+/// Of the furnace's surfaces in the order of its groups, with the opening behind them, and areas.
+struct Furnace {
+  Eigen::Matrix<double, 6, 6> factors = Eigen::Matrix<double, 6, 6>::Zero();
+  Vector5 area{2, 1.5, 1.5, 3, 3};
+};
+
+Furnace make_furnace() {
+  const double a = 2, b = 1, c = 1.5;
+  Furnace result;
+  auto& F = result.factors;
+  F(0, 5) = F(5, 0) = test::opposed_rectangles(a, b, c);
+  F(1, 2) = F(2, 1) = test::opposed_rectangles(b, c, a);
+  F(3, 4) = F(4, 3) = test::opposed_rectangles(a, c, b);
+  for (const int i : {0, 5}) {
+    for (const int j : {1, 2}) F(i, j) = test::perpendicular_rectangles(b, a, c);
+    for (const int j : {1, 2}) F(j, i) = test::perpendicular_rectangles(b, c, a);
+    for (const int j : {3, 4}) F(i, j) = test::perpendicular_rectangles(a, b, c);
+    for (const int j : {3, 4}) F(j, i) = test::perpendicular_rectangles(a, c, b);
+  }
+  for (const int i : {1, 2})
+    for (const int j : {3, 4}) {
+      F(i, j) = test::perpendicular_rectangles(c, b, a);
+      F(j, i) = test::perpendicular_rectangles(c, a, b);
+    }
+  return result;
+}
+
+struct Balance {
+  Vector5 net_power, irradiance;
+};
+
+/// What surfaces of these emissivities that emit so much give net, below an opening that sends
+/// `space`.
+Balance solved(const Furnace& in, const Vector5& emissivity, const Vector5& exitance,
+               double space) {
+  const Eigen::Matrix<double, 5, 5> F = in.factors.topLeftCorner<5, 5>();
+  const Vector5 rho = Vector5::Ones() - emissivity, through = in.factors.col(5).head<5>() * space;
+  const Eigen::Matrix<double, 5, 5> equations =
+      Eigen::Matrix<double, 5, 5>::Identity() - rho.asDiagonal() * F;
+  const Vector5 radiosity = equations.partialPivLu().solve(exitance + rho.cwiseProduct(through));
+  const Vector5 irradiance = F * radiosity + through;
+  return {in.area.cwiseProduct(radiosity - irradiance), irradiance};
+}
+
+double black(double kelvin) { return stefan_boltzmann * std::pow(kelvin, 4); }
+
+class NetExchange : public testing::Test {
+ protected:
+  test::Outcome run(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    return test::run_program(std::move(arguments), folder_.path());
+  }
+
+  void save_factors(const std::string& scene, const std::string& tolerance = "1e-8") {
+    const test::Outcome outcome =
+        run({"factors", scene, "-q", "--by", "face", "--tolerance", tolerance, "-o", "f.mtx"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+
+  Json exchange(const std::vector<std::string>& options, const std::string& scene = furnace) {
+    std::vector<std::string> arguments = {"solve", scene, "-q", "-o", "r.vtu", "--json", "r.json"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const test::Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return Json::parse(test::contents(folder_.path() / "r.json"));
+  }
+
+  test::TempDir folder_;
+};
+
+TEST_F(NetExchange, OfAFurnaceIsTheSolutionOfItsLinearSystem) {
+  save_factors(furnace);
+  const Furnace box = make_furnace();
+  const Vector5 emissivity{.8, .6, .9, .5, 0};
+  const Vector5 exitance{.8 * black(900), .6 * black(700), .9 * black(500), .5 * black(1100), 0};
+  for (const double kelvin : {0., 300., 800., 1200.}) {
+    const Balance expected = solved(box, emissivity, exitance, black(kelvin));
+    const Json report = exchange({"--factors", "f.mtx", "--surroundings", std::to_string(kelvin)});
+    const Json& net = report.at("net_exchange");
+    EXPECT_EQ(net.at("unit_m"), 0.001);
+    const double scale = expected.net_power.cwiseAbs().maxCoeff();
+    for (std::size_t g = 0; g < 5; ++g) {
+      const Json& group = net.at("groups").at(g);
+      const auto i = static_cast<Eigen::Index>(g);
+      ASSERT_EQ(group.at("net_power_w").size(), 1U);
+      EXPECT_NEAR(group.at("area_m2").get<double>(), box.area[i], 1e-12);
+      EXPECT_NEAR(group.at("net_power_w").at(0).get<double>(), expected.net_power[i], 1e-8 * scale);
+      EXPECT_NEAR(group.at("net_flux_w_per_m2").at(0).get<double>(),
+                  expected.net_power[i] / box.area[i], 1e-8 * scale);
+    }
+    EXPECT_EQ(net.at("groups").at(0).at("temperature_k"), 900);
+    EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(),
+                std::pow(expected.irradiance[4] / stefan_boltzmann, .25), 1e-6);
+    EXPECT_NEAR(net.at("surroundings_net_power_w").at(0).get<double>(), -expected.net_power.sum(),
+                1e-8 * scale);
+    EXPECT_LT(report.at("radiosity").at("channel").at(0).at("balance").get<double>(), 1e-9);
+  }
+}
+
+// As the page of the scene has it.
+TEST_F(NetExchange, OfTheFurnaceIsAsItsPageSays) {
+  save_factors(furnace);
+  const Json net = exchange({"--factors", "f.mtx"}).at("net_exchange");
+  EXPECT_TRUE(net.at("surroundings_temperature_k").is_null());
+  EXPECT_NEAR(net.at("groups").at(3).at("net_power_w").at(0).get<double>(), 94068.16422418, 1e-3);
+  EXPECT_NEAR(net.at("surroundings_net_power_w").at(0).get<double>(), -63519.66242289, 1e-3);
+  EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), 843.2922064434, 1e-6);
+}
+
+TEST_F(NetExchange, OfTwoBandsIsTheSolutionOfTwoSystems) {
+  save_factors(furnace);
+  const Furnace box = make_furnace();
+  const Json report = exchange({"--factors", "f.mtx", "--surroundings", "300", "--materials",
+                                test::data_file("thermal_furnace_bands.json").string()});
+  const Json& net = report.at("net_exchange");
+  EXPECT_EQ(net.at("bands").at(1).at("name"), "far");
+  const Vector5 emissivity[] = {{.8, .6, .9, .5, .2}, {.6, .7, .3, .8, .9}};
+  const double kelvin[] = {900, 700, 500, 1100, 600};
+  // Computed apart, with Planck's integral by Gauss's rule.
+  const double page[] = {1270.2666895, -5776.6249552};
+  for (int band = 0; band < 2; ++band) {
+    const auto part = [band](double t) {
+      const double near = blackbody_share_below(3, t);
+      return (band == 0 ? near : 1 - near) * black(t);
+    };
+    Vector5 exitance;
+    for (int i = 0; i < 5; ++i) exitance[i] = emissivity[band][i] * part(kelvin[i]);
+    const Balance expected = solved(box, emissivity[band], exitance, part(300));
+    const double scale = expected.net_power.cwiseAbs().maxCoeff();
+    const auto k = static_cast<std::size_t>(band);
+    for (std::size_t g = 0; g < 5; ++g) {
+      const Json& powers = net.at("groups").at(g).at("net_power_w");
+      ASSERT_EQ(powers.size(), 2U);
+      EXPECT_NEAR(powers.at(k).get<double>(), expected.net_power[static_cast<Eigen::Index>(g)],
+                  1e-8 * scale);
+      if (band == 0 && g < 2) {
+        EXPECT_NEAR(powers.at(k).get<double>(), page[g], 1e-4);
+      }
+    }
+    EXPECT_NEAR(net.at("surroundings_net_power_w").at(k).get<double>(), -expected.net_power.sum(),
+                1e-8 * scale);
+  }
+}
+
+// Black surfaces are even, so that light as polynomials has the same solution.
+TEST_F(NetExchange, OfBlackSurfacesIsTheSameByAnyMethod) {
+  const Furnace box = make_furnace();
+  const auto heat = folder_.write("black.json", R"({
+    "floor": {"emissivity": 1, "temperature": 900}, "x_low": {"emissivity": 1, "temperature": 700},
+    "x_high": {"emissivity": 1, "temperature": 500}, "y_low": {"emissivity": 1, "temperature": 1100},
+    "y_high": {"emissivity": 1, "temperature": 300}})");
+  const Vector5 exitance{black(900), black(700), black(500), black(1100), black(300)};
+  const Balance expected = solved(box, Vector5::Ones(), exitance, black(800));
+  const double scale = expected.net_power.cwiseAbs().maxCoeff();
+  for (const std::vector<std::string>& method : std::vector<std::vector<std::string>>{
+           {"--tolerance", "1e-2"}, {"--method", "matrix", "--elements", "500"}}) {
+    std::vector<std::string> options = {"--surroundings", "800", "--materials", heat.string()};
+    options.insert(options.end(), method.begin(), method.end());
+    const Json net = exchange(options).at("net_exchange");
+    for (std::size_t g = 0; g < 5; ++g)
+      EXPECT_NEAR(net.at("groups").at(g).at("net_power_w").at(0).get<double>(),
+                  expected.net_power[static_cast<Eigen::Index>(g)], 5e-3 * scale)
+          << method[0] << g;
+  }
+}
+
+TEST_F(NetExchange, OfAPlateUnderTheSkyIsItsOwn) {
+  folder_.write("plate.obj",
+                "mtllib plate.mtl\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nusemtl m\nf 1 2 3 4\n");
+  folder_.write("plate.mtl", "newmtl m\nemissivity 0.3\ntemperature 400\n");
+  for (const double kelvin : {250., 500.}) {
+    const Json report = exchange({"--surroundings", std::to_string(kelvin)}, "plate.obj");
+    const double expected = 2 * 0.3 * (black(400) - black(kelvin));
+    const Json& net = report.at("net_exchange");
+    EXPECT_NEAR(net.at("groups").at(0).at("net_power_w").at(0).get<double>(), expected, 1e-9);
+    EXPECT_NEAR(net.at("surroundings_net_power_w").at(0).get<double>(), -expected, 1e-9);
+    const Json& group = report.at("groups").at(0);
+    EXPECT_NEAR(group.at("mean_irradiance_w_per_m2").at(0).get<double>(), black(kelvin), 1e-9);
+    EXPECT_TRUE(report.at("warnings").empty());
+  }
+}
+
+TEST_F(NetExchange, WithSurroundingsOfTheSameTemperatureIsNothing) {
+  const auto heat = folder_.write("even.json", R"({
+    "floor": {"temperature": 800}, "x_low": {"temperature": 800}, "x_high": {"temperature": 800},
+    "y_low": {"temperature": 800}})");
+  save_factors(furnace, "1e-4");
+  const Json net =
+      exchange({"--factors", "f.mtx", "--surroundings", "800", "--materials", heat.string()})
+          .at("net_exchange");
+  for (const Json& group : net.at("groups"))
+    EXPECT_NEAR(group.at("net_power_w").at(0).get<double>(), 0, 1e-9);
+  EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), 800, 1e-9);
+}
+
+TEST_F(NetExchange, SumsOfASavedMatrixAreItsGroups) {
+  save_factors(furnace, "1e-6");
+  const test::Outcome outcome =
+      run({"factors", furnace, "--from", "f.mtx", "-o", "g.csv", "--by", "group", "--enforce"});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::string table = test::contents(folder_.path() / "g.csv");
+  EXPECT_NE(table.find("surface,area,floor,x_low,x_high,y_low,y_high,space,row_sum,error\n"),
+            std::string::npos);
+  EXPECT_NE(table.find("\nfloor,2000000,0,0.1371475"), std::string::npos) << table;
+}
+
+TEST_F(NetExchange, SaysInOneSentenceWhatIsWrong) {
+  const std::string cube = test::data_file("furnace_cube.obj").string();
+  const std::string s1 = test::data_file("s1.obj").string();
+  save_factors(cube, "1e-4");
+  ASSERT_EQ(run({"factors", cube, "-q", "-o", "g.mtx"}).exit_code, 0);
+  folder_.write("odd.json", R"({"unit": "furlong"})");
+  folder_.write("odd.obj", "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
+  folder_.write("odd.mtl", "newmtl m\nemissivity 1\ntemperature 300\n");
+  struct Wrong {
+    std::vector<std::string> arguments;
+    int exit_code;
+    std::string says;
+  };
+  const std::vector<Wrong> all = {
+      {{"solve", s1, "--factors", "f.mtx"}, 3, "the matrix has 6 rows and the scene 3 faces"},
+      {{"solve", cube, "--factors", "g.mtx"}, 3, "the matrix is not by face"},
+      {{"factors", s1, "--from", "f.mtx", "-o", "o.csv"}, 3, "do not belong together"},
+      {{"factors", cube, "--from", "f.csv", "-o", "o.csv"}, 2, ".mtx"},
+      {{"factors", cube, "--from", "none.mtx", "-o", "o.csv"}, 3, "none.mtx"},
+      {{"factors", cube, "--from", "f.mtx", "-o", "f.mtx"}, 2, "--from"},
+      {{"factors", cube, "--from", "f.mtx", "-o", "o.csv", "--rays", "5"}, 2, "--from"},
+      {{"solve", cube, "--factors", "f.txt"}, 2, "f.txt"},
+      {{"solve", cube, "--factors", "f.mtx", "--order", "2"}, 2, "--order"},
+      {{"solve", cube, "--factors", "f.mtx", "-o", "f.names.csv.vtu", "--json", "f.names.csv"},
+       2,
+       "f.names.csv"},
+      {{"solve", cube, "--surroundings", "-3"}, 2, "--surroundings"},
+      {{"solve", cube, "--surroundings", "3", "--bounces", "1"}, 2, "--bounces"},
+      {{"solve", test::data_file("cornell_box.obj").string(), "--surroundings", "300"},
+       3,
+       "differs between red, green and blue"},
+      {{"solve", "odd.obj", "--json", "r.json"}, 3, "'furlong'"},
+  };
+  for (const Wrong& wrong : all) {
+    const test::Outcome outcome = run(wrong.arguments);
+    EXPECT_EQ(outcome.exit_code, wrong.exit_code) << testing::PrintToString(wrong.arguments);
+    EXPECT_NE(outcome.err.find(wrong.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,0 +1,54 @@
+#include "solver/heat/heat.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace halfshade {
+namespace {
+
+/// 15/π⁴ ∫ t³/(eᵗ − 1) from c₂/(λT) on, by Simpson's rule in the variable that makes it finite.
+double planck_share(double product) {
+  const double from = 14387.768775039337 / product, to = from + 60;
+  constexpr int intervals = 200000;
+  const double h = (to - from) / intervals;
+  double sum = 0;
+  for (int k = 0; k <= intervals; ++k) {
+    const double t = from + k * h;
+    sum += (k == 0 || k == intervals ? 1 : k % 2 == 1 ? 4 : 2) * t * t * t / std::expm1(t);
+  }
+  return 15 / std::pow(std::numbers::pi, 4) * sum * h / 3;
+}
+
+TEST(Heat, SharesOfBlackBodiesAreThoseOfPlancksLaw) {
+  for (const double product : {500., 1000., 2897.77, 5000., 14000., 14500., 20000., 1e5})
+    EXPECT_NEAR(blackbody_share_below(product / 700, 700), planck_share(product), 1e-12) << product;
+  EXPECT_EQ(blackbody_share_below(0, 300), 0);
+  EXPECT_EQ(blackbody_share_below(3, 0), 0);
+  EXPECT_EQ(blackbody_share_below(HUGE_VAL, 300), 1);
+  EXPECT_NEAR(blackbody_share_below(1e6, 300), 1, 1e-14);
+}
+
+TEST(Heat, BandsShareWhatABlackBodySends) {
+  const double all = stefan_boltzmann * 1e12;
+  EXPECT_EQ(blackbody_exitance(1000, {})[2], all);
+  const Band near{"near", true, 0, 3}, far{"far", true, 3, HUGE_VAL}, unknown{"one"};
+  EXPECT_EQ(blackbody_exitance(1000, {unknown})[1], all);
+  const Rgb two = blackbody_exitance(1000, {near, far});
+  EXPECT_NEAR(two[0] + two[1], all, 1e-14 * all);
+  EXPECT_NEAR(two[0], all * blackbody_share_below(3, 1000), 1e-14 * all);
+  EXPECT_EQ(two[2], 0);
+  const Rgb one = blackbody_exitance(1000, {near});
+  EXPECT_EQ(one[0], one[2]) << "a single band is solved as a grey scene";
+  EXPECT_NEAR(blackbody_temperature(all), 1000, 1e-12);
+}
+
+TEST(Heat, UnitsOfLengthAreKnownByNameAndSign) {
+  EXPECT_EQ(metres_in("m"), 1);
+  EXPECT_EQ(metres_in("mm"), 1e-3);
+  EXPECT_EQ(metres_in("inch"), 0.0254);
+  EXPECT_FALSE(metres_in("furlong"));
+}
+
+}  // namespace
+}  // namespace halfshade

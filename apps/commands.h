@@ -55,8 +55,9 @@ struct SolveCommand {
   std::filesystem::path materials;
   std::vector<std::filesystem::path>
       outputs;  ///< empty: the scene's name with .vtu, in the current folder; none with `values`
-  std::filesystem::path points;  ///< at which the solution is told; empty: none
-  std::filesystem::path values;  ///< a table of what it is there
+  std::filesystem::path points;       ///< at which the solution is told; empty: none
+  std::filesystem::path values;       ///< a table of what it is there
+  std::filesystem::path progressive;  ///< folder for the stages of shooting; empty: none
   SolveOptions options;
   ResultOptions result_options;
 };

@@ -93,6 +93,21 @@ void add_light(CLI::App& app, SolveOptions& options) {
       "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'");
 }
 
+void add_constant_elements(CLI::App& app, SolveOptions& options) {
+  add_whole(
+      app, "--subdivide", options.subdivision.rounds, {0, 20},
+      "With --method matrix: split elements in four where the light is steep, and look again,\n"
+      "so many times; those there were at first, the patches, send the light");
+  add_positive(
+      app, "--gradient", options.subdivision.gradient,
+      "What --subdivide calls steep: a change of irradiance from one element to the next,\n"
+      "as a share of the mean")
+      ->capture_default_str();
+  app.add_flag("--interpolate", options.interpolate,
+               "With --method matrix: light linear between values at the elements' corners, means\n"
+               "of the elements around, extrapolated at borders");
+}
+
 void add_curves(CLI::App& app, SolveOptions& options) {
   app.add_flag_callback(
       "--no-discontinuity", [&options] { options.discontinuities = false; },
@@ -117,17 +132,22 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
                                  "irradiance, D_r,D_g,D_b direct; then no other output is needed");
   points->needs(values);
   values->needs(points);
+  add_file(app, "--progressive", command.progressive,
+           "Folder for the stages of shooting as a series that ParaView plays, progressive.pvd;\n"
+           "with --method matrix and --solver southwell or southwell-ambient");
   app.add_flag("--linear", command.result_options.linear,
                "Straight triangles in .vtu, for readers that know no polynomials");
   add_accuracy(app, command.options);
   add_size(app, command.options);
   add_light(app, command.options);
+  add_constant_elements(app, command.options);
   add_curves(app, command.options);
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
   add_common(app, common);
   app.parse_complete_callback([&app, &options = command.options] {
     const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
+    options.radiosity.stages = given("--progressive");
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
   });
@@ -138,6 +158,11 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       "  halfshade solve data/s1.obj --tolerance 1e-6 -o s1.vtu\n"
       "  halfshade solve data/s1.obj --method matrix --factors hemicube --hemicube 32 -o "
       "s1_cube.vtu\n"
+      "  halfshade solve data/l_room.obj --method matrix --solver southwell --elements 300 "
+      "--progressive stages\n"
+      "  halfshade solve data/l_room.obj --method matrix --elements 150 --subdivide 2 "
+      "--interpolate "
+      "-o fine.vtu\n"
       "  halfshade solve data/furnace_cube.obj --method matrix --elements 600 --json report.json "
       "-q\n\n"));
 }

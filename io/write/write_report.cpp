@@ -129,12 +129,13 @@ void write_report(const SolveResult& result, const RunInfo& run,
   discontinuities.update(along_curves_json(result.mesh));
   json["mesh"] = mesh_json(result.elements);
   json["stages"] = stages_json(result.stages);
-  if (result.direct.count() > 0) {
+  if (result.direct.count() > 0 && !result.interpolated) {
     json["direct_light"] = direct_json(result.refinement, result.direct);
     json["reflected_light"] = reflected_json(result.reflected);
   } else {
     json["exchange"] = exchange_json(result.exchange);
   }
+  if (result.subdivision.patches > 0) json["subdivision"] = subdivision_json(result.subdivision);
   json["radiosity"] = radiosity_json(result.radiosity);
   json["groups"] = groups_json(result);
   json["outputs"] = to_json(run.outputs);

@@ -10,6 +10,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
+#include "solver/reference/classic_picture.h"
 
 #include <chrono>
 #include <cstdio>
@@ -74,6 +75,13 @@ struct MeshCommand {
   MeshOptions options;
 };
 
+/// How pictures of scenes come about.
+enum class RenderMethod {
+  drawn,      ///< what a result holds, or materials under a lamp
+  reference,  ///< all light by random walks
+  classic     ///< local illumination
+};
+
 struct RenderCommand {
   std::filesystem::path input;
   std::filesystem::path materials;
@@ -88,6 +96,9 @@ struct RenderCommand {
   std::filesystem::path curves;   ///< drawn over the picture; empty: none
   std::filesystem::path compare;  ///< what is subtracted; empty: nothing
   bool side_by_side = false;      ///< both and the difference
+  RenderMethod method = RenderMethod::drawn;
+  ClassicOptions classic;            ///< its mirrors are named:
+  std::vector<std::string> mirrors;  ///< groups and materials
 };
 
 struct ProbeCommand {

@@ -41,6 +41,7 @@ void require_meaning_of_colours(const RenderCommand& command) {
 
 void require_meaning_of_radiance(const RenderCommand& command) {
   if (!has_format(command.output, radiance_formats)) return;
+  if (command.method != RenderMethod::drawn && !(command.options.exposure > 0)) return;
   if (!has_format(command.input, shaded_formats))
     refuse("a scene has no radiance before it is solved; give the result of solve, or write .png");
   if (!command.quantity.empty() || !command.compare.empty() || !command.curves.empty() ||
@@ -48,6 +49,20 @@ void require_meaning_of_radiance(const RenderCommand& command) {
     refuse(
         ".hdr holds radiance as it is; --quantity, --compare, --curves, --mesh and --exposure make "
         "a .png");
+}
+
+void require_meaning_of_method(const RenderCommand& command) {
+  const bool is_traced = command.method != RenderMethod::drawn;
+  if (is_traced && has_format(command.input, shaded_formats))
+    refuse("--method traces rays through a scene; give the scene, not its result");
+  if (is_traced && (!command.curves.empty() || command.options.mesh_lines))
+    refuse("--mesh and --curves are drawn over results, not over traced rays");
+  const ClassicOptions usual;
+  const bool has_classic = command.classic.shadows != usual.shadows ||
+                           command.classic.ambient >= 0 || command.classic.highlight > 0 ||
+                           !command.mirrors.empty();
+  if (has_classic && command.method != RenderMethod::classic)
+    refuse("--shadows, --ambient, --highlight and --mirror are of --method classic");
 }
 
 std::string difference_name(const RenderCommand& command) {
@@ -86,6 +101,7 @@ PictureOptions with_curves(const RenderCommand& command) {
 }  // namespace
 
 void require_meaning(const RenderCommand& command) {
+  require_meaning_of_method(command);
   if (!has_format(command.input, shaded_formats) &&
       (!command.quantity.empty() || !command.compare.empty()))
     refuse("a scene has no quantities before it is solved; give the result of solve or mesh");

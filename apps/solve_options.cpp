@@ -21,12 +21,7 @@ void add_accuracy(CLI::App& app, SolveOptions& options) {
         options.refine = std::array{Refinement::adaptive, Refinement::uniform}.at(k);
       },
       "Elements as the tolerance takes them, or all of the size of --elements or --max-length");
-  add_choice(
-      app, "--method", {"fields", "matrix"},
-      [&options](std::size_t k) {
-        options.method = std::array{SolveMethod::fields, SolveMethod::matrix}.at(k);
-      },
-      "Light as polynomials, or constant elements and a matrix of form factors");
+  add_solve_method(app, options);
 }
 
 void add_size(CLI::App& app, SolveOptions& options) {
@@ -57,20 +52,7 @@ void add_light(CLI::App& app, SolveOptions& options) {
       },
       "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
       "by whichever takes less time ('auto')");
-  add_choice(
-      app, "--factors", {"rays", "hemicube", "exact"},
-      [&options](std::size_t k) {
-        options.exchange.factors =
-            std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
-      },
-      "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
-      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact')");
-  add_even(app, "--hemicube", options.exchange.hemicube_pixels, {2, 4096},
-           "Pixels along an edge of hemicubes")
-      ->capture_default_str();
-  add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
-            "Visibility rays for a pair of elements, on average, with --factors rays")
-      ->capture_default_str();
+  add_factors_by(app, options.exchange);
   add_choice(
       app, "--solver",
       {"conjugate-gradients", "jacobi", "gauss-seidel", "southwell", "southwell-ambient"},
@@ -116,6 +98,31 @@ void add_curves(CLI::App& app, SolveOptions& options) {
 }
 
 }  // namespace
+
+void add_solve_method(CLI::App& app, SolveOptions& options) {
+  add_choice(
+      app, "--method", {"fields", "matrix"},
+      [&options](std::size_t k) {
+        options.method = std::array{SolveMethod::fields, SolveMethod::matrix}.at(k);
+      },
+      "Light as polynomials, or constant elements and a matrix of form factors");
+}
+
+void add_factors_by(CLI::App& app, ExchangeOptions& options) {
+  add_choice(
+      app, "--factors", {"rays", "hemicube", "exact"},
+      [&options](std::size_t k) {
+        options.factors = std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
+      },
+      "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
+      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact')");
+  add_even(app, "--hemicube", options.hemicube_pixels, {2, 4096},
+           "Pixels along an edge of hemicubes")
+      ->capture_default_str();
+  add_whole(app, "--rays", options.rays_per_pair, {1, 4096},
+            "Visibility rays for a pair of elements, on average, with --factors rays")
+      ->capture_default_str();
+}
 
 void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) {
   CLI::App& app =

@@ -203,6 +203,10 @@ void write_report(const RenderReport& report, const RunInfo& run,
   json["width"] = report.width;
   json["height"] = report.height;
   if (report.exposure > 0) json["exposure"] = report.exposure;
+  if (report.samples > 0) {
+    json["samples"] = report.samples;
+    json["relative_standard_error"] = report.standard_error;
+  }
   if (!report.quantity.name.empty()) json["quantity"] = false_colours_json(report);
   json["camera"] = {{"name", report.camera.name},
                     {"position", to_json(report.camera.position)},

@@ -13,12 +13,12 @@ using Sparse = PatchFactors;
 Sparse averaging(const TwoLevels& levels) {
   const auto patches = levels.factors.cols();
   Eigen::VectorXd area = Eigen::VectorXd::Zero(patches);
-  const int count = levels.elements.count();
-  for (int e = 0; e < count; ++e) area[levels.patch_of[at(e)]] += levels.elements.area[at(e)];
+  const int count = static_cast<int>(levels.area.size());
+  for (int e = 0; e < count; ++e) area[levels.patch_of[at(e)]] += levels.area[at(e)];
   std::vector<Eigen::Triplet<double>> entries;
   for (int e = 0; e < count; ++e) {
     const int p = levels.patch_of[at(e)];
-    entries.emplace_back(p, e, levels.elements.area[at(e)] / area[p]);
+    entries.emplace_back(p, e, levels.area[at(e)] / area[p]);
   }
   Sparse mean(patches, count);
   mean.setFromTriplets(entries.begin(), entries.end());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "meshing/patches/element_table.h"
 #include "solver/exchange/patch_factors.h"
 #include "solver/linear/radiosity.h"
 
@@ -11,8 +10,8 @@ namespace halfshade {
 /// Patches send light, the elements that they are divided into receive it (Cohen, Greenberg, Immel
 /// and Brock 1986).
 struct TwoLevels {
-  const ElementTable& elements;
-  const std::vector<int>& patch_of;  ///< of each element
+  const std::vector<double>& area;   ///< of each element
+  const std::vector<int>& patch_of;  ///< likewise
   const PatchFactors& factors;       ///< from elements to patches
 };
 

@@ -62,7 +62,7 @@ bool light_elements(const PreparedScene& prepared, const Plan& plan, const Solve
         patch_factors(scene, patches, elements, prepared.visibility(), options.exchange, progress);
   if (factors.rows() == 0 || progress.stopped()) return false;
   const MaterialArrays materials = material_arrays(scene, elements);
-  light.solution = solve_two_levels({elements, patch_of, factors}, materials.rho,
+  light.solution = solve_two_levels({elements.area, patch_of, factors}, materials.rho,
                                     materials.exitance, direct, options.radiosity, light.radiosity);
   light.solution.region = std::move(region);
   return true;

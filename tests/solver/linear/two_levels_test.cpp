@@ -31,9 +31,7 @@ ChannelArray column(std::initializer_list<double> values) {
 
 TEST(TwoLevels, AreTheMatrixWherePatchesAreTheElements) {
   const Exchange exchange = cube_faces();
-  ElementTable elements;
-  elements.corners.resize(6);
-  elements.area.assign(6, 1);
+  const std::vector<double> area(6, 1);
   const std::vector<int> itself = {0, 1, 2, 3, 4, 5};
   const PatchFactors factors = exchange.matrix;
   const ChannelArray rho = column({.9, .2, .5, .95, .1, 0}), light = column({0, 1, 0, 0, 2, 0});
@@ -44,7 +42,7 @@ TEST(TwoLevels, AreTheMatrixWherePatchesAreTheElements) {
     RadiosityReport report, other;
     const Solution right = solve_radiosity(exchange, rho, light, {}, options, other);
     const Solution found =
-        solve_two_levels({elements, itself, factors}, rho, light, {}, options, report);
+        solve_two_levels({area, itself, factors}, rho, light, {}, options, report);
     EXPECT_TRUE(found.irradiance.isApprox(right.irradiance, 1e-11)) << bounces;
     EXPECT_TRUE(found.radiosity.isApprox(right.radiosity, 1e-11)) << bounces;
     EXPECT_TRUE(found.direct_irradiance.isApprox(right.direct_irradiance, 1e-12));
@@ -55,9 +53,8 @@ TEST(TwoLevels, AreTheMatrixWherePatchesAreTheElements) {
 TEST(TwoLevels, APatchSendsTheMeanOfItsElements) {
   // Two patches that see each other alone, the second in two elements of areas 1 and 3 that see
   // .2 and .6 of the first: ½ in the mean.
-  ElementTable elements;
-  elements.corners.resize(3);
-  elements.area = {2, 1, 3};
+  const std::vector<double> area = {2, 1, 3};
+  const std::vector<int> patch_of = {0, 1, 1};
   PatchFactors factors(3, 2);
   factors.insert(0, 1) = 1;
   factors.insert(1, 0) = 0.2;
@@ -66,7 +63,7 @@ TEST(TwoLevels, APatchSendsTheMeanOfItsElements) {
   ChannelArray light = ChannelArray::Zero(3, 3);
   light.row(0) = 1;
   RadiosityReport report;
-  const Solution s = solve_two_levels({elements, {0, 1, 1}, factors}, rho, light, {}, {}, report);
+  const Solution s = solve_two_levels({area, patch_of, factors}, rho, light, {}, {}, report);
   // R1 = ½ R2, R2 = ½ ½ (1 + R1): R2 = 2/7, R1 = 1/7.
   EXPECT_NEAR(s.irradiance(0, 0), 2. / 7, 1e-12);
   EXPECT_NEAR(s.irradiance(1, 1), 0.2 * 8 / 7, 1e-12);

@@ -5,9 +5,13 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <utility>
 
 namespace halfshade {
 namespace {
+
+/// So far from a border point elements are looked at: in a corner there are few.
+constexpr int most_rings = 3;
 
 /// The elements at each point.
 std::vector<std::vector<int>> elements_at_points(const ElementTable& elements) {
@@ -38,9 +42,9 @@ std::vector<int> with_neighbours(const ElementTable& elements, std::vector<int> 
   return some;
 }
 
-/// The plane a + b u + c v nearest to the elements' values, at a point; nothing of `value` changes
-/// where the elements lie in a line.
-void extrapolate(const ElementTable& elements, const ChannelArray& values,
+/// The plane a + b u + c v nearest to the elements' values, at a point; false, and `value` as it
+/// was, where the elements lie in a line.
+bool extrapolate(const ElementTable& elements, const ChannelArray& values,
                  const std::vector<int>& nearby, const Vec3& point,
                  Eigen::Ref<Eigen::RowVector3d> value) {
   const int first = nearby.front();
@@ -57,10 +61,11 @@ void extrapolate(const ElementTable& elements, const ChannelArray& values,
     wanted.row(k) = values.row(e).matrix();
   }
   const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> fit(planes);
-  if (fit.rank() < 3) return;
+  if (fit.rank() < 3) return false;
   const Eigen::RowVector3d found = fit.solve(wanted).row(0);
   const Eigen::RowVector3d least = wanted.colwise().minCoeff().cwiseMin(0.);
   value = found.cwiseMax(least);
+  return true;
 }
 
 }  // namespace
@@ -71,11 +76,14 @@ ChannelArray interpolated_at_points(const ElementTable& elements,
   const auto around = elements_at_points(elements);
   const std::vector<bool> is_border = border_points(elements);
   for (std::size_t p = 0; p < around.size(); ++p) {
-    if (!is_border[p]) continue;
+    if (!is_border[p] || around[p].empty()) continue;
     const auto row = static_cast<Eigen::Index>(p);
     Eigen::RowVector3d value = at_points.row(row).matrix();
-    extrapolate(elements, element_values, with_neighbours(elements, around[p]), elements.points[p],
-                value);
+    std::vector<int> nearby = around[p];
+    for (int ring = 0; ring < most_rings; ++ring) {
+      nearby = with_neighbours(elements, std::move(nearby));
+      if (extrapolate(elements, element_values, nearby, elements.points[p], value)) break;
+    }
     at_points.row(row) = value.array();
   }
   return at_points;

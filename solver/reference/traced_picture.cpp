@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -43,8 +44,10 @@ struct PixelLook {
 }  // namespace
 
 double TracedPicture::relative_error() const {
+  const bool is_all = std::find(emits.begin(), emits.end(), 0) == emits.end();
   double errors = 0, light = 0;
   for (std::size_t k = 0; k < radiance.size(); ++k) {
+    if (emits[k] != 0 && !is_all) continue;
     errors += std::pow(standard_error[k].mean(), 2);
     light += std::pow(radiance[k].mean(), 2);
   }

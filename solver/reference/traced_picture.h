@@ -40,8 +40,9 @@ struct TracedPicture {
   int samples = 0;                  ///< of each pixel
   bool complete = true;             ///< false if stopped: pixels that were not reached are black
 
-  /// Root mean square over the pixels of the standard error (mean of the channels), relative to
-  /// that of the radiance; 0 in the dark.
+  /// Root mean square of the standard error (mean of the channels), relative to that of the
+  /// radiance, over pixels without emitters, for those are many times as bright; over all where
+  /// there are no others; 0 in the dark.
   double relative_error() const;
 };
 

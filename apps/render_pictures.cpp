@@ -41,8 +41,7 @@ void require_meaning_of_colours(const RenderCommand& command) {
 
 void require_meaning_of_radiance(const RenderCommand& command) {
   if (!has_format(command.output, radiance_formats)) return;
-  if (command.method != RenderMethod::drawn && !(command.options.exposure > 0)) return;
-  if (!has_format(command.input, shaded_formats))
+  if (!has_format(command.input, shaded_formats) && command.method == RenderMethod::drawn)
     refuse("a scene has no radiance before it is solved; give the result of solve, or write .png");
   if (!command.quantity.empty() || !command.compare.empty() || !command.curves.empty() ||
       command.options.mesh_lines || command.options.exposure > 0)

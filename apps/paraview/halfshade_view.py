@@ -69,6 +69,7 @@ def show_light(source, view, quantity, logarithmic):
         table.RescaleTransferFunction(low, high if high > 0 else 1)
     display.SetScalarBarVisibility(view, True)
     bar = simple.GetScalarBar(table, view)
+    bar.ScalarBarLength = 0.6  # room for the labels of a logarithmic one
     bar.Title, bar.ComponentTitle = f"{quantity.replace('_', ' ')}, W/m²", ""
     return display
 
@@ -111,9 +112,18 @@ def look_through_camera(source, view):
     view.CameraViewAngle = values[9]
 
 
+def go_to_last_stage(source):
+    """Of a series: at first there is no light, at the end the scale is that of all stages."""
+    if len(getattr(source, "TimestepValues", [])) > 1:
+        scene = simple.GetAnimationScene()
+        scene.UpdateAnimationUsingDataTimeSteps()
+        scene.GoToLast()
+
+
 def show(source, curves=None, quantity="irradiance", logarithmic=False):
     """Shows a result, and curves over it, in the active view; returns the view."""
     view = simple.GetActiveViewOrCreate("RenderView")
+    go_to_last_stage(source)
     source.UpdatePipeline()
     show_light(source, view, quantity, logarithmic)
     if curves is not None:

@@ -74,6 +74,8 @@ TEST_F(Viewers, ParaViewShowsAResultWithItsCurves) {
   if (outcome.err.find("No module named 'paraview") != std::string::npos ||
       outcome.out.find("No module named 'paraview") != std::string::npos)
     GTEST_SKIP() << "needs python3-paraview";
+  if (outcome.err.find("bad X server connection") != std::string::npos)
+    GTEST_SKIP() << "the display does not work";
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_GT(fs::file_size(path("view.png")), 3000u);
   const test::Outcome missing =

@@ -99,6 +99,9 @@ struct RenderCommand {
   RenderMethod method = RenderMethod::drawn;
   ClassicOptions classic;            ///< its mirrors are named:
   std::vector<std::string> mirrors;  ///< groups and materials
+  double lens = 0;                   ///< radius, in scene units; 0: all is sharp
+  double focus = 0;                  ///< distance of what is sharp
+  double gloss = 0;  ///< share that all surfaces reflect in a lobe of the classic exponent
 };
 
 struct ProbeCommand {

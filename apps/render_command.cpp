@@ -85,14 +85,24 @@ ExitCode run_radiance(const RenderCommand& command, const Context& context) {
   return finish(command, {picture.width, picture.height, 0, camera, {}, {}, {}}, context);
 }
 
-ExitCode run_traced(const RenderCommand& command, const CommandFiles& files,
-                    const Context& context) {
+TracedRendering traced_scene(const RenderCommand& command, const CommandFiles& files,
+                             const Context& context) {
   const SceneFile file =
       read_scene(command.input, command.materials, context.common.orientation, files);
   TracedRendering traced =
       render_traced(sound_for_picture(file.scene), file.scene.cameras, command, context.progress);
   context.progress_ends();
   print_warnings(file, {}, context);
+  return traced;
+}
+
+ExitCode run_traced(const RenderCommand& command, const CommandFiles& files,
+                    const Context& context) {
+  TracedRendering traced =
+      command.method == RenderMethod::drawn
+          ? render_distributed(read_shaded(command.input), command, context.progress)
+          : traced_scene(command, files, context);
+  context.progress_ends();
   if (context.progress.stopped()) return end_without_results();
   if (has_format(command.output, radiance_formats)) {
     write_hdr(traced.radiance, command.output);
@@ -120,7 +130,8 @@ Rendering rendered(const RenderCommand& command, const CommandFiles& files,
 ExitCode run(const RenderCommand& command, const Context& context) {
   require_meaning(command);
   const CommandFiles files = checked_files(command, context.common);
-  if (command.method != RenderMethod::drawn) return run_traced(command, files, context);
+  if (command.method != RenderMethod::drawn || is_distributed(command))
+    return run_traced(command, files, context);
   if (has_format(command.output, radiance_formats)) return run_radiance(command, context);
   const Rendering rendering = rendered(command, files, context);
   context.progress_ends();

@@ -75,11 +75,17 @@ void add_methods(CLI::App& app, RenderCommand& command) {
                    "(default: what emitters send comes to, spread evenly)");
   add_not_negative(app, "--highlight", command.classic.highlight,
                    "With --method classic: share of direct light in a highlight (Phong)");
-  add_number(app, "--exponent", command.classic.exponent, {1, 100000}, "Of the highlight")
+  add_number(app, "--exponent", command.classic.exponent, {1, 100000},
+             "Of the highlight, or the gloss")
       ->capture_default_str();
   app.add_option("--mirror", command.mirrors,
                  "With --method classic: this group or material is a mirror; may repeat")
       ->type_name("NAME");
+  add_positive(app, "--lens", command.lens,
+               "Radius of a lens, in scene units: what is not at --focus is blurred");
+  add_positive(app, "--focus", command.focus, "Distance of what is sharp, with --lens");
+  add_positive(app, "--gloss", command.gloss,
+               "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
 }
 
 }  // namespace

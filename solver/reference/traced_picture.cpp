@@ -9,15 +9,33 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numbers>
 
 namespace halfshade {
 namespace {
 
 void check_pixels(const CameraRays& camera, const PixelOptions& options) {
+  if (!(camera.lens >= 0) || !(camera.focus > 0))
+    throw Error(
+        ErrorCode::contract, "trace_pixels",
+        fmt::format("a lens of radius {} with its focus at {} is none", camera.lens, camera.focus));
   if (camera.width < 1 || camera.height < 1 || options.samples < 1 || options.batches < 2)
     throw Error(ErrorCode::contract, "trace_pixels",
                 fmt::format("{} samples in {} batches of {} x {} pixels are out of range",
                             options.samples, options.batches, camera.width, camera.height));
+}
+
+struct LensRay {
+  Vec3 origin, direction;  ///< of unit length
+};
+
+LensRay lens_ray(const CameraRays& camera, const Vec2& pixel, const Vec2& on_lens) {
+  const Vec3 ray = camera.ray(pixel);
+  if (!(camera.lens > 0)) return {camera.origin, ray.normalized()};
+  const double r = camera.lens * std::sqrt(on_lens.x()), angle = 2 * std::numbers::pi * on_lens.y();
+  const Vec3 aside = r * (std::cos(angle) * camera.right.normalized() +
+                          std::sin(angle) * camera.down.normalized());
+  return {camera.origin + aside, (camera.focus * ray - aside).normalized()};
 }
 
 /// One pixel's rays, a batch at a time.
@@ -31,9 +49,9 @@ struct PixelLook {
     SeenLight mean;
     for (int s = 0; s < samples; ++s) {
       const auto sample = static_cast<std::uint32_t>(s);
-      const Vec2 place = pixel + SampleNumbers(mix_bits(seed + 1), sample).pair(0);
-      const SeenLight one =
-          look(camera.origin, camera.direction(place), SampleNumbers(seed, sample));
+      const SampleNumbers of_camera(mix_bits(seed + 1), sample);
+      const LensRay ray = lens_ray(camera, pixel + of_camera.pair(0), of_camera.pair(1));
+      const SeenLight one = look(ray.origin, ray.direction, SampleNumbers(seed, sample));
       mean.radiance += one.radiance / samples;
       mean.emits = mean.emits || one.emits;
     }
@@ -65,8 +83,8 @@ TracedPicture trace_pixels(const CameraRays& camera, const PixelOptions& options
   picture.standard_error.assign(count, Rgb::Zero());
   picture.emits.assign(count, 0);
   const auto trace = [&](std::size_t k) {
-    const Vec2 pixel(static_cast<double>(k % at(camera.width)),
-                     static_cast<double>(k / at(camera.width)));
+    const std::size_t row = k / at(camera.width), column = k % at(camera.width);
+    const Vec2 pixel(static_cast<double>(column), static_cast<double>(row));
     const std::uint64_t seed = mix_bits(mix_bits(options.seed) + k);
     Rgb mean = Rgb::Zero(), squares = Rgb::Zero();
     for (int b = 0; b < options.batches; ++b) {

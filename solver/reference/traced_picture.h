@@ -9,14 +9,15 @@
 
 namespace halfshade {
 
-/// A camera without a lens: pixel coordinates begin in the upper left corner.
+/// A camera: pixel coordinates begin in the upper left corner, rays through a pixel go along corner
+/// + x·right + y·down, which is 1 long along the camera's axis.
 struct CameraRays {
   Vec3 origin, corner, right, down;
   int width = 0, height = 0;  ///< pixels, ≥ 1
+  double lens = 0;            ///< radius, ≥ 0: what is nearer or farther than `focus` is blurred
+  double focus = 1;           ///< distance along the axis, > 0
 
-  Vec3 direction(const Vec2& pixel) const {
-    return (corner + pixel.x() * right + pixel.y() * down).normalized();
-  }
+  Vec3 ray(const Vec2& pixel) const { return corner + pixel.x() * right + pixel.y() * down; }
 };
 
 struct PixelOptions {
@@ -50,7 +51,8 @@ struct TracedPicture {
 using Look = std::function<SeenLight(const Vec3& origin, const Vec3& direction,
                                      const SampleNumbers& numbers)>;
 
-/// Looks through every pixel at random places, spread evenly: edges are smooth. On all threads;
+/// Looks through every pixel at random places, spread evenly: edges are smooth; and from random
+/// places of the lens (Cook, Porter and Carpenter 1984). On all threads;
 /// what a pixel gets does not depend on their number. Throws Error(contract) for options out of
 /// range.
 TracedPicture trace_pixels(const CameraRays& camera, const PixelOptions& options, const Look& look,

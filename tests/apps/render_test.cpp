@@ -182,5 +182,18 @@ TEST_F(Render, RaysAreTracedThroughAScene) {
   EXPECT_FALSE(exists("x.png"));
 }
 
+TEST_F(Render, RaysAreDistributedOverASolution) {
+  const test::Outcome outcome = render({"a.vtu", "-o", "l.png", "--lens", "0.1", "--focus", "4",
+                                        "--gloss", "0.3", "--json", "r.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_GT(report().at("relative_standard_error").get<double>(), 0);
+  EXPECT_TRUE(exists("l.png"));
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--lens", "0.1"}), 2, "--focus");
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--gloss", "0.1", "--mesh"}), 2, "--gloss");
+  test::expect_sentence(render({test::data_file("s1.obj").string(), "-o", "x.png", "--gloss", "1"}),
+                        2, "a result");
+  EXPECT_FALSE(exists("x.png"));
+}
+
 }  // namespace
 }  // namespace halfshade

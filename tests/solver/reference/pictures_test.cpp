@@ -22,7 +22,7 @@ CameraRays looking(const Vec3& from, const Vec3& to, double width, int pixels) {
   const Vec3 forward = to - from;
   const PlaneFrame frame = make_frame(from, -forward.normalized());
   const Vec3 right = width / pixels * frame.e1, down = -width / pixels * frame.e2;
-  return {from, forward - 0.5 * pixels * (right + down), right, down, pixels, pixels};
+  return {from, forward - 0.5 * pixels * (right + down), right, down, pixels, pixels, 0, 1};
 }
 
 /// One small pixel.
@@ -80,6 +80,26 @@ TEST(ReferencePicture, PixelsAtAnEdgeHoldTheShareThatIsSeen) {
     EXPECT_NEAR(shares[k], 0, 1e-12);
     EXPECT_NEAR(shares[k + 3], 0.7, 0.01);
     EXPECT_NEAR(shares[k + 6], 1, 1e-12);
+  }
+}
+
+TEST(TracedPicture, ALensBlursWhatIsNotInFocusByItsDisc) {
+  Scene raw;
+  test::add_polygon(raw, {{0, -50, 0}, {50, -50, 0}, {50, 50, 0}, {0, 50, 0}},
+                    test::add_material(raw, 0, 1));
+  const SoundScene scene = make_sound(raw);
+  // One pixel, its axis 0.2 from the light's edge, which is at a distance of 10.
+  CameraRays camera = looking({0.2, 0, 10}, {0.2, 0, 9}, 1e-6, 1);
+  camera.lens = 0.5;
+  const auto share = [&](double focus) {
+    camera.focus = focus;
+    return reference_picture(scene, camera, {.samples = 8192}).radiance.front()[0] * pi;
+  };
+  EXPECT_NEAR(share(10), 1, 1e-12) << "in focus the edge is sharp";
+  for (const double focus : {4., 6., 25.}) {
+    // The lens' disc as seen there; the share of it beyond a chord.
+    const double t = std::min(1., 0.2 / (0.5 * std::abs(10 / focus - 1)));
+    EXPECT_NEAR(share(focus), 0.5 + (std::asin(t) + t * std::sqrt(1 - t * t)) / pi, 2e-3) << focus;
   }
 }
 

@@ -83,6 +83,18 @@ void require_place(const fs::path& file) {
                              place.parent_path().string(), std::generic_category().message(errno)));
 }
 
+void require_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::path place = fs::absolute(folder);
+  while (!fs::exists(place, error) && place.has_relative_path()) place = place.parent_path();
+  if (!fs::is_directory(place, error))
+    throw Error(ErrorCode::unwritable, place.string(), "this is a file, not a folder");
+  if (access(place.c_str(), W_OK) != 0)
+    throw Error(ErrorCode::unwritable, place.string(),
+                fmt::format("the folder cannot be written to ({})",
+                            std::generic_category().message(errno)));
+}
+
 SceneFile read_scene(const fs::path& scene, const fs::path& materials,
                      const SceneOptions& orientation, CommandFiles files) {
   SceneFile file = read_scene(scene, materials);

@@ -42,6 +42,10 @@ void check_output(const std::filesystem::path& file, const FileFormats& formats)
 /// not be written, or if the file is a folder. An empty path and a standard stream are fine.
 void require_place(const std::filesystem::path& file);
 
+/// Throws Error(unwritable) if a folder to write files into, or the one it is to be made in, must
+/// not be written, or if it is a file.
+void require_folder(const std::filesystem::path& folder);
+
 /// Reads the scene of a command, its faces turned as asked for. Throws as halfshade::read_scene,
 /// and Error(usage) if an output is one of the files that the scene names.
 SceneFile read_scene(const std::filesystem::path& scene, const std::filesystem::path& materials,

@@ -41,6 +41,11 @@ void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary);
 /// --flip and --orient, of commands that read a scene; --force, of those that solve it.
 void add_orientation(CLI::App& app, SceneOptions& options);
 void add_force(CLI::App& app, ForcedStages& force);
+/// --method, and --factors with --hemicube and --rays, of solve.
+void add_solve_method(CLI::App& app, SolveOptions& options);
+/// `saved`, where form factors may also come from a file: the file.
+void add_factors_by(CLI::App& app, ExchangeOptions& options,
+                    std::filesystem::path* saved = nullptr);
 
 /// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,

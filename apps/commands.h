@@ -10,6 +10,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
+#include "solver/reference/classic_picture.h"
 
 #include <chrono>
 #include <cstdio>
@@ -55,10 +56,11 @@ struct SolveCommand {
   std::filesystem::path materials;
   std::vector<std::filesystem::path>
       outputs;  ///< empty: the scene's name with .vtu, in the current folder; none with `values`
-  std::filesystem::path points;   ///< at which the solution is told; empty: none
-  std::filesystem::path values;   ///< a table of what it is there
-  std::filesystem::path factors;  ///< by face, that were saved; empty: they are computed
-  double surroundings = 0;        ///< temperature of space, K
+  std::filesystem::path points;       ///< at which the solution is told; empty: none
+  std::filesystem::path values;       ///< a table of what it is there
+  std::filesystem::path factors;      ///< by face, that were saved; empty: they are computed
+  double surroundings = 0;            ///< temperature of space, K
+  std::filesystem::path progressive;  ///< folder for the stages of shooting; empty: none
   SolveOptions options;
   ResultOptions result_options;
 };
@@ -75,6 +77,13 @@ struct MeshCommand {
   MeshOptions options;
 };
 
+/// How pictures of scenes come about.
+enum class RenderMethod {
+  drawn,      ///< what a result holds, or materials under a lamp
+  reference,  ///< all light by random walks
+  classic     ///< local illumination
+};
+
 struct RenderCommand {
   std::filesystem::path input;
   std::filesystem::path materials;
@@ -89,6 +98,12 @@ struct RenderCommand {
   std::filesystem::path curves;   ///< drawn over the picture; empty: none
   std::filesystem::path compare;  ///< what is subtracted; empty: nothing
   bool side_by_side = false;      ///< both and the difference
+  RenderMethod method = RenderMethod::drawn;
+  ClassicOptions classic;            ///< its mirrors are named:
+  std::vector<std::string> mirrors;  ///< groups and materials
+  double lens = 0;                   ///< radius, in scene units; 0: all is sharp
+  double focus = 0;                  ///< distance of what is sharp
+  double gloss = 0;  ///< share that all surfaces reflect in a lobe of the classic exponent
 };
 
 struct ProbeCommand {

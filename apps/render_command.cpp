@@ -2,6 +2,7 @@
 #include "apps/console.h"
 #include "apps/render_pictures.h"
 #include "apps/run_end.h"
+#include "apps/traced_pictures.h"
 #include "io/picture/radiance_picture.h"
 #include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
@@ -49,6 +50,9 @@ ShadedMesh load_scene(const RenderCommand& command, const CommandFiles& files,
 
 void print_rendering(const RenderReport& report, const Context& context) {
   if (report.exposure > 0) fmt::print(context.summary, "exposure     {:.4g}\n", report.exposure);
+  if (report.samples > 0)
+    fmt::print(context.summary, "rays         {} a pixel, standard error {:.2g} of the light\n",
+               report.samples, report.standard_error);
   if (report.quantity.name.empty()) return;
   const std::string unit = report.quantity.unit.empty() ? "" : " " + report.quantity.unit;
   fmt::print(context.summary, "range        {:.4g} to {:.4g}{}\n", report.range.low,
@@ -81,6 +85,35 @@ ExitCode run_radiance(const RenderCommand& command, const Context& context) {
   return finish(command, {picture.width, picture.height, 0, camera, {}, {}, {}}, context);
 }
 
+TracedRendering traced_scene(const RenderCommand& command, const CommandFiles& files,
+                             const Context& context) {
+  const SceneFile file =
+      read_scene(command.input, command.materials, context.common.orientation, files);
+  TracedRendering traced =
+      render_traced(sound_for_picture(file.scene), file.scene.cameras, command, context.progress);
+  context.progress_ends();
+  print_warnings(file, {}, context);
+  return traced;
+}
+
+ExitCode run_traced(const RenderCommand& command, const CommandFiles& files,
+                    const Context& context) {
+  TracedRendering traced =
+      command.method == RenderMethod::drawn
+          ? render_distributed(read_shaded(command.input), command, context.progress)
+          : traced_scene(command, files, context);
+  context.progress_ends();
+  if (context.progress.stopped()) return end_without_results();
+  if (has_format(command.output, radiance_formats)) {
+    write_hdr(traced.radiance, command.output);
+  } else {
+    const Picture picture = tone_mapped(traced.radiance, traced.emits, command.options.exposure);
+    traced.report.exposure = picture.exposure;
+    write_png(picture, command.output);
+  }
+  return finish(command, traced.report, context);
+}
+
 Rendering rendered(const RenderCommand& command, const CommandFiles& files,
                    const Context& context) {
   if (!has_format(command.input, shaded_formats))
@@ -97,6 +130,8 @@ Rendering rendered(const RenderCommand& command, const CommandFiles& files,
 ExitCode run(const RenderCommand& command, const Context& context) {
   require_meaning(command);
   const CommandFiles files = checked_files(command, context.common);
+  if (command.method != RenderMethod::drawn || is_distributed(command))
+    return run_traced(command, files, context);
   if (has_format(command.output, radiance_formats)) return run_radiance(command, context);
   const Rendering rendering = rendered(command, files, context);
   context.progress_ends();

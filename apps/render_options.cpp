@@ -60,6 +60,34 @@ void add_quantity(CLI::App& app, RenderCommand& command) {
       ->needs(compare);
 }
 
+void add_methods(CLI::App& app, RenderCommand& command) {
+  add_choice(
+      app, "--method", {"drawn", "reference", "classic"},
+      [&command](std::size_t k) { command.method = static_cast<RenderMethod>(k); },
+      "Of a scene: materials under a lamp ('drawn'), all light by random walks, with its standard\n"
+      "error ('reference'), or direct light and a constant, as before radiosity ('classic')");
+  add_choice(
+      app, "--shadows", {"none", "hard", "soft"},
+      [&command](std::size_t k) { command.classic.shadows = static_cast<ClassicShadows>(k); },
+      "With --method classic");
+  add_not_negative(app, "--ambient", command.classic.ambient,
+                   "With --method classic: irradiance in the place of reflected light, W/m²\n"
+                   "(default: what emitters send comes to, spread evenly)");
+  add_not_negative(app, "--highlight", command.classic.highlight,
+                   "With --method classic: share of direct light in a highlight (Phong)");
+  add_number(app, "--exponent", command.classic.exponent, {1, 100000},
+             "Of the highlight, or the gloss")
+      ->capture_default_str();
+  app.add_option("--mirror", command.mirrors,
+                 "With --method classic: this group or material is a mirror; may repeat")
+      ->type_name("NAME");
+  add_positive(app, "--lens", command.lens,
+               "Radius of a lens, in scene units: what is not at --focus is blurred");
+  add_positive(app, "--focus", command.focus, "Distance of what is sharp, with --lens");
+  add_positive(app, "--gloss", command.gloss,
+               "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
+}
+
 }  // namespace
 
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common) {
@@ -73,15 +101,20 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
   add_camera(app, command);
   add_picture(app, command.options);
   add_quantity(app, command);
+  add_methods(app, command);
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.footer(
-      footer("Examples:\n"
-             "  halfshade render cornell.vtu -o cornell.png --mesh\n"
-             "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
-             "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n"
-             "  halfshade render s1.vtu -o h.png --quantity irradiance --scale log --width 400 "
-             "--height 300\n\n"));
+  app.footer(footer(
+      "Examples:\n"
+      "  halfshade render cornell.vtu -o cornell.png --mesh\n"
+      "  halfshade render data/dining_room.obj -o room.png --width 1200 --height 800\n"
+      "  halfshade render s1.vtu -o s1.png --position 3 3 4 --target 0 0 0 --up 0 0 1\n"
+      "  halfshade render s1.vtu -o h.png --quantity irradiance --scale log --width 400 "
+      "--height 300\n"
+      "  halfshade render data/s1.obj -o walks.png --method reference --samples 16 --width 200 "
+      "--height 150\n"
+      "  halfshade render data/s1.obj -o phong.png --method classic --shadows hard --highlight "
+      "0.2\n\n"));
 }
 
 }  // namespace halfshade

@@ -41,13 +41,37 @@ void require_meaning_of_colours(const RenderCommand& command) {
 
 void require_meaning_of_radiance(const RenderCommand& command) {
   if (!has_format(command.output, radiance_formats)) return;
-  if (!has_format(command.input, shaded_formats))
+  if (!has_format(command.input, shaded_formats) && command.method == RenderMethod::drawn)
     refuse("a scene has no radiance before it is solved; give the result of solve, or write .png");
   if (!command.quantity.empty() || !command.compare.empty() || !command.curves.empty() ||
       command.options.mesh_lines || command.options.exposure > 0)
     refuse(
         ".hdr holds radiance as it is; --quantity, --compare, --curves, --mesh and --exposure make "
         "a .png");
+}
+
+void require_meaning_of_method(const RenderCommand& command) {
+  const bool is_traced = command.method != RenderMethod::drawn;
+  if (is_traced && has_format(command.input, shaded_formats))
+    refuse("--method traces rays through a scene; give the scene, not its result");
+  if (is_traced && (!command.curves.empty() || command.options.mesh_lines))
+    refuse("--mesh and --curves are drawn over results, not over traced rays");
+  const bool is_distributed = command.lens > 0 || command.gloss > 0;
+  if (is_distributed && !is_traced && !has_format(command.input, shaded_formats))
+    refuse("--lens and --gloss are of light: give a result, or --method reference or classic");
+  if (is_distributed && (!command.quantity.empty() || !command.compare.empty() ||
+                         !command.curves.empty() || command.options.mesh_lines))
+    refuse("--lens and --gloss are of the light itself, without --quantity, --compare or lines");
+  if ((command.lens > 0) != (command.focus > 0))
+    refuse("--lens, its radius, and --focus, the distance of what is sharp, go together");
+  if (command.gloss > 0 && is_traced)
+    refuse("--gloss is of results; --method classic has --highlight and --mirror");
+  const ClassicOptions usual;
+  const bool has_classic = command.classic.shadows != usual.shadows ||
+                           command.classic.ambient >= 0 || command.classic.highlight > 0 ||
+                           !command.mirrors.empty();
+  if (has_classic && command.method != RenderMethod::classic)
+    refuse("--shadows, --ambient, --highlight and --mirror are of --method classic");
 }
 
 std::string difference_name(const RenderCommand& command) {
@@ -86,6 +110,7 @@ PictureOptions with_curves(const RenderCommand& command) {
 }  // namespace
 
 void require_meaning(const RenderCommand& command) {
+  require_meaning_of_method(command);
   if (!has_format(command.input, shaded_formats) &&
       (!command.quantity.empty() || !command.compare.empty()))
     refuse("a scene has no quantities before it is solved; give the result of solve or mesh");

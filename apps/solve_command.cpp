@@ -5,11 +5,14 @@
 #include "io/read/read_factors.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
+#include "io/write/write_series.h"
+#include "meshing/core/error.h"
 #include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/face_radiosity.h"
 #include "solver/pipeline/net_exchange.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -70,12 +73,15 @@ void print_summary(const SolveResult& result, double asked_tolerance, const Cont
       fmt::print(out, "repair       {}\n", sentence(repair, result.scene));
   fmt::print(out, "surfaces     {}\n", result.scene.surfaces.size());
   fmt::print(out, "elements     {}\n", result.elements.count());
+  if (result.subdivision.patches > 0)
+    fmt::print(out, "subdivided   {} patches, then {} elements\n", result.subdivision.patches,
+               fmt::join(result.subdivision.elements, ", "));
   if (result.curves > 0)
     fmt::print(out, "curves       {} of {}{}\n", result.mesh.kept, result.curves,
                result.discontinuity_tolerance > asked_tolerance
                    ? "; more would take more elements than asked for"
                    : "");
-  if (result.direct.count() > 0)
+  if (result.direct.count() > 0 && !result.interpolated)
     print_fields(result, out);
   else
     print_matrix(result, out);
@@ -107,6 +113,33 @@ void print_ending(ExitCode code, const SolveResult& result) {
   else
     complain(
         "the radiosity iteration did not reach its tolerance; the results written are marked so\n");
+}
+
+/// Throws Error(usage) unless there will be stages and their folder is for them alone, and
+/// Error(unwritable) if it cannot be one.
+void check_series(const SolveCommand& command, const std::vector<std::filesystem::path>& outputs) {
+  const std::filesystem::path& folder = command.progressive;
+  if (folder.empty()) return;
+  const RadiosityOptions& radiosity = command.options.radiosity;
+  if (command.options.method != SolveMethod::matrix || !shoots(radiosity.solver) ||
+      radiosity.bounces >= 0 || command.options.subdivision.rounds > 0)
+    throw Error(ErrorCode::usage, "--progressive",
+                "stages are of shooting: give --method matrix and --solver southwell or "
+                "southwell-ambient, and neither --bounces nor --subdivide");
+  for (const auto& path : outputs)
+    if (is_of_series(path) && is_same_file(path, folder / path.filename()))
+      throw Error(ErrorCode::usage, path.string(),
+                  "a result of this name would be one of the series of --progressive; give it "
+                  "another name");
+  require_folder(folder);
+}
+
+/// Throws Error(usage) for options of constant elements where there are none.
+void check_method(const SolveOptions& options) {
+  if (options.method == SolveMethod::matrix) return;
+  if (options.subdivision.rounds > 0 || options.interpolate)
+    throw Error(ErrorCode::usage, options.interpolate ? "--interpolate" : "--subdivide",
+                "this is for constant elements; give --method matrix");
 }
 
 CommandFiles checked_files(const SolveCommand& command,
@@ -142,9 +175,11 @@ SolveResult solved(const SceneFile& file, const SolveCommand& command, const Con
 
 ExitCode run(const SolveCommand& command, const Context& context) {
   std::vector<std::filesystem::path> outputs = command.outputs;
-  if (outputs.empty() && command.values.empty())
+  if (outputs.empty() && command.values.empty() && command.progressive.empty())
     outputs.push_back(command.scene.stem().replace_extension(".vtu"));
   const CommandFiles files = checked_files(command, outputs, context.common);
+  check_method(command.options);
+  check_series(command, outputs);
   PointTable table;
   if (!command.points.empty()) table = read_points(command.points);
   const SceneFile file =
@@ -154,6 +189,8 @@ ExitCode run(const SolveCommand& command, const Context& context) {
   print_warnings(file, result.warnings, context);
   if (!is_worth_writing(result)) return end_without_results();
   for (const auto& path : outputs) write(result, command, context, path);
+  if (!command.progressive.empty() && !result.radiosity.stages.empty())
+    outputs.push_back(write_series(result, context.provenance, command.progressive));
   if (!command.values.empty()) {
     write_points(table, light_at_points(result, table.points), command.values);
     outputs.push_back(command.values);

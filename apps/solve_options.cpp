@@ -10,9 +10,10 @@ namespace {
 
 /// They ask for what form factors by face, that were computed before, leave no room for.
 constexpr const char* needless_with_saved_factors[] = {
-    "--tolerance", "--order",  "--refine",       "--method",          "--elements",
-    "--regions",   "--rays",   "--visibility",   "--hemicube",        "--closure",
-    "--force",     "--events", "--direct-light", "--no-discontinuity"};
+    "--tolerance", "--order",    "--refine",       "--method",           "--elements",
+    "--regions",   "--rays",     "--visibility",   "--hemicube",         "--closure",
+    "--force",     "--events",   "--direct-light", "--no-discontinuity", "--progressive",
+    "--subdivide", "--gradient", "--interpolate"};
 
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
@@ -28,12 +29,7 @@ void add_accuracy(CLI::App& app, SolveOptions& options) {
         options.refine = std::array{Refinement::adaptive, Refinement::uniform}.at(k);
       },
       "Elements as the tolerance takes them, or all of the size of --elements or --max-length");
-  add_choice(
-      app, "--method", {"fields", "matrix"},
-      [&options](std::size_t k) {
-        options.method = std::array{SolveMethod::fields, SolveMethod::matrix}.at(k);
-      },
-      "Light as polynomials, or constant elements and a matrix of form factors");
+  add_solve_method(app, options);
 }
 
 void add_size(CLI::App& app, SolveOptions& options) {
@@ -69,23 +65,7 @@ void add_light(CLI::App& app, SolveCommand& command) {
       },
       "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
       "by whichever takes less time ('auto')");
-  add_choice_or_file(
-      app, "--factors", {"rays", "hemicube", "exact"},
-      [&options](std::size_t k) {
-        options.exchange.factors =
-            std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
-      },
-      ".mtx", command.factors,
-      "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
-      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact').\n"
-      "FILE.mtx: what 'factors --by face' has saved of this scene; radiosity is then constant on\n"
-      "each face");
-  add_even(app, "--hemicube", options.exchange.hemicube_pixels, {2, 4096},
-           "Pixels along an edge of hemicubes")
-      ->capture_default_str();
-  add_whole(app, "--rays", options.exchange.rays_per_pair, {1, 4096},
-            "Visibility rays for a pair of elements, on average, with --factors rays")
-      ->capture_default_str();
+  add_factors_by(app, options.exchange, &command.factors);
   add_choice(
       app, "--solver",
       {"conjugate-gradients", "jacobi", "gauss-seidel", "southwell", "southwell-ambient"},
@@ -108,6 +88,21 @@ void add_light(CLI::App& app, SolveCommand& command) {
       "By closed forms ('exact'), like reflected light ('matrix'), or 'auto'");
 }
 
+void add_constant_elements(CLI::App& app, SolveOptions& options) {
+  add_whole(
+      app, "--subdivide", options.subdivision.rounds, {0, 20},
+      "With --method matrix: split elements in four where the light is steep, and look again,\n"
+      "so many times; those there were at first, the patches, send the light");
+  add_positive(
+      app, "--gradient", options.subdivision.gradient,
+      "What --subdivide calls steep: a change of irradiance from one element to the next,\n"
+      "as a share of the mean")
+      ->capture_default_str();
+  app.add_flag("--interpolate", options.interpolate,
+               "With --method matrix: light linear between values at the elements' corners, means\n"
+               "of the elements around, extrapolated at borders");
+}
+
 void add_curves(CLI::App& app, SolveOptions& options) {
   app.add_flag_callback(
       "--no-discontinuity", [&options] { options.discontinuities = false; },
@@ -116,6 +111,38 @@ void add_curves(CLI::App& app, SolveOptions& options) {
 }
 
 }  // namespace
+
+void add_solve_method(CLI::App& app, SolveOptions& options) {
+  add_choice(
+      app, "--method", {"fields", "matrix"},
+      [&options](std::size_t k) {
+        options.method = std::array{SolveMethod::fields, SolveMethod::matrix}.at(k);
+      },
+      "Light as polynomials, or constant elements and a matrix of form factors");
+}
+
+void add_factors_by(CLI::App& app, ExchangeOptions& options, std::filesystem::path* saved) {
+  const std::vector<std::string> words = {"rays", "hemicube", "exact"};
+  const auto choose = [&options](std::size_t k) {
+    options.factors = std::array{FactorsBy::rays, FactorsBy::hemicube, FactorsBy::exact}.at(k);
+  };
+  const std::string help =
+      "Form factors with --method matrix: closed forms times what rays find visible ('rays'), an\n"
+      "item buffer round each centroid ('hemicube'), or exactly visible parts ('exact')";
+  if (saved == nullptr)
+    add_choice(app, "--factors", words, choose, help.c_str());
+  else
+    add_choice_or_file(app, "--factors", words, choose, ".mtx", *saved,
+                       (help + ".\nFILE.mtx: what 'factors --by face' has saved of this scene; "
+                               "radiosity is then constant on\neach face")
+                           .c_str());
+  add_even(app, "--hemicube", options.hemicube_pixels, {2, 4096},
+           "Pixels along an edge of hemicubes")
+      ->capture_default_str();
+  add_whole(app, "--rays", options.rays_per_pair, {1, 4096},
+            "Visibility rays for a pair of elements, on average, with --factors rays")
+      ->capture_default_str();
+}
 
 void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) {
   CLI::App& app =
@@ -133,11 +160,15 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
                                  "irradiance, D_r,D_g,D_b direct; then no other output is needed");
   points->needs(values);
   values->needs(points);
+  add_file(app, "--progressive", command.progressive,
+           "Folder for the stages of shooting as a series that ParaView plays, progressive.pvd;\n"
+           "with --method matrix and --solver southwell or southwell-ambient");
   app.add_flag("--linear", command.result_options.linear,
                "Straight triangles in .vtu, for readers that know no polynomials");
   add_accuracy(app, command.options);
   add_size(app, command.options);
   add_light(app, command);
+  add_constant_elements(app, command.options);
   add_curves(app, command.options);
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
@@ -145,6 +176,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   app.parse_complete_callback([&app, &command] {
     SolveOptions& options = command.options;
     const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
+    options.radiosity.stages = given("--progressive");
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
     if (command.factors.empty()) return;
@@ -163,6 +195,11 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       "s1_cube.vtu\n"
       "  halfshade solve data/thermal_furnace.obj --surroundings 300 -o furnace.vtu --json "
       "furnace.json\n"
+      "  halfshade solve data/l_room.obj --method matrix --solver southwell --elements 300 "
+      "--progressive stages\n"
+      "  halfshade solve data/l_room.obj --method matrix --elements 150 --subdivide 2 "
+      "--interpolate "
+      "-o fine.vtu\n"
       "  halfshade solve data/furnace_cube.obj --method matrix --elements 600 --json report.json "
       "-q\n\n"));
 }

@@ -14,9 +14,9 @@ constexpr int chart_width = 760, chart_height = 460;
 constexpr double left = 78, right = 600, top = 44, bottom = 404;
 constexpr double mark_size = 4.5;
 
-/// Okabe and Ito (2008): told apart also by the colour-blind.
-constexpr std::array<Colour, 7> colours = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7,
-                                           0xe69f00, 0x56b4e9, 0x555555};
+/// Okabe and Ito (2008): told apart also by the colour-blind; then three more.
+constexpr std::array<Colour, 10> colours = {0x0072b2, 0xd55e00, 0x009e73, 0xcc79a7, 0xe69f00,
+                                            0x56b4e9, 0x555555, 0x7f4f24, 0x6a51a3, 0x9a9a00};
 constexpr Colour grid = 0xe9e9e9, grid_labelled = 0xcfcfcf, frame = 0x777777, band = 0xf3f1ea;
 
 bool can_be_drawn(const Vec2& p) { return p.allFinite() && (p.array() > 0).all(); }

@@ -1,6 +1,7 @@
 #include "io/picture/radiance_picture.h"
 
 #include "io/picture/seen_mesh.h"
+#include "io/picture/tone_map.h"
 #include "meshing/core/error.h"
 
 #include <numbers>
@@ -23,6 +24,23 @@ RadiancePicture draw_radiance(const ShadedMesh& mesh, const Camera& camera,
   };
   for_each_pixel(seen.view(), options.samples, look, progress);
   return picture;
+}
+
+Picture tone_mapped(const RadiancePicture& picture, std::span<const std::uint8_t> emits,
+                    double exposure) {
+  const std::size_t count = picture.radiance.size();
+  if (emits.size() != count)
+    throw Error(ErrorCode::contract, "tone_mapped", "there is not one mark for each pixel");
+  std::vector<Rgb> radiosity;
+  for (const Rgb& radiance : picture.radiance) radiosity.emplace_back(std::numbers::pi * radiance);
+  const std::vector<double> weights(count, 1);
+  Picture result{picture.width, picture.height, exposure, {}, {}};
+  if (!(exposure > 0)) result.exposure = choose_exposure(radiosity, weights, emits);
+  for (const Rgb& value : radiosity) {
+    const auto pixel = encode_srgb(tone_map(value, result.exposure));
+    result.pixels.insert(result.pixels.end(), pixel.begin(), pixel.end());
+  }
+  return result;
 }
 
 }  // namespace halfshade

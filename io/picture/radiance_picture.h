@@ -19,6 +19,11 @@ struct RadiancePicture {
 RadiancePicture draw_radiance(const ShadedMesh& mesh, const Camera& camera,
                               const PictureOptions& options = {}, const Progress& progress = {});
 
+/// The same tone-mapped as draw does. `emits` has 1 for pixels that the exposure ignores; exposure
+/// 0: from the picture. Throws Error(contract) unless there is one for each pixel.
+Picture tone_mapped(const RadiancePicture& picture, std::span<const std::uint8_t> emits,
+                    double exposure);
+
 inline constexpr FileFormats radiance_formats = {"radiances", {".hdr"}};
 
 /// Writes Radiance's RGBE (Ward 1991), rows packed by run lengths: 8 bits of the brightest channel

@@ -27,8 +27,8 @@ SeenMesh::SeenMesh(const ShadedMesh& mesh, const View& view, Shading shading)
                               std::vector<int>(mesh.triangles.size(), -1)});
 }
 
-std::optional<Hit> SeenMesh::cast(const Vec3& ray) const {
-  return index_ ? index_->first_hit(view_.origin, ray, Sides::front_only) : std::nullopt;
+std::optional<Hit> SeenMesh::cast(const Vec3& origin, const Vec3& ray) const {
+  return index_ ? index_->first_hit(origin, ray, Sides::front_only) : std::nullopt;
 }
 
 std::array<Vec3, 3> SeenMesh::corners(const Hit& hit) const {

@@ -13,7 +13,9 @@ class SeenMesh {
   /// `mesh` must outlive this. Throws Error(contract) if its arrays do not fit.
   SeenMesh(const ShadedMesh& mesh, const View& view, Shading shading);
 
-  std::optional<Hit> cast(const Vec3& ray) const;
+  std::optional<Hit> cast(const Vec3& ray) const { return cast(view_.origin, ray); }
+  /// The same from elsewhere.
+  std::optional<Hit> cast(const Vec3& origin, const Vec3& ray) const;
 
   /// What the mesh carries there, between the corners or one for the triangle.
   Rgb value(const Hit& hit) const;

@@ -64,6 +64,16 @@ Words constant_elements(double tolerance, const Words& more) {
 
 Words matrix(double tolerance) { return constant_elements(tolerance, {}); }
 
+Words interpolated(double tolerance) { return constant_elements(tolerance, {"--interpolate"}); }
+
+/// A tenth of the elements as patches; the steps between elements are some times the error.
+Words subdivided(double tolerance) {
+  constexpr double fewer = 0.1, step = 5;
+  return constant_elements(
+      tolerance / std::sqrt(fewer),
+      {"--interpolate", "--subdivide", "2", "--gradient", fmt::format("{}", step * tolerance)});
+}
+
 Words hemicube(double tolerance) {
   return constant_elements(tolerance, {"--factors", "hemicube", "--direct-light", "matrix"});
 }
@@ -87,6 +97,10 @@ const std::vector<StudyMethod>& study_methods() {
        adaptive_linear},
       {"adaptive-constant", "constant elements, halved where the error is, without curves",
        adaptive_constant},
+      {"interpolated", "as matrix, then linear between values at corners of elements",
+       interpolated},
+      {"subdivided", "a tenth of them as patches, split in four twice where the light is steep",
+       subdivided},
       {"hemicube", "as matrix, all light by hemicubes of 64 pixels along an edge: how it began",
        hemicube},
       {"exact-factors", "as matrix, all light by factors to exactly visible parts of elements",

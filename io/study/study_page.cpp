@@ -25,11 +25,11 @@ constexpr double like_times = 1.2;
 constexpr const char* end_words[] = {"done", "short of the tolerance", "took too long", "failed"};
 
 constexpr const char* style = R"(
-body{font:15px/1.5 Arial,Helvetica,sans-serif;color:#222;max-width:1000px;margin:2em auto;padding:0 1em}
+body{font:15px/1.5 Arial,Helvetica,sans-serif;color:#222;max-width:1120px;margin:2em auto;padding:0 1em}
 h1{font-size:1.7em;margin-bottom:.2em}h2{font-size:1.25em;margin-top:2em;border-bottom:1px solid #ddd}
 table{border-collapse:collapse;font-size:13px;margin:.8em 0}
-td,th{padding:.25em .7em;text-align:right;border-bottom:1px solid #e4e4e4;vertical-align:top}
-th{background:#f5f5f3}td.text,th.text{text-align:left}.best{font-weight:bold}
+td,th{padding:.25em .55em;text-align:right;border-bottom:1px solid #e4e4e4;vertical-align:top}
+th{background:#f5f5f3}td.text,th.text{text-align:left}.name{white-space:nowrap}.best{font-weight:bold}
 code,pre{font:13px/1.45 Consolas,"DejaVu Sans Mono",monospace;background:#f5f5f3}
 pre{padding:.7em;overflow-x:auto}svg,img{max-width:100%;height:auto}
 figure{display:inline-block;width:46%;margin:.5em 1%;vertical-align:top}
@@ -129,7 +129,7 @@ std::string case_table(const Study& study) {
   for (const StudyRow& row : study.rows) {
     const bool result = has_result(row);
     html += fmt::format(
-        "<tr><td class=\"text\">{}</td><td>{:g}</td><td>{:.3g}</td><td>{:.3g}</td>"
+        "<tr><td class=\"text name\">{}</td><td>{:g}</td><td>{:.3g}</td><td>{:.3g}</td>"
         "<td>{:.0f}</td>",
         row.one.method, row.one.tolerance, row.seconds, row.cpu_seconds,
         static_cast<double>(row.peak_memory_bytes) / 1e6);

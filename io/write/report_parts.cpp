@@ -127,6 +127,7 @@ Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
 
 Json reflected_json(const ReflectedReport& report) {
   return {{"elements", report.elements},
+          {"unknowns", report.unknowns},
           {"rounds", report.rounds},
           {"visibility", report.is_exact ? "exact" : "sampled"},
           {"rays", report.rays},
@@ -141,6 +142,33 @@ Json reflected_json(const ReflectedReport& report) {
           {"estimated_relative_error_of_rays", report.noise}};
 }
 
+namespace {
+
+/// Of each stage of progressive refinement where the power is, by channel.
+Json radiosity_stages_json(const RadiosityReport& report) {
+  const auto numbers = [&](const RadiosityStage& stage, double StagePower::*number) {
+    Json json = Json::array();
+    for (std::size_t c = 0; c < at(report.channels); ++c) json.push_back(stage.power[c].*number);
+    return json;
+  };
+  Json stages = Json::array();
+  for (const RadiosityStage& stage : report.stages)
+    stages.push_back({{"shots", stage.shots},
+                      {"shot_power", numbers(stage, &StagePower::shot)},
+                      {"unshot_power", numbers(stage, &StagePower::unshot)},
+                      {"absorbed_power", numbers(stage, &StagePower::absorbed)},
+                      {"escaped_power", numbers(stage, &StagePower::escaped)},
+                      {"ambient_irradiance_w_per_m2", numbers(stage, &StagePower::ambient)},
+                      {"balance", numbers(stage, &StagePower::balance)}});
+  return stages;
+}
+
+}  // namespace
+
+Json subdivision_json(const SubdivisionReport& report) {
+  return {{"patches", report.patches}, {"elements", report.elements}};
+}
+
 Json radiosity_json(const RadiosityReport& report) {
   Json channels = Json::array();
   for (const ChannelReport& channel :
@@ -153,11 +181,13 @@ Json radiosity_json(const RadiosityReport& report) {
                         {"absorbed_power", channel.absorbed_power},
                         {"escaped_power", channel.escaped_power},
                         {"balance", channel.balance}});
-  return {{"channels", report.channels},
-          {"unknowns", report.unknowns},
-          {"systems", report.systems},
-          {"converged", report.converged},
-          {"channel", channels}};
+  Json json = {{"channels", report.channels},
+               {"unknowns", report.unknowns},
+               {"systems", report.systems},
+               {"converged", report.converged},
+               {"channel", channels}};
+  if (!report.stages.empty()) json["stages"] = radiosity_stages_json(report);
+  return json;
 }
 
 Json search_json(const DiscontinuityReport& report) {

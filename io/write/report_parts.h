@@ -36,12 +36,13 @@ Json search_json(const DiscontinuityReport& report);
 Json along_curves_json(const DiscontinuityMeshReport& report);
 
 Json exchange_json(const ExchangeReport& report);
-/// One channel where all are equal.
 /// Of direct light as polynomials, and of reflected light on its own mesh.
 Json direct_json(const AdaptiveFieldReport& report, const ElementField& field);
 Json reflected_json(const ReflectedReport& report);
+/// One channel where all are equal.
 Json radiosity_json(const RadiosityReport& report);
 /// In SI units, whatever the scene's is. Throws as sum_heat does.
 Json net_exchange_json(const SolveResult& result);
+Json subdivision_json(const SubdivisionReport& report);
 
 }  // namespace halfshade::detail

@@ -129,12 +129,13 @@ void write_report(const SolveResult& result, const RunInfo& run,
   discontinuities.update(along_curves_json(result.mesh));
   json["mesh"] = mesh_json(result.elements);
   json["stages"] = stages_json(result.stages);
-  if (result.direct.count() > 0) {
+  if (result.direct.count() > 0 && !result.interpolated) {
     json["direct_light"] = direct_json(result.refinement, result.direct);
     json["reflected_light"] = reflected_json(result.reflected);
   } else {
     json["exchange"] = exchange_json(result.exchange);
   }
+  if (result.subdivision.patches > 0) json["subdivision"] = subdivision_json(result.subdivision);
   json["radiosity"] = radiosity_json(result.radiosity);
   json["groups"] = groups_json(result);
   if (result.heat.is_given) json["net_exchange"] = net_exchange_json(result);
@@ -203,6 +204,10 @@ void write_report(const RenderReport& report, const RunInfo& run,
   json["width"] = report.width;
   json["height"] = report.height;
   if (report.exposure > 0) json["exposure"] = report.exposure;
+  if (report.samples > 0) {
+    json["samples"] = report.samples;
+    json["relative_standard_error"] = report.standard_error;
+  }
   if (!report.quantity.name.empty()) json["quantity"] = false_colours_json(report);
   json["camera"] = {{"name", report.camera.name},
                     {"position", to_json(report.camera.position)},

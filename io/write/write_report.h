@@ -57,10 +57,13 @@ struct RenderReport {
   Quantity quantity;                         ///< in false colours; without a name: none
   ValueRange range;                          ///< of it
   std::optional<SeenDifference> difference;  ///< of two results
+  int samples = 0;            ///< of each pixel, by random rays; 0: it was drawn otherwise
+  double standard_error = 0;  ///< of pixels, relative, in the mean square
 };
 
 /// Writes what every report begins with, width, height, camera, outputs; exposure; with false
-/// colours quantity, range and difference. Throws Error(unwritable).
+/// colours quantity, range and difference; of random rays samples and relative_standard_error.
+/// Throws Error(unwritable).
 void write_report(const RenderReport& report, const RunInfo& run,
                   const std::filesystem::path& path);
 

@@ -55,7 +55,21 @@ void add_field_data(const SolveResult& result, vtkFieldData* data) {
   add_numbers(data, "achieved_error", {result.relative_error});
 }
 
-std::string linear_bytes(const SolveResult& result, std::string_view extension) {
+void add_stage(const RadiosityStage* stage, vtkFieldData* data) {
+  if (!stage) return;
+  const auto add = [&](const char* name, double StagePower::*power) {
+    add_colours(data, name,
+                {stage->power[0].*power, stage->power[1].*power, stage->power[2].*power});
+  };
+  add_numbers(data, "shots", {static_cast<double>(stage->shots)});
+  add("shot_power", &StagePower::shot);
+  add("unshot_power", &StagePower::unshot);
+  add("absorbed_power", &StagePower::absorbed);
+  add("escaped_power", &StagePower::escaped);
+}
+
+std::string linear_bytes(const SolveResult& result, std::string_view extension,
+                         const RadiosityStage* stage = nullptr) {
   const LinearResult linear = linear_result(result);
   const auto grid = element_grid(linear.elements, extension);
   const bool is_constant = result.irradiance.count() == 0;
@@ -65,6 +79,7 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension) 
   add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
   add_channels(grid->GetPointData(), "irradiance", linear.irradiance);
   add_field_data(result, grid->GetFieldData());
+  add_stage(stage, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
 }
 
@@ -88,6 +103,10 @@ std::string vtk_bytes(const SolveResult& result, std::string_view extension,
   const bool has_polynomials = result.irradiance.count() > 0 && !options.linear;
   return has_polynomials && extension == ".vtu" ? polynomial_bytes(result)
                                                 : linear_bytes(result, extension);
+}
+
+std::string stage_bytes(const SolveResult& result, const RadiosityStage& stage) {
+  return linear_bytes(result, ".vtu", &stage);
 }
 
 }  // namespace halfshade::detail

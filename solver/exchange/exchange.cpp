@@ -154,6 +154,7 @@ Exchange compute_exchange(const SoundScene& scene, const ElementTable& elements,
       options.factors == FactorsBy::rays
           ? assemble_factors(scene, elements, cells, visibility, options, progress)
           : factors_from_points(scene, elements, cells, visibility, options, progress);
+  exchange.report.by = options.factors;
   exchange.report.complete = factors.complete;
   exchange.report.rays = factors.rays;
   exchange.report.refined_rows = factors.refined_rows;

@@ -38,6 +38,7 @@ struct ExchangeOptions {
 };
 
 struct ExchangeReport {
+  FactorsBy by = FactorsBy::rays;
   std::size_t factors = 0;  ///< non-zero entries of the matrix
   std::size_t rays = 0;
   bool closed = false;  ///< no light gets out: rows of F should sum to 1 wherever light gets to

@@ -2,6 +2,11 @@
 
 #include "meshing/core/error.h"
 #include "solver/exchange/scaled_operator.h"
+#include "solver/linear/shooting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -52,49 +57,53 @@ class GaussSeidel {
 
 class Southwell {
  public:
-  Southwell(const ReflectionProblem& problem, bool ambient)
-      : problem_(problem), ambient_(ambient), R_(problem.first), unsent_(problem.first) {}
+  Southwell(const ReflectionProblem& problem, bool ambient, bool keeps_stages)
+      : shooting_(problem), ambient_(ambient), keeps_stages_(keeps_stages) {
+    keep_stage();
+  }
 
   const Eigen::VectorXd& operator()() {
-    for (Eigen::Index shot = 0; shot < R_.size(); ++shot) shoot();
-    shown_ = R_;
-    if (ambient_) shown_ += problem_.rho * ambient_irradiance();
+    for (Eigen::Index shot = 0; shot < shooting_.size(); ++shot) {
+      shooting_.shoot();
+      if (++shots_ == next_stage_ && shooting_.unsent_share() > nothing_left) keep_stage();
+    }
+    shown_ = shooting_.reflected(ambient());
     return shown_;
   }
 
+  std::vector<ShotStage> all_stages() {
+    if (keeps_stages_ && stages_.back().shots < shots_) keep_stage();
+    return std::move(stages_);
+  }
+
  private:
-  /// By power, not by radiosity: or else small bright elements keep large ones waiting.
-  void shoot() {
-    Eigen::Index brightest = 0;
-    (problem_.area * unsent_.array()).maxCoeff(&brightest);
-    const double sent = unsent_[brightest];
-    unsent_[brightest] = 0;
-    for (ExchangeMatrix::InnerIterator entry(problem_.matrix, brightest); entry; ++entry) {
-      const Eigen::Index j = entry.col();
-      const double reflected = problem_.rho[j] * (entry.value() * sent / problem_.area[j]);
-      R_[j] += reflected;
-      unsent_[j] += reflected;
-    }
+  /// Share of the light beyond which stages look alike.
+  static constexpr double nothing_left = 1e-4;
+  static constexpr double stage_step = 1.4142135623730951;
+
+  double ambient() const { return ambient_ ? shooting_.ambient_irradiance() : 0; }
+
+  void keep_stage() {
+    if (!keeps_stages_) return;
+    stages_.push_back({shots_, shooting_.received(), shooting_.unsent(), ambient()});
+    next_stage_ = std::max(
+        shots_ + 1, static_cast<std::int64_t>(std::ceil(static_cast<double>(shots_) * stage_step)));
   }
 
-  double ambient_irradiance() const {
-    const double all = problem_.area.sum();
-    const double kept = 1 - (problem_.area * problem_.rho.array()).sum() / all;
-    return kept > 0 ? power(problem_, unsent_) / all / kept : 0;
-  }
-
-  const ReflectionProblem& problem_;
-  bool ambient_;
-  Eigen::VectorXd R_, unsent_, shown_;
+  Shooting shooting_;
+  bool ambient_, keeps_stages_;
+  std::int64_t shots_ = 0, next_stage_ = 0;
+  std::vector<ShotStage> stages_;
+  Eigen::VectorXd shown_;
 };
 
 template <class Sweep>
-SweepResult run(const ReflectionProblem& problem, const SweepLimits& limits, Sweep once) {
+SweepResult run(const ReflectionProblem& problem, const SweepLimits& limits, Sweep&& once) {
   SweepResult result;
   result.reflected = problem.first;
   const double first = power(problem, problem.first);
   if (!(first > 0)) return result;
-  while (result.sweeps < limits.sweeps) {
+  while (result.sweeps < limits.sweeps && !limits.stop.stop_requested()) {
     result.reflected = once();
     ++result.sweeps;
     const Eigen::VectorXd off = gathered(problem, result.reflected) - result.reflected;
@@ -114,8 +123,12 @@ SweepResult sweep(const ReflectionProblem& problem, RadiositySolver solver,
     case RadiositySolver::gauss_seidel:
       return run(problem, limits, GaussSeidel(problem));
     case RadiositySolver::southwell:
-    case RadiositySolver::southwell_ambient:
-      return run(problem, limits, Southwell(problem, solver == RadiositySolver::southwell_ambient));
+    case RadiositySolver::southwell_ambient: {
+      Southwell southwell(problem, solver == RadiositySolver::southwell_ambient, limits.stages);
+      SweepResult result = run(problem, limits, southwell);
+      result.stages = southwell.all_stages();
+      return result;
+    }
     default:
       throw Error(ErrorCode::contract, "sweep", "conjugate gradients do not sweep");
   }

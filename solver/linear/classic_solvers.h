@@ -3,6 +3,8 @@
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
 
+#include <cstdint>
+#include <stop_token>
 #include <vector>
 
 namespace halfshade {
@@ -18,6 +20,16 @@ struct ReflectionProblem {
 struct SweepLimits {
   double tolerance = 1e-10;  ///< of the residual, as in `history`
   int sweeps = 100000;
+  bool stages = false;   ///< keep those of shooting
+  std::stop_token stop;  ///< looked at after each sweep
+};
+
+/// How far shooting had come.
+struct ShotStage {
+  std::int64_t shots = 0;
+  Eigen::VectorXd received;  ///< irradiance by these shots, W/m²
+  Eigen::VectorXd unsent;    ///< reflected radiosity that has not been sent yet
+  double ambient = 0;        ///< irradiance that is shown in its place; 0 without that term
 };
 
 struct SweepResult {
@@ -25,6 +37,9 @@ struct SweepResult {
   int sweeps = 0;
   /// After each sweep: Σ A |first + ρ F R − R|, relative to Σ A first.
   std::vector<double> history;
+  /// Of shooting, if asked for: before the first shot, then at numbers of shots that grow by a half
+  /// of an octave each until hardly anything is left to send, and at the end.
+  std::vector<ShotStage> stages;
 };
 
 /// The iterations that radiosity began with, for those who want to compare: their number grows as 1

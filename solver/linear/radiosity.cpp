@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/linear/classic_solvers.h"
+#include "solver/linear/combine_stages.h"
 #include "solver/linear/system_solver.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ struct Channel {
 struct ChannelSolution {
   Eigen::VectorXd radiosity, irradiance;
   Eigen::VectorXd reflected;  ///< what the irradiance was gathered from
+  std::vector<ShotStage> stages;
 };
 
 Eigen::VectorXd irradiance_from(const LightExchange& exchange, const Eigen::VectorXd& B) {
@@ -30,7 +32,7 @@ Eigen::VectorXd irradiance_from(const LightExchange& exchange, const Eigen::Vect
 
 ChannelSolution sum_bounces(const LightExchange& exchange, const Channel& channel, int bounces) {
   const Eigen::VectorXd dark = Eigen::VectorXd::Zero(channel.rho.size());
-  ChannelSolution solution{channel.exitance, dark, dark};
+  ChannelSolution solution{channel.exitance, dark, dark, {}};
   for (int bounce = 0; bounce <= bounces; ++bounce) {
     solution.reflected = solution.radiosity - channel.exitance;
     solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
@@ -70,12 +72,15 @@ ChannelSolution solve_channel(const LightExchange& exchange, const Channel& chan
 
 /// By the solvers that radiosity began with, all systems at once.
 ChannelSolution sweep_channel(const LightExchange& exchange, const Channel& channel,
-                              const RadiosityOptions& options, ChannelReport& report) {
+                              const RadiosityOptions& options, const Progress& progress,
+                              ChannelReport& report) {
   if (!exchange.matrix)
     throw Error(ErrorCode::contract, "solve_radiosity", "this solver needs a matrix");
   const ReflectionProblem problem{*exchange.matrix, exchange.area, channel.rho,
                                   channel.rho.cwiseProduct(channel.direct_irradiance)};
-  SweepResult swept = sweep(problem, options.solver, {options.tolerance, options.max_sweeps});
+  SweepResult swept = sweep(problem, options.solver,
+                            {options.tolerance, options.max_sweeps,
+                             options.stages && shoots(options.solver), progress.stop});
   report.iterations = swept.sweeps;
   report.history = std::move(swept.history);
   if (const std::size_t n = report.history.size(); n > 0) {
@@ -85,6 +90,7 @@ ChannelSolution sweep_channel(const LightExchange& exchange, const Channel& chan
     report.error = report.residual / (1 - rate);
   }
   ChannelSolution solution;
+  solution.stages = std::move(swept.stages);
   solution.reflected = std::move(swept.reflected);
   solution.irradiance = channel.direct_irradiance + irradiance_from(exchange, solution.reflected);
   solution.radiosity = channel.exitance + channel.rho.cwiseProduct(solution.irradiance);
@@ -164,6 +170,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
   report.channels = is_grey(rho) && is_grey(exitance) && !options.all_channels ? 1 : 3;
   const ChannelArray dark = ChannelArray::Zero(rho.rows(), 3);
   Solution solution{rho, exitance, dark, dark, dark, {}, {}};
+  std::array<std::vector<ShotStage>, 3> stages;
   for (int c = 0; c < report.channels; ++c) {
     progress("radiosity", c / static_cast<double>(report.channels));
     Channel channel{rho.col(c).matrix(), exitance.col(c).matrix(), {}};
@@ -180,7 +187,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
     } else {
       part = options.solver == RadiositySolver::conjugate_gradients
                  ? solve_channel(exchange, channel, options, channel_report)
-                 : sweep_channel(exchange, channel, options, channel_report);
+                 : sweep_channel(exchange, channel, options, progress, channel_report);
       report.converged =
           report.converged && channel_report.residual <= residual_slack * options.tolerance;
     }
@@ -189,6 +196,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
     solution.radiosity.col(c) = part.radiosity.array();
     solution.irradiance.col(c) = part.irradiance.array();
     solution.direct_irradiance.col(c) = channel.direct_irradiance.array();
+    stages[static_cast<std::size_t>(c)] = std::move(part.stages);
   }
   for (int c = report.channels; c < 3; ++c) {
     report.channel[static_cast<std::size_t>(c)] = report.channel[0];
@@ -196,6 +204,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
     solution.irradiance.col(c) = solution.irradiance.col(0);
     solution.direct_irradiance.col(c) = solution.direct_irradiance.col(0);
   }
+  if (options.stages) report.stages = combine_stages(exchange, solution, stages);
   report.systems = count_lit(exchange.systems, exitance, solution.direct_irradiance);
   return solution;
 }

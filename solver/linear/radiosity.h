@@ -3,6 +3,7 @@
 #include "meshing/core/progress.h"
 #include "solver/elements/solution.h"
 #include "solver/linear/light_exchange.h"
+#include "solver/linear/radiosity_stages.h"
 
 #include <array>
 #include <optional>
@@ -25,6 +26,7 @@ struct RadiosityOptions {
   int max_iterations = 1000;
   int max_sweeps = 100000;    ///< the same of the other solvers
   bool all_channels = false;  ///< also where all three are the same
+  bool stages = false;        ///< keep those of shooting; needs a solver that shoots
   int bounces = -1;  ///< −1: all; n ≥ 0: light that arrives after at most n reflections
 };
 
@@ -45,7 +47,13 @@ struct RadiosityReport {
   int systems = 0;   ///< parts that exchange no light with each other and have some, solved apart
   std::array<ChannelReport, 3> channel;  ///< grey: all three the same
   bool converged = true;
+  std::vector<RadiosityStage> stages;  ///< if asked for, of all bounces
 };
+
+/// Whether a solver shoots, so that it has stages to show.
+constexpr bool shoots(RadiositySolver solver) {
+  return solver == RadiositySolver::southwell || solver == RadiositySolver::southwell_ambient;
+}
 
 /// A closed system whose radiosity has no limit, for nothing in it absorbs.
 struct UnlimitedSystem {

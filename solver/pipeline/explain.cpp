@@ -55,6 +55,17 @@ double count_factors(const SoundScene& scene, int elements) {
   return std::pow(elements, 2) * (1 - squares / (all * all)) / 2;
 }
 
+std::string rays_needless(const ExchangeOptions& options, bool is_clear) {
+  if (options.factors == FactorsBy::exact) return "visible parts are exact";
+  const bool is_by_pairs = options.factors == FactorsBy::rays;
+  return is_by_pairs && is_clear ? "no surface can come between two others" : "";
+}
+
+double count_rays(const SolveOptions& options, double factors) {
+  if (options.exchange.factors == FactorsBy::rays) return factors * options.exchange.rays_per_pair;
+  return 3. * options.elements * std::pow(options.exchange.hemicube_pixels, 2);
+}
+
 std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
                                       const SolveOptions& options, bool any_closed) {
   const double n = options.elements, factors = count_factors(scene, options.elements);
@@ -86,9 +97,9 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
   stages.push_back(
       {"form factors", plan.no_factors, "factors", factors, "pairs", factors / factors_rate});
   if (plan.no_factors.empty()) {
-    const double rays = factors * options.exchange.rays_per_pair;
-    stages.push_back({"visibility rays", is_clear ? "no surface can come between two others" : "",
-                      "", is_clear ? 0 : rays, "rays at most", is_clear ? 0 : rays / rays_rate});
+    const std::string needless = rays_needless(options.exchange, is_clear);
+    const double rays = needless.empty() ? count_rays(options, factors) : 0;
+    stages.push_back({"visibility rays", needless, "", rays, "rays at most", rays / rays_rate});
     stages.push_back({"closure", any_closed ? "" : "light can leave the scene", "", 0, "", 0});
   }
   stages.push_back({"second and third channel", plan.no_channels, "channels", 0, "", 0});

@@ -24,6 +24,11 @@ void check(const SolveOptions& options) {
   if (options.method == SolveMethod::fields && options.tolerance == 0)
     throw Error(ErrorCode::usage, "solve",
                 "no error at all cannot be reached; give a tolerance above 0");
+  if (options.subdivision.rounds < 0 || !(options.subdivision.gradient > 0))
+    throw Error(ErrorCode::contract, "solve",
+                fmt::format("rounds of subdivision ({}) must not be negative and its gradient ({}) "
+                            "be above 0",
+                            options.subdivision.rounds, options.subdivision.gradient));
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)
     throw Error(ErrorCode::contract, "solve",
                 fmt::format("tolerance ({}) and secondary ({}) must be finite and not negative",

@@ -24,6 +24,12 @@ namespace halfshade {
 
 class PreparedScene;
 
+/// How constant elements were divided.
+struct SubdivisionReport {
+  int patches = 0;            ///< there were at first; 0: nothing was to be divided
+  std::vector<int> elements;  ///< after each round
+};
+
 /// A solved scene and how it came about.
 struct SolveResult {
   SoundScene scene;
@@ -37,6 +43,8 @@ struct SolveResult {
   Solution solution;  ///< means over the elements
   /// Polynomials on the elements, if they are not constant: direct and all irradiance, W/m².
   ElementField direct, irradiance;
+  bool interpolated = false;  ///< they are of constant elements, see interpolated_field
+  SubdivisionReport subdivision;
   AdaptiveFieldReport refinement;  ///< of direct light
   ReflectedReport reflected;
   std::optional<ReflectedLight> reflected_light;  ///< if it was solved for as polynomials

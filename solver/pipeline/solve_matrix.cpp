@@ -2,8 +2,10 @@
 
 #include "solver/adapt/recovery_estimate.h"
 #include "solver/elements/balancing_scale.h"
+#include "solver/elements/vertex_interpolation.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
+#include "solver/pipeline/subdivide.h"
 
 #include <fmt/format.h>
 
@@ -70,6 +72,12 @@ void estimate_error(const Eigen::ArrayXd& exchange_error, Stages& stages, SolveR
   });
 }
 
+void interpolate(SolveResult& result) {
+  result.irradiance = interpolated_field(result.elements, result.solution.irradiance);
+  result.direct = interpolated_field(result.elements, result.solution.direct_irradiance);
+  result.interpolated = true;
+}
+
 }  // namespace
 
 void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
@@ -98,10 +106,18 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.elements = std::move(mesh.elements);
 
   SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
+  if (options.subdivision.rounds > 0 && mesh.patches) {
+    SubdividedLight divided = subdivide(prepared, plan, options, *std::move(mesh.patches),
+                                        std::move(light), progress, stages);
+    result.elements = std::move(divided.elements);
+    result.subdivision = std::move(divided.report);
+    light = std::move(divided.light);
+  }
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
   estimate_error(light.exchange_error, stages, result);
+  if (options.interpolate) interpolate(result);
   add(exchange_warnings(result.exchange), result.warnings);
 }
 

@@ -25,8 +25,9 @@ std::optional<SolveMesh> try_mesh(const SoundScene& scene, const Discontinuities
                                   const DiscontinuityMeshOptions& options,
                                   const Progress& progress) {
   try {
-    const DiscontinuityMesh mesh = mesh_discontinuities(scene, found, options, progress);
-    return SolveMesh{mesh.patches.elements(), mesh.report, 0};
+    DiscontinuityMesh mesh = mesh_discontinuities(scene, found, options, progress);
+    ElementTable elements = mesh.patches.elements();
+    return SolveMesh{std::move(elements), mesh.report, 0, std::move(mesh.patches)};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::too_large) return std::nullopt;
     throw;
@@ -49,10 +50,10 @@ std::size_t count_contacts(const SoundScene& scene) {
                               : ""));
 }
 
-ElementTable mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
-                          const SolveOptions& options, const Progress& progress) {
+PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
+                       const SolveOptions& options, const Progress& progress) {
   try {
-    return PatchMesh(scene, mesh_options, progress).elements();
+    return PatchMesh(scene, mesh_options, progress);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_large) throw;
     refuse(scene, options);
@@ -136,13 +137,15 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
   mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
   mesh_options.max_length = first_length(scene, options);
   SolveMesh mesh;
-  mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
+  mesh.patches = mesh_plainly(scene, mesh_options, options, progress);
+  mesh.elements = mesh.patches->elements();
   if (options.max_length > 0 || progress.stopped()) return mesh;
   for (int k = 1; k < attempts; ++k) {
     const double excess = mesh.elements.count() / static_cast<double>(options.elements);
     if (std::abs(excess - 1) <= near_enough) break;
     mesh_options.max_length *= std::sqrt(excess);
-    mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
+    mesh.patches = mesh_plainly(scene, mesh_options, options, progress);
+    mesh.elements = mesh.patches->elements();
   }
   return mesh;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "meshing/patches/discontinuity_mesh.h"
+#include "meshing/patches/patch_mesh.h"
 #include "solver/pipeline/solve_options.h"
+
+#include <optional>
 
 namespace halfshade {
 
@@ -9,7 +12,8 @@ namespace halfshade {
 struct SolveMesh {
   ElementTable elements;
   DiscontinuityMeshReport report;
-  double tolerance = 0;  ///< share of the mean irradiance, as used
+  double tolerance = 0;              ///< share of the mean irradiance, as used
+  std::optional<PatchMesh> patches;  ///< the same elements, for those who divide them
 };
 
 /// Throws Error(too_large) if surfaces and contact lines alone take more than options.max_elements.

@@ -32,6 +32,12 @@ struct ForcedStages {
   bool channels = false;  ///< all three, also in a grey scene
 };
 
+/// Adaptive subdivision of constant elements, see subdivide.
+struct SubdivisionOptions {
+  int rounds = 0;         ///< ≥ 0
+  double gradient = 0.1;  ///< from element to element, as a share of the mean irradiance; > 0
+};
+
 struct SolveOptions {
   SolveMethod method = SolveMethod::fields;
   Refinement refine = Refinement::adaptive;
@@ -54,6 +60,8 @@ struct SolveOptions {
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;
   RadiosityOptions radiosity;
+  SubdivisionOptions subdivision;  ///< of the matrix' elements
+  bool interpolate = false;        ///< linear between values at their points; of the matrix
   ForcedStages force;
 };
 

@@ -85,6 +85,19 @@ double escaping_share(const RadiosityReport& report) {
   return emitted > 0 ? escaped / emitted : 0;
 }
 
+/// What makes form factors better.
+const char* more_of(FactorsBy by) {
+  switch (by) {
+    case FactorsBy::rays:
+      return "more --rays or --elements";
+    case FactorsBy::hemicube:
+      return "more pixels (--hemicube) or --elements";
+    case FactorsBy::exact:
+      break;
+  }
+  return "more --elements";
+}
+
 }  // namespace
 
 const char* name_of(Warning::Kind kind) {
@@ -209,9 +222,9 @@ std::vector<Warning> light_warnings(const LightOutcome& outcome) {
     warnings.push_back(
         {Warning::Kind::lost_by_factors,
          fmt::format("in {} closed space{} form factors of an element are off by {:.2g} in all, so "
-                     "light gets lost there; more --rays or --elements help",
+                     "light gets lost there; {} help",
                      outcome.exchange.unfinished, outcome.exchange.unfinished == 1 ? "" : "s",
-                     outcome.exchange.closure_error_max)});
+                     outcome.exchange.closure_error_max, more_of(outcome.exchange.by))});
   return warnings;
 }
 

@@ -70,6 +70,14 @@ std::optional<LightPaths::End> LightPaths::next_end(const End& from, const Vec3&
   return End{met - frame.height(met) * frame.normal, frame.normal, hit->owner, hit->distance};
 }
 
+std::optional<SeenPlace> LightPaths::seen(const Vec3& origin, const Vec3& direction) const {
+  const auto hit = visibility_.first_hit(origin, direction, Sides::front_only);
+  if (!hit) return std::nullopt;
+  const PlaneFrame& frame = scene_.surfaces[at(hit->owner)].frame;
+  const Vec3 met = origin + hit->distance * direction;
+  return SeenPlace{{met - frame.height(met) * frame.normal, frame.normal}, hit->owner};
+}
+
 /// Light straight from a random point of the emitters.
 Rgb LightPaths::from_emitters(const End& to, int bounce, const SampleNumbers& numbers) const {
   const auto sample = emitters_.point(numbers.pair(use_of(bounce, place_on_emitter)));

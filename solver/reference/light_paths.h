@@ -9,6 +9,12 @@
 
 namespace halfshade {
 
+/// What a camera's ray meets.
+struct SeenPlace {
+  ReferencePoint point;
+  int surface = 0;
+};
+
 /// Traces single paths through a scene. All calls may run concurrently.
 class LightPaths {
  public:
@@ -18,6 +24,10 @@ class LightPaths {
   /// What one path from a point finds: its mean over all samples is the irradiance. `bounces` as in
   /// ReferenceOptions. Throws Error(invalid_input) if the path does not end.
   ArrivingLight trace(const ReferencePoint& point, int bounces, const SampleNumbers& numbers) const;
+
+  /// The first front along a ray of unit direction: backs are not seen, so that a room can be
+  /// looked into from outside. Nothing if there is none.
+  std::optional<SeenPlace> seen(const Vec3& origin, const Vec3& direction) const;
 
  private:
   struct End;

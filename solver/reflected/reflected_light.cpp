@@ -314,6 +314,7 @@ void finish(ReflectedLight::State& state) {
   state.irradiance.emplace(state.field);
   state.elements = element_table(state.mesh, state.reflecting.roots);
   state.report.elements = state.mesh.count();
+  state.report.unknowns = static_cast<std::size_t>(state.field.coefficients.rows());
 }
 
 }  // namespace

@@ -50,6 +50,7 @@ enum class ReflectedEnd {
 struct ReflectedReport {
   ReflectedEnd end = ReflectedEnd::nothing;
   int elements = 0;
+  std::size_t unknowns = 0;  ///< coefficients of their polynomials, for each channel
   int rounds = 0;
   bool is_exact = false;          ///< by exactly visible parts
   bool through_operator = false;  ///< it is all irradiance, see ReflectedOptions

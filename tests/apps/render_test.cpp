@@ -151,5 +151,49 @@ TEST_F(Render, WhatMakesNoSenseIsSaidInASentence) {
   }
 }
 
+TEST_F(Render, RaysAreTracedThroughAScene) {
+  const std::string s1 = test::data_file("s1.obj").string();
+  const test::Outcome outcome =
+      render({s1, "-o", "walks.png", "--method", "reference", "--json", "r.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("standard error"), std::string::npos) << outcome.out;
+  EXPECT_EQ(report().at("samples"), 8) << "one for each batch";
+  EXPECT_GT(report().at("relative_standard_error").get<double>(), 0);
+  EXPECT_GT(report().at("exposure").get<double>(), 0);
+  EXPECT_EQ(report().at("width"), 60);
+  const std::string once = test::contents(folder_.path() / "walks.png");
+  EXPECT_EQ(
+      render({s1, "-o", "walks.png", "--method", "reference", "-q", "--threads", "1"}).exit_code,
+      0);
+  EXPECT_EQ(test::contents(folder_.path() / "walks.png").size(), once.size());
+  ASSERT_EQ(render({s1, "-o", "c.hdr", "--method", "classic", "--shadows", "hard", "--highlight",
+                    "0.2", "--mirror", "occluder", "-q"})
+                .exit_code,
+            0);
+  EXPECT_TRUE(exists("c.hdr"));
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--method", "reference"}), 2, "the scene");
+  test::expect_sentence(render({s1, "-o", "x.png", "--shadows", "hard"}), 2, "--method classic");
+  test::expect_sentence(render({s1, "-o", "x.png", "--method", "classic", "--mirror", "nobody"}), 2,
+                        "'nobody'");
+  test::expect_sentence(render({s1, "-o", "x.png", "--method", "reference", "--mesh"}), 2,
+                        "--mesh");
+  test::expect_sentence(render({s1, "-o", "x.hdr", "--method", "reference", "--exposure", "1"}), 2,
+                        "exposure");
+  EXPECT_FALSE(exists("x.png"));
+}
+
+TEST_F(Render, RaysAreDistributedOverASolution) {
+  const test::Outcome outcome = render({"a.vtu", "-o", "l.png", "--lens", "0.1", "--focus", "4",
+                                        "--gloss", "0.3", "--json", "r.json"});
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_GT(report().at("relative_standard_error").get<double>(), 0);
+  EXPECT_TRUE(exists("l.png"));
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--lens", "0.1"}), 2, "--focus");
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--gloss", "0.1", "--mesh"}), 2, "--gloss");
+  test::expect_sentence(render({test::data_file("s1.obj").string(), "-o", "x.png", "--gloss", "1"}),
+                        2, "a result");
+  EXPECT_FALSE(exists("x.png"));
+}
+
 }  // namespace
 }  // namespace halfshade

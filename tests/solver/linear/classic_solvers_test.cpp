@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace halfshade {
 namespace {
@@ -176,6 +177,104 @@ TEST(ClassicSolvers, AmbientLightBringsShootingNearerFromTheStart) {
     return (found.radiosity - right.radiosity).matrix().norm();
   };
   EXPECT_LT(error(RadiositySolver::southwell_ambient), 0.3 * error(RadiositySolver::southwell));
+}
+
+/// The cube with an opening: its last patches are gone.
+Exchange opened(const Exchange& whole, Eigen::Index gone) {
+  const Eigen::Index count = whole.area.size() - gone;
+  Exchange open = whole;
+  open.matrix = whole.matrix.topLeftCorner(count, count);
+  open.area = whole.area.head(count).eval();
+  const Eigen::VectorXd left = open.matrix * Eigen::VectorXd::Ones(count);
+  open.lost = open.area - left.array();
+  open.enclosures = {std::vector<int>(at(static_cast<int>(count)), 0), {false}, {true}};
+  return open;
+}
+
+RadiosityReport shot_report(const Exchange& exchange, const ChannelArray& rho,
+                            RadiositySolver solver, Solution& solution) {
+  RadiosityOptions options;
+  options.solver = solver;
+  options.stages = true;
+  RadiosityReport report;
+  solution = solve_radiosity(exchange, rho, wall_light(rho.rows()), {}, options, report);
+  return report;
+}
+
+TEST(ShootingStages, PowerIsSomewhereAtEveryStage) {
+  const Exchange closed = cube(4), open = opened(closed, 5);
+  test::Random random(3);
+  for (const Exchange* exchange : {&closed, &open})
+    for (const RadiositySolver solver :
+         {RadiositySolver::southwell, RadiositySolver::southwell_ambient}) {
+      ChannelArray rho(exchange->area.size(), 3);
+      for (Eigen::Index i = 0; i < rho.rows(); ++i)
+        for (Eigen::Index c = 0; c < 3; ++c) rho(i, c) = random(0, 0.95);
+      Solution solution;
+      const RadiosityReport report = shot_report(*exchange, rho, solver, solution);
+      ASSERT_GT(report.stages.size(), 10u);
+      EXPECT_LT(report.stages.size(), 40u);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double emitted = report.channel[c].emitted_power;
+        double shot = 0;
+        for (const RadiosityStage& stage : report.stages) {
+          const StagePower& power = stage.power[c];
+          EXPECT_NEAR(power.unshot + power.absorbed + power.escaped, emitted, 1e-12 * emitted);
+          EXPECT_LT(power.balance, 1e-12);
+          EXPECT_GE(power.shot, shot);
+          shot = power.shot;
+        }
+        const StagePower& last = report.stages.back().power[c];
+        EXPECT_LT(last.unshot, 1e-9 * emitted);
+        EXPECT_NEAR(last.absorbed, report.channel[c].absorbed_power, 1e-9 * emitted);
+        EXPECT_NEAR(last.escaped, report.channel[c].escaped_power, 1e-9 * emitted);
+        if (exchange == &closed) {
+          EXPECT_NEAR(last.escaped, 0, 1e-12 * emitted);
+        }
+      }
+      EXPECT_EQ(report.stages.front().shots, 0);
+      EXPECT_TRUE((report.stages.front().irradiance == 0).all());
+      EXPECT_TRUE(report.stages.back().irradiance.isApprox(solution.irradiance, 1e-8));
+    }
+}
+
+TEST(ShootingStages, LightOnlyGrowsWithoutAmbientTermAndIsNearerWithIt) {
+  const Exchange exchange = cube(4);
+  const ChannelArray rho = even(0.8, exchange.area.size());
+  Solution solution, with;
+  const RadiosityReport plain = shot_report(exchange, rho, RadiositySolver::southwell, solution);
+  const RadiosityReport ambient =
+      shot_report(exchange, rho, RadiositySolver::southwell_ambient, with);
+  for (std::size_t k = 1; k < plain.stages.size(); ++k) {
+    const RadiosityStage& stage = plain.stages[k];
+    EXPECT_TRUE((stage.irradiance >= plain.stages[k - 1].irradiance).all());
+    EXPECT_EQ(stage.power[0].ambient, 0);
+  }
+  // A furnace with an even reflectance: what is spread evenly has the right mean.
+  for (std::size_t k = 1; k + 1 < ambient.stages.size(); ++k) {
+    EXPECT_NEAR(ambient.stages[k].irradiance.mean(), solution.irradiance.mean(),
+                1e-9 * solution.irradiance.mean());
+    EXPECT_LE((ambient.stages[k].irradiance - solution.irradiance).matrix().norm(),
+              (plain.stages[k].irradiance - solution.irradiance).matrix().norm());
+  }
+}
+
+TEST(ShootingStages, FirstShotsAreThoseOfTheDefinition) {
+  const Exchange exchange = cube(2);
+  const Eigen::Index count = exchange.area.size();
+  const ChannelArray rho = even(0.5, count);
+  Solution solution;
+  const RadiosityReport report = shot_report(exchange, rho, RadiositySolver::southwell, solution);
+  const Eigen::MatrixXd F =
+      exchange.area.inverse().matrix().asDiagonal() * Eigen::MatrixXd(exchange.matrix);
+  const Eigen::VectorXd direct = F * wall_light(count).col(0).matrix();
+  ASSERT_EQ(report.stages[1].shots, count / 6);
+  EXPECT_TRUE(report.stages[1].irradiance.col(0).matrix().isApprox(direct, 1e-14));
+  Eigen::Index brightest = 0;
+  const double sent = 0.5 * direct.maxCoeff(&brightest);
+  ASSERT_EQ(report.stages[2].shots, count / 6 + 1);
+  EXPECT_TRUE(report.stages[2].irradiance.col(0).matrix().isApprox(direct + sent * F.col(brightest),
+                                                                   1e-14));
 }
 
 TEST(ClassicSolvers, NeedAMatrix) {

@@ -55,6 +55,23 @@ TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
   EXPECT_EQ(dark.find("lamp"), std::string::npos);
 }
 
+TEST(Warnings, LostLightIsPutRightByWhatFactorsAreMadeOf) {
+  SolveResult room = solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse());
+  room.exchange.unfinished = 1;
+  const auto advice = [&room](FactorsBy by) {
+    room.exchange.by = by;
+    room.warnings =
+        light_warnings({room.scene, room.elements, room.solution, room.exchange, room.radiosity});
+    return sentence_of(room, Warning::Kind::lost_by_factors);
+  };
+  EXPECT_NE(advice(FactorsBy::rays).find("--rays"), std::string::npos);
+  EXPECT_NE(advice(FactorsBy::hemicube).find("--hemicube"), std::string::npos);
+  for (const FactorsBy by : {FactorsBy::hemicube, FactorsBy::exact}) {
+    EXPECT_EQ(advice(by).find("--rays"), std::string::npos);
+    EXPECT_NE(advice(by).find("--elements"), std::string::npos);
+  }
+}
+
 TEST(Warnings, ARepairThatChangesTheLight) {
   Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
   test::add_polygon(scene, face_corners(scene, 4), test::add_material(scene, .9, 0));

@@ -59,8 +59,8 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   require_place(context.common.json);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const ContactLimit limit{static_cast<double>(command.options.max_elements),
-                           contacts_warning(command.options.max_elements, false)};
+  const int most = most_elements(command.options, file.scene.faces.size());
+  const ContactLimit limit{static_cast<double>(most), contacts_warning(most, false)};
   const Explanation explanation =
       use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
         return explain(prepared, command.options, context.progress);

@@ -180,8 +180,9 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
   // Contact lines are for elements; exact light needs none.
-  ContactLimit limit{static_cast<double>(command.options.max_elements), {}};
-  if (!command.direct_only) limit.warning = contacts_warning(command.options.max_elements, false);
+  const int most = most_elements(command.options, file.scene.faces.size());
+  ContactLimit limit{static_cast<double>(most), {}};
+  if (!command.direct_only) limit.warning = contacts_warning(most, false);
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
     return run_prepared(command, file, given, prepared, context);
   });

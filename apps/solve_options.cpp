@@ -13,6 +13,10 @@ void add_accuracy(CLI::App& app, SolveOptions& options) {
       "Error allowed, of the irradiance in the L2 norm, relative to it (with --method\n"
       "matrix: curves that change the mean by less are left out)")
       ->capture_default_str();
+  app.add_option("--goal", options.goal,
+                 "Name of a group: the tolerance is that of its mean irradiance, and effort goes\n"
+                 "only where that feels it")
+      ->type_name("GROUP");
   add_whole(app, "--order", options.order, {0, max_order},
             "Order of all elements (default: chosen for each)");
   add_choice(
@@ -35,8 +39,7 @@ void add_size(CLI::App& app, SolveOptions& options) {
   add_positive(app, "--max-length", options.max_length,
                "Longest element edge in scene units (instead of --elements)");
   add_whole(app, "--max-elements", options.max_elements, {1, 10000000},
-            "Make no more elements than this")
-      ->capture_default_str();
+            "Make no more elements than this (default: 40000, and 16 a face in larger scenes)");
   add_whole(app, "--max-unknowns", options.max_unknowns, {1, 100000000},
             "Make no more coefficients than this, for each channel")
       ->capture_default_str();

@@ -338,6 +338,8 @@ def factory(machines):
 def main():
     if len(sys.argv) != 3 or not sys.argv[1].isdecimal() or int(sys.argv[1]) < 1:
         sys.exit("usage: factory.py MACHINES FOLDER, with at least one machine")
+    if not os.path.isdir(sys.argv[2]):
+        sys.exit("factory.py: there is no folder '%s'" % sys.argv[2])
     obj = factory(int(sys.argv[1]))
     obj.write(sys.argv[2], "factory_" + sys.argv[1])
     print("%d polygons" % obj.polygons)

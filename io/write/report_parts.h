@@ -39,6 +39,7 @@ Json exchange_json(const ExchangeReport& report);
 /// One channel where all are equal.
 /// Of direct light as polynomials, and of reflected light on its own mesh.
 Json direct_json(const AdaptiveFieldReport& report, const ElementField& field);
+Json goal_json(const GoalResult& goal, const SoundScene& scene);
 Json reflected_json(const ReflectedReport& report);
 Json radiosity_json(const RadiosityReport& report);
 

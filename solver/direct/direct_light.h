@@ -75,8 +75,12 @@ class DirectLightIndex {
   std::vector<DirectLight> irradiance(std::span<const SurfacePoint> points,
                                       const Progress& progress = {}) const;
 
-  /// The same for one point on the calling thread.
+  /// The same for one point on the calling thread, from all emitters or some surfaces.
   DirectLight irradiance(const SurfacePoint& point) const;
+  DirectLight irradiance(const SurfacePoint& point, std::span<const int> emitters) const;
+
+  /// DirectLight::region alone, which takes one emitter's visible part.
+  Region region(const SurfacePoint& point) const;
 
  private:
   struct Impl;

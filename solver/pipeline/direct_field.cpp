@@ -6,6 +6,7 @@
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
 #include "solver/pipeline/shadow_places.h"
+#include "solver/pipeline/weak_light.h"
 
 #include <fmt/format.h>
 
@@ -20,15 +21,19 @@ namespace {
 constexpr double samples_for_curves = 12, power_of_edges = 1.7;
 /// Of the tolerance: what curves may do that are left out.
 constexpr double share_of_curves = 0.5;
+/// Of the tolerance: noise of samples, where rays tell weak light.
+constexpr double share_of_noise = 0.4;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
 constexpr double least_angle = 10;
+/// In scenes of more surfaces most are slender and matter little: they stay as few as can be.
+constexpr std::size_t many_surfaces = 2000;
 
 /// Looks at faces and crossings for each unknown that there may be, where very many faces lie
 /// before an emitter: by default some ten seconds on two cores.
 constexpr double crowd_work_for_one = 6;
 
 /// Adds to `crowd_work`.
-FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
+FieldAt exact_light_at(const DirectLightIndex& index, double& crowd_work) {
   return [&](std::span<const FieldPoint> points, const Progress& progress) {
     std::vector<SurfacePoint> places;
     places.reserve(points.size());
@@ -38,6 +43,24 @@ FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
     for (const DirectLight& light : index.irradiance(places, progress)) {
       values.push_back(light.irradiance);
       crowd_work += static_cast<double>(light.crowd_work);
+    }
+    return values;
+  };
+}
+
+/// Adds to `crowd_work`.
+FieldAt quick_light_at(std::shared_ptr<const WeakLight> quick, double& crowd_work) {
+  return [quick = std::move(quick), &crowd_work](std::span<const FieldPoint> points,
+                                                 const Progress& progress) {
+    std::vector<WeakLight::Light> light(points.size());
+    parallel_for(
+        points.size(), [&](std::size_t i) { light[i] = quick->irradiance(points[i]); }, progress,
+        "direct light");
+    std::vector<Rgb> values;
+    values.reserve(points.size());
+    for (const auto& [irradiance, work] : light) {
+      values.push_back(irradiance);
+      crowd_work += static_cast<double>(work);
     }
     return values;
   };
@@ -60,7 +83,7 @@ double cost_of_curves(const SoundScene& scene, const Plan& plan) {
 PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions& options) {
   PlanarMeshOptions result;
   result.max_length = length_of(scene, options);
-  result.min_angle = least_angle;
+  result.min_angle = scene.surfaces.size() > many_surfaces ? 0 : least_angle;
   result.max_triangles = static_cast<std::size_t>(options.max_elements);
   return result;
 }
@@ -68,19 +91,21 @@ PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions
 class DirectFieldSearch {
  public:
   DirectFieldSearch(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
-                    const Progress& progress, Stages& stages)
+                    const Progress& progress, Stages& stages, const GoalWeights* goal)
       : prepared_(prepared),
         plan_(plan),
         options_(options),
         progress_(progress),
         stages_(stages),
-        direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
+        goal_(goal),
+        direct_light_(exact_light_at(prepared.direct_light(), crowd_work_)),
         watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {
     const auto corners = corner_places(prepared.scene(), prepared.direct_light().emitters());
     watched_.insert(watched_.end(), corners.begin(), corners.end());
   }
 
   DirectField run() {
+    if (!goal_ && has_weak_light(scene())) use_weak_light();
     const bool no_curves = !plan_.no_discontinuities.empty();
     if (no_curves) {
       stages_.leave_out_if(true, "discontinuities", plan_.no_discontinuities);
@@ -96,6 +121,17 @@ class DirectFieldSearch {
 
  private:
   const SoundScene& scene() const { return prepared_.scene(); }
+
+  void use_weak_light() {
+    stages_.run("weak light", [&] {
+      const double mean = plan_.mean_irradiance > 0 ? plan_.mean_irradiance
+                                                    : mean_direct_irradiance(prepared_, progress_);
+      const double noise = share_of_noise * options_.tolerance * mean;
+      direct_light_ =
+          quick_light_at(std::make_shared<const WeakLight>(prepared_, noise), crowd_work_);
+      return prepared_.direct_light().emitters().size();
+    });
+  }
 
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
@@ -116,7 +152,7 @@ class DirectFieldSearch {
       found_.patches = std::make_shared<PatchMesh>(scene(), mesh_options, progress_);
       return static_cast<std::size_t>(found_.patches->element_count());
     });
-    AdaptiveFieldOptions fit = field_options(options_);
+    AdaptiveFieldOptions fit = field_options(options_, goal_);
     fit.max_samples = most_samples;
     fit_on_patches(fit);
   }
@@ -159,7 +195,7 @@ class DirectFieldSearch {
       return fit_without_curves(0);
     }
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
-    fit_on_patches(field_options(options_));
+    fit_on_patches(field_options(options_, goal_));
   }
 
   /// False if it takes too many elements.
@@ -198,10 +234,8 @@ class DirectFieldSearch {
             // Where the light hardly changes, one place will do.
             const std::size_t count = found_.light.field.order[e] == 0 ? 1 : places.size();
             for (std::size_t k = 0; k < count; ++k) {
-              const Region here =
-                  prepared_.direct_light()
-                      .irradiance({position(triangle, places[k]), elements.normal[e]})
-                      .region;
+              const Region here = prepared_.direct_light().region(
+                  {position(triangle, places[k]), elements.normal[e]});
               region = k == 0 || here == region ? here : Region::penumbra;
             }
           },
@@ -215,6 +249,7 @@ class DirectFieldSearch {
   const SolveOptions& options_;
   const Progress& progress_;
   Stages& stages_;
+  const GoalWeights* goal_;
   double crowd_work_ = 0;  ///< see DirectLight
   FieldAt direct_light_;
   std::vector<WatchedPlace> watched_;
@@ -223,20 +258,24 @@ class DirectFieldSearch {
 
 }  // namespace
 
-AdaptiveFieldOptions field_options(const SolveOptions& options) {
+AdaptiveFieldOptions field_options(const SolveOptions& options, const GoalWeights* goal) {
   AdaptiveFieldOptions result;
   result.tolerance = options.tolerance;
   result.order = options.order;
   result.split = options.refine == Refinement::adaptive;
   result.max_elements = options.max_elements;
   result.max_unknowns = options.max_unknowns;
+  if (goal && goal->weight) {
+    result.weight = goal->weight;
+    result.norm = goal->norm;
+  }
   return result;
 }
 
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
-                              const SolveOptions& options, const Progress& progress,
-                              Stages& stages) {
-  return DirectFieldSearch(prepared, plan, options, progress, stages).run();
+                              const SolveOptions& options, const Progress& progress, Stages& stages,
+                              const GoalWeights* goal) {
+  return DirectFieldSearch(prepared, plan, options, progress, stages, goal).run();
 }
 
 DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options,

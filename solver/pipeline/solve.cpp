@@ -9,21 +9,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
 
 void check(const SolveOptions& options) {
-  if (options.elements < 1 || options.max_elements < 1 || !(options.max_length >= 0))
+  if (options.elements < 1 || options.max_elements < 0 || !(options.max_length >= 0))
     throw Error(
         ErrorCode::contract, "solve",
-        fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
-                    "not negative",
+        fmt::format("elements ({}) must be at least 1, max_elements ({}) and max_length ({}) not "
+                    "negative",
                     options.elements, options.max_elements, options.max_length));
   if (options.method == SolveMethod::fields && options.tolerance == 0)
     throw Error(ErrorCode::usage, "solve",
                 "no error at all cannot be reached; give a tolerance above 0");
+  if (options.method == SolveMethod::matrix && !options.goal.empty())
+    throw Error(ErrorCode::usage, {}, "--goal goes with --method fields, not with the matrix");
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)
     throw Error(ErrorCode::contract, "solve",
                 fmt::format("tolerance ({}) and secondary ({}) must be finite and not negative",
@@ -42,19 +45,29 @@ void find_regions(const PreparedScene& prepared, const Progress& progress, Stage
 
 }  // namespace
 
+int most_elements(const SolveOptions& options, std::size_t faces) {
+  constexpr std::size_t at_least = 40000, for_each = 16, most = 10000000;
+  if (options.max_elements > 0) return options.max_elements;
+  if (options.method == SolveMethod::matrix) return at_least;
+  return static_cast<int>(std::clamp(for_each * faces, at_least, most));
+}
+
 SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
   check(options);
-  const ContactLimit limit{static_cast<double>(options.max_elements),
-                           contacts_warning(options.max_elements, true)};
+  const int most = most_elements(options, scene.faces.size());
+  const ContactLimit limit{static_cast<double>(most), contacts_warning(most, true)};
   return use_prepared(scene, limit, progress, [&](const PreparedScene& prepared) {
     return solve(prepared, options, progress);
   });
 }
 
-SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
+SolveResult solve(const PreparedScene& prepared, const SolveOptions& asked,
                   const Progress& progress) {
-  check(options);
+  check(asked);
+  SolveOptions options = asked;
+  options.max_elements = most_elements(asked, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);
+  if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);
   Stages stages(result.stages);
   const Plan plan = make_plan(prepared, options, progress, stages);

@@ -5,6 +5,9 @@
 #include "solver/linear/radiosity.h"
 #include "solver/reflected/reflected_light.h"
 
+#include <cstddef>
+#include <string>
+
 namespace halfshade {
 
 enum class DirectLightBy {
@@ -40,10 +43,14 @@ struct SolveOptions {
   double tolerance = 0.01;
   int order = -1;              ///< of all elements, 0…max_order; −1: chosen for each
   int max_unknowns = 1000000;  ///< per channel
+  /// Name of a group: the tolerance is that of its mean irradiance, and effort goes where that
+  /// feels it. Empty: all irradiance matters. Not with the matrix.
+  std::string goal;
   int elements =
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
-  double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
-  int max_elements = 40000;     ///< refuse to make more; memory grows with the square
+  double max_length = 0;  ///< longest element edge in scene units; 0: derived from `elements`
+  /// Refuse to make more, ≥ 1, or 0: what most_elements says.
+  int max_elements = 0;
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
   DiscontinuityOptions
       events;            ///< which curves to look for; most_work 0: what `tolerance` is worth
@@ -56,5 +63,9 @@ struct SolveOptions {
   RadiosityOptions radiosity;
   ForcedStages force;
 };
+
+/// How many elements there may be in a scene of so many faces: `max_elements`, or if that is 0
+/// 40,000 and with fields at least 16 a face. With the matrix memory grows with the square.
+int most_elements(const SolveOptions& options, std::size_t faces);
 
 }  // namespace halfshade

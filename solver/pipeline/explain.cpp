@@ -97,10 +97,8 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
 
 }  // namespace
 
-Explanation explain(const PreparedScene& prepared, const SolveOptions& asked,
+Explanation explain(const PreparedScene& prepared, const SolveOptions& options,
                     const Progress& progress) {
-  SolveOptions options = asked;
-  options.max_elements = most_elements(asked, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);  // as solve does
   Explanation explanation;
   explanation.scene = prepared.scene();

@@ -16,6 +16,10 @@ constexpr double near_enough = 0.1;
 /// Share by which a mesh may have more elements than asked for, or than the geometry takes.
 constexpr double most_excess = 0.25;
 
+int most_of(const SoundScene& scene, const SolveOptions& options) {
+  return most_elements(options, scene.surfaces.size());
+}
+
 double first_length(const SoundScene& scene, const SolveOptions& options) {
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
 }
@@ -43,7 +47,7 @@ std::size_t count_contacts(const SoundScene& scene) {
   throw Error(ErrorCode::too_large, "solve",
               fmt::format("{} surfaces with {} contact lines take more than {} elements{}; "
                           "--max-elements allows more",
-                          scene.surfaces.size(), count_contacts(scene), options.max_elements,
+                          scene.surfaces.size(), count_contacts(scene), most_of(scene, options),
                           options.max_length > 0
                               ? fmt::format(" of at most {} in length", options.max_length)
                               : ""));
@@ -68,8 +72,8 @@ class SizeSearch {
   SizeSearch(const SoundScene& scene, const SolveOptions& options, int plain)
       : wanted_(std::max(options.elements, plain)),
         most_(options.max_length > 0
-                  ? options.max_elements
-                  : std::min<double>(options.max_elements, (1 + most_excess) * wanted_)),
+                  ? most_of(scene, options)
+                  : std::min<double>(most_of(scene, options), (1 + most_excess) * wanted_)),
         is_fixed_(options.max_length > 0),
         longest_(longest_edge(scene, options)),
         density_(1 / std::pow(first_length(scene, options), 2)),
@@ -118,7 +122,7 @@ class SizeSearch {
 // Every surface takes an element, and every contact line two sides of three.
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
   const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
-  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
+  if (least > at(most_of(scene, options))) refuse(scene, options);
 }
 
 double longest_edge(const SoundScene& scene, const SolveOptions& options) {
@@ -133,7 +137,7 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
   constexpr int attempts = 5;
   require_few_surfaces(scene, options);
   PlanarMeshOptions mesh_options;
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
+  mesh_options.max_triangles = at(most_of(scene, options));
   mesh_options.max_length = first_length(scene, options);
   SolveMesh mesh;
   mesh.elements = mesh_plainly(scene, mesh_options, options, progress);
@@ -154,12 +158,12 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
   std::optional<SolveMesh> best;
   DiscontinuityMeshOptions mesh_options;
   // Some more than would do, so that a mesh that ended early is known by its size.
-  mesh_options.max_triangles = 4 * static_cast<std::size_t>(options.max_elements);
+  mesh_options.max_triangles = 4 * at(most_of(scene, options));
   for (bool again = true; again;) {
     mesh_options.max_length = search.length();
     mesh_options.irradiance_tolerance = search.tolerance() * mean_irradiance;
     std::optional<SolveMesh> mesh = try_mesh(scene, found, mesh_options, progress);
-    const double count = mesh ? mesh->elements.count() : 2. * options.max_elements;
+    const double count = mesh ? mesh->elements.count() : 2. * most_of(scene, options);
     const bool fits = mesh && !search.is_too_many(count);
     if (fits && (!best || search.tolerance() > best->tolerance ||
                  search.distance(count) < search.distance(best->elements.count()))) {

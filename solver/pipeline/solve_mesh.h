@@ -12,8 +12,7 @@ struct SolveMesh {
   double tolerance = 0;  ///< share of the mean irradiance, as used
 };
 
-/// Throws Error(too_large) if surfaces and contact lines alone take more than options.max_elements,
-/// which must be above 0 in all of these.
+/// Throws Error(too_large) if surfaces and contact lines alone take more than options.max_elements.
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options);
 
 /// The longest element edge that a mesh along curves may come to have.

@@ -25,7 +25,6 @@ struct CoarseSolution {
 CoarseSolution solve_coarsely(const PreparedScene& prepared, const Progress& progress) {
   SolveOptions options;
   options.elements = coarse_elements;
-  options.max_elements = most_elements(options, prepared.scene().surfaces.size());
   std::vector<StageReport> ignored;
   Stages stages(ignored);
   CoarseSolution solution;

@@ -17,9 +17,9 @@ namespace halfshade {
 namespace {
 
 /// In scenes of fewer surfaces exactly visible parts are found at once.
-constexpr std::size_t many_surfaces = 2000;
+constexpr std::size_t surfaces_for_rays = 2000;
 /// Rays to an emitter, and patterns that they may go in.
-constexpr int rays = 8;
+constexpr int rays_each = 8;
 constexpr std::size_t patterns = 16;
 /// Of the square of an emitter's light: the mean square error of the share that so many evenly
 /// spread places tell. A straight shadow over a square is off by 1/n^¾ of it (0.21 in the mean
@@ -30,14 +30,14 @@ constexpr double variance = 0.1 * 0.044;  // 8^-1.5
 std::vector<Vec3> places_on(const Surface& surface, std::size_t pattern) {
   std::vector<Vec2> corners;
   for (const Ring& ring : surface.rings) corners.insert(corners.end(), ring.begin(), ring.end());
-  const double each = area(surface) / rays;
+  const double each = area(surface) / rays_each;
   double passed = 0;
   std::vector<Vec3> places;
   for (const auto& [i, j, k] : ring_triangles(surface.rings)) {
     const Vec2 &a = corners[at(i)], u = corners[at(j)] - a, v = corners[at(k)] - a;
     passed += 0.5 * std::abs(cross_2d(u, v));
     while ((static_cast<double>(places.size()) + 0.5) * each < passed) {
-      const TrianglePlace place = spread_place(pattern * rays + places.size());
+      const TrianglePlace place = spread_place(pattern * rays_each + places.size());
       places.push_back(surface.frame.to_space(a + place.x() * u + place.y() * v));
     }
   }
@@ -116,7 +116,7 @@ bool has_weak_light(const SoundScene& scene) {
   const auto emits = [&](const Surface& surface) {
     return (scene.materials[at(surface.material)].exitance > 0).any();
   };
-  return scene.surfaces.size() > many_surfaces &&
+  return scene.surfaces.size() > surfaces_for_rays &&
          std::count_if(scene.surfaces.begin(), scene.surfaces.end(), emits) > 1;
 }
 

@@ -98,11 +98,11 @@ class MtlReader {
                    "map_Bump", "map_bump", "bump", "disp", "decal", "refl", "norm", "map_aat"}))
       return;
     std::string why;
-    std::string_view about = keyword;
+    std::string about(keyword);
     if (keyword == "map_Kd") {
-      about = words_.back();  // the picture, after its options
       why = fmt::format("the picture {} is not read: the material {} has its Kd alone, everywhere",
-                        in_quotes(about), in_quotes(material_name()));
+                        in_quotes(words_.back()), in_quotes(material_name()));
+      about = why;  // each of them
     } else if (keyword == "map_Ke") {
       why = "painted exitances are not used; the material has its Ke everywhere";
     } else if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
@@ -113,7 +113,7 @@ class MtlReader {
       why = fmt::format("statements that begin with {} are not used", in_quotes(keyword));
     }
     constexpr std::size_t most = 10;  // a file of another kind has thousands
-    if (warned_.size() < most && warned_.insert(std::string(about)).second) warn(why);
+    if (warned_.size() < most && warned_.insert(about).second) warn(why);
   }
 
   const std::string& material_name() const {

@@ -65,6 +65,14 @@ void print_fields(const SolveResult& result, std::FILE* out) {
         reflected.iterations, reflected.error);
 }
 
+void print_goal(const SolveResult& result, std::FILE* out) {
+  const GoalResult& goal = *result.goal;
+  fmt::print(out, "goal         mean irradiance of '{}': {:.6g} {:.6g} {:.6g} W/m², {} unknowns\n",
+             result.scene.groups.at(static_cast<std::size_t>(goal.group)), goal.mean[0],
+             goal.mean[1], goal.mean[2], goal.unknowns);
+  fmt::print(out, "error        {:.2g} relative to that mean (estimated)\n", goal.relative_error);
+}
+
 void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {
   std::FILE* out = context.summary;
   const bool verbose = context.common.verbose;
@@ -85,8 +93,11 @@ void print_summary(const SolveResult& result, double asked_tolerance, const Cont
     print_fields(result, out);
   else
     print_matrix(result, out);
-  fmt::print(out, "error        {:.2g} relative to the irradiance (estimated, L2)\n",
-             result.relative_error);
+  if (result.goal)
+    print_goal(result, out);
+  else
+    fmt::print(out, "error        {:.2g} relative to the irradiance (estimated, L2)\n",
+               result.relative_error);
   for (const StageReport& stage : result.stages)
     if (!stage.left_out_because.empty())
       fmt::print(out, "left out     {}: {}\n", stage.name, stage.left_out_because);

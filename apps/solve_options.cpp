@@ -10,10 +10,10 @@ namespace {
 
 /// They ask for what form factors by face, that were computed before, leave no room for.
 constexpr const char* needless_with_saved_factors[] = {
-    "--tolerance", "--order",    "--refine",       "--method",           "--elements",
-    "--regions",   "--rays",     "--visibility",   "--hemicube",         "--closure",
-    "--force",     "--events",   "--direct-light", "--no-discontinuity", "--progressive",
-    "--subdivide", "--gradient", "--interpolate"};
+    "--tolerance", "--order",     "--refine",       "--method",           "--elements",
+    "--regions",   "--rays",      "--visibility",   "--hemicube",         "--closure",
+    "--force",     "--events",    "--direct-light", "--no-discontinuity", "--progressive",
+    "--goal",      "--subdivide", "--gradient",     "--interpolate"};
 
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
@@ -21,6 +21,10 @@ void add_accuracy(CLI::App& app, SolveOptions& options) {
       "Error allowed, of the irradiance in the L2 norm, relative to it (with --method\n"
       "matrix: curves that change the mean by less are left out)")
       ->capture_default_str();
+  app.add_option("--goal", options.goal,
+                 "Name of a group: the tolerance is that of its mean irradiance, and effort goes\n"
+                 "only where that feels it")
+      ->type_name("GROUP");
   add_whole(app, "--order", options.order, {0, max_order},
             "Order of all elements (default: chosen for each)");
   add_choice(
@@ -53,7 +57,8 @@ void add_light(CLI::App& app, SolveCommand& command) {
   add_not_negative(app, "--surroundings", command.surroundings,
                    "Temperature in K of all that is seen through openings; 0: dark")
       ->capture_default_str()
-      ->excludes("--bounces");
+      ->excludes("--bounces")
+      ->excludes("--goal");
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
   add_choice(

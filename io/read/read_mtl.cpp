@@ -127,8 +127,11 @@ class MtlReader {
                    "map_Bump", "map_bump", "bump", "disp", "decal", "refl", "norm", "map_aat"}))
       return;
     std::string why;
+    std::string about(keyword);
     if (keyword == "map_Kd") {
-      why = "painted reflectances are not used yet; the material has its Kd everywhere";
+      why = fmt::format("the picture {} is not read: the material {} has its Kd alone, everywhere",
+                        in_quotes(words_.back()), in_quotes(material_name()));
+      about = why;  // each of them
     } else if (keyword == "map_Ke") {
       why = "painted exitances are not used; the material has its Ke everywhere";
     } else if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
@@ -139,7 +142,12 @@ class MtlReader {
       why = fmt::format("statements that begin with {} are not used", in_quotes(keyword));
     }
     constexpr std::size_t most = 10;  // a file of another kind has thousands
-    if (warned_.size() < most && warned_.insert(std::string(keyword)).second) warn(why);
+    if (warned_.size() < most && warned_.insert(about).second) warn(why);
+  }
+
+  const std::string& material_name() const {
+    static const std::string none;
+    return material_ ? draft_.scene.materials[*material_].name : none;
   }
 
   void warn(const std::string& sentence) {

@@ -125,6 +125,14 @@ Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
           {"estimated_relative_error", report.relative_error}};
 }
 
+Json goal_json(const GoalResult& goal, const SoundScene& scene) {
+  return {{"group", scene.groups.at(static_cast<std::size_t>(goal.group))},
+          {"area", goal.area},
+          {"mean_irradiance_w_per_m2", {goal.mean[0], goal.mean[1], goal.mean[2]}},
+          {"estimated_relative_error", goal.relative_error},
+          {"unknowns", goal.unknowns}};
+}
+
 Json reflected_json(const ReflectedReport& report) {
   return {{"elements", report.elements},
           {"unknowns", report.unknowns},

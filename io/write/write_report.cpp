@@ -120,6 +120,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
   Json json = scene_head(result, run);
   json["estimated_relative_error"] = result.relative_error;
   json["accuracy_not_reached_because"] = result.not_reached;
+  if (result.goal) json["goal"] = goal_json(*result.goal, result.scene);
   json["scene"] = scene_json(result.scene, result.cameras);
   json["repairs"] = repairs_json(result.scene);
   json["warnings"] = warnings_json(result.warnings);

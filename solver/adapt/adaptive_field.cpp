@@ -36,11 +36,12 @@ struct Element {
   Vec3 normal;
   int surface = 0;
   double area = 0;
+  double weight = 1;
   ElementFit fit;
   bool is_fitted = false, is_checked = false;
   bool is_broken = false;  ///< its samples overlook something
 
-  double square_error() const { return area * fit.error * fit.error; }
+  double square_error() const { return area * weight * fit.error * fit.error; }
 };
 
 void check(const AdaptiveFieldOptions& options) {
@@ -90,9 +91,12 @@ class Adaptation {
 
  private:
   /// Square of the error.
-  double allowed() const {
+  double allowed() const { return options_.tolerance * options_.tolerance * square_norm(); }
+
+  /// Of what errors are relative to.
+  double square_norm() const {
     const double norm = options_.norm * (scale_ > 0 ? scale_ : 1);
-    return options_.tolerance * options_.tolerance * std::max(square_, norm * norm);
+    return options_.weight ? norm * norm : std::max(square_, norm * norm);
   }
 
   void sum_up() {
@@ -124,6 +128,7 @@ class Adaptation {
       element.normal = table_.normal[at(e)];
       element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
+      element.weight = mean_weight(options_.weight, element.surface, element.triangle);
       if (known < 0) continue;
       const Element& whole = before[at(index_before.at(known))];
       if (known == node) {
@@ -330,7 +335,7 @@ class Adaptation {
     const auto candidate = [&](int e) {
       const Element& element = elements_[at(e)];
       const double layer = element.fit.layer[at(element.fit.order)];
-      return Candidate(element.area * layer * layer / (element.fit.order + 1), e);
+      return Candidate(element.area * element.weight * layer * layer / (element.fit.order + 1), e);
     };
     std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
     for (int e = 0; e < static_cast<int>(elements_.size()); ++e)
@@ -361,7 +366,8 @@ class Adaptation {
     }
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;
-    report_.relative_error = square_ > 0 ? std::sqrt(square_error_ / square_) : 0;
+    const double square = options_.weight ? square_norm() : square_;
+    report_.relative_error = square > 0 ? std::sqrt(square_error_ / square) : 0;
     out.report = report_;
     return out;
   }

@@ -4,6 +4,7 @@
 #include "meshing/patches/patch_mesh.h"
 #include "solver/direct/direct_light.h"
 #include "solver/elements/element_field.h"
+#include "solver/elements/error_weight.h"
 
 #include <functional>
 #include <span>
@@ -32,6 +33,7 @@ enum class FieldLimit { none, elements, unknowns, samples, work, rounds, fixed, 
 struct AdaptiveFieldOptions {
   double tolerance = 0.01;        ///< of the error's L2 norm, relative to the field's; > 0
   double norm = 0;                ///< that it is relative to instead, if that is more
+  ErrorWeight weight;             ///< of its square; if there is one, `norm` alone counts
   int order = -1;                 ///< of all elements, 0…max_order; −1: chosen for each
   int highest_order = max_order;  ///< if orders are chosen
   bool split = true;              ///< false: elements stay as they are

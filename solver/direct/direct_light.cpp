@@ -128,10 +128,10 @@ struct DirectLightIndex::Impl {
     return targets[static_cast<std::size_t>(surface)];
   }
 
-  DirectLight gather(Worker& worker, const SurfacePoint& point) const {
+  DirectLight gather(Worker& worker, const SurfacePoint& point, std::span<const int> from) const {
     DirectLight light;
     double visible = 0, unobstructed = 0, strongest = 0;
-    for (const int emitter : emitters) {
+    for (const int emitter : from) {
       const Target& source = targets[static_cast<std::size_t>(emitter)];
       if (is_clearly_away(source, point)) continue;
       const PointFactor factor = find_light(worker, source, point, emitter, light.crowd_work);
@@ -188,7 +188,23 @@ void DirectLightIndex::visible_part(const SurfacePoint& point, int surface,
 
 DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
   Worker& worker = impl_->workers.local();
-  return impl_->gather(worker, point);
+  return impl_->gather(worker, point, impl_->emitters);
+}
+
+Region DirectLightIndex::region(const SurfacePoint& point) const {
+  int strongest = -1;
+  double most = 0;
+  for (const int emitter : impl_->emitters) {
+    const Target& source = impl_->targets[at(emitter)];
+    if (is_clearly_away(source, point)) continue;
+    const double light =
+        source.strength * unobstructed_factor(point.position, point.normal, source.rings);
+    if (light <= most) continue;
+    most = light;
+    strongest = emitter;
+  }
+  if (strongest < 0) return Region::away;
+  return impl_->gather(impl_->workers.local(), point, {&strongest, 1}).region;
 }
 
 std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
@@ -199,7 +215,7 @@ std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoi
                  Worker& worker = impl_->workers.local();
                  const std::size_t end = std::min(points.size(), (c + 1) * chunk);
                  for (std::size_t k = c * chunk; k < end; ++k)
-                   light[k] = impl_->gather(worker, points[k]);
+                   light[k] = impl_->gather(worker, points[k], impl_->emitters);
                },
                progress, "direct light");
   return light;

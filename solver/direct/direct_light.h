@@ -78,6 +78,9 @@ class DirectLightIndex {
   /// The same for one point on the calling thread.
   DirectLight irradiance(const SurfacePoint& point) const;
 
+  /// DirectLight::region alone, which takes one emitter's visible part.
+  Region region(const SurfacePoint& point) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -40,22 +40,29 @@ bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int ow
   });
 }
 
+/// Whether there is something before a surface and something behind it. Most tell after a few
+/// looks; only walls take all of them.
+bool lies_between(const SoundScene& scene, const Surface& surface) {
+  bool has_before = false, has_behind = false;
+  for (const Surface& other : scene.surfaces) {
+    const double margin = tolerance_of(surface, other).length;
+    for (const Vec2& p : other.rings.front()) {
+      const double height = surface.frame.height(other.frame.to_space(p));
+      has_before = has_before || height > margin;
+      has_behind = has_behind || height < -margin;
+    }
+    if (has_before && has_behind) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<int> blocking_surfaces(const SoundScene& scene) {
   std::vector<int> blocking;
-  for (std::size_t r = 0; r < scene.surfaces.size(); ++r) {
-    if (scene.surfaces[r].back) continue;
-    bool has_before = false, has_behind = false;
-    for (const Surface& other : scene.surfaces)
-      for (const Vec3& p : outline(other)) {
-        const double margin = tolerance_of(scene.surfaces[r], other).length;
-        const double height = scene.surfaces[r].frame.height(p);
-        has_before = has_before || height > margin;
-        has_behind = has_behind || height < -margin;
-      }
-    if (has_before && has_behind) blocking.push_back(static_cast<int>(r));
-  }
+  for (std::size_t r = 0; r < scene.surfaces.size(); ++r)
+    if (!scene.surfaces[r].back && lies_between(scene, scene.surfaces[r]))
+      blocking.push_back(static_cast<int>(r));
   return blocking;
 }
 

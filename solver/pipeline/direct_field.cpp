@@ -68,12 +68,13 @@ PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions
 class DirectFieldSearch {
  public:
   DirectFieldSearch(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
-                    const Progress& progress, Stages& stages)
+                    const Progress& progress, Stages& stages, const GoalWeights* goal)
       : prepared_(prepared),
         plan_(plan),
         options_(options),
         progress_(progress),
         stages_(stages),
+        goal_(goal),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
         watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {
     const auto corners = corner_places(prepared.scene(), prepared.direct_light().emitters());
@@ -116,7 +117,7 @@ class DirectFieldSearch {
       found_.patches = std::make_shared<PatchMesh>(scene(), mesh_options, progress_);
       return static_cast<std::size_t>(found_.patches->element_count());
     });
-    AdaptiveFieldOptions fit = field_options(options_);
+    AdaptiveFieldOptions fit = field_options(options_, goal_);
     fit.max_samples = most_samples;
     fit_on_patches(fit);
   }
@@ -159,7 +160,7 @@ class DirectFieldSearch {
       return fit_without_curves(0);
     }
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
-    fit_on_patches(field_options(options_));
+    fit_on_patches(field_options(options_, goal_));
   }
 
   /// False if it takes too many elements.
@@ -198,10 +199,8 @@ class DirectFieldSearch {
             // Where the light hardly changes, one place will do.
             const std::size_t count = found_.light.field.order[e] == 0 ? 1 : places.size();
             for (std::size_t k = 0; k < count; ++k) {
-              const Region here =
-                  prepared_.direct_light()
-                      .irradiance({position(triangle, places[k]), elements.normal[e]})
-                      .region;
+              const Region here = prepared_.direct_light().region(
+                  {position(triangle, places[k]), elements.normal[e]});
               region = k == 0 || here == region ? here : Region::penumbra;
             }
           },
@@ -215,6 +214,7 @@ class DirectFieldSearch {
   const SolveOptions& options_;
   const Progress& progress_;
   Stages& stages_;
+  const GoalWeights* goal_;
   double crowd_work_ = 0;  ///< see DirectLight
   FieldAt direct_light_;
   std::vector<WatchedPlace> watched_;
@@ -223,20 +223,24 @@ class DirectFieldSearch {
 
 }  // namespace
 
-AdaptiveFieldOptions field_options(const SolveOptions& options) {
+AdaptiveFieldOptions field_options(const SolveOptions& options, const GoalWeights* goal) {
   AdaptiveFieldOptions result;
   result.tolerance = options.tolerance;
   result.order = options.order;
   result.split = options.refine == Refinement::adaptive;
   result.max_elements = options.max_elements;
   result.max_unknowns = options.max_unknowns;
+  if (goal && goal->weight) {
+    result.weight = goal->weight;
+    result.norm = goal->norm;
+  }
   return result;
 }
 
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
-                              const SolveOptions& options, const Progress& progress,
-                              Stages& stages) {
-  return DirectFieldSearch(prepared, plan, options, progress, stages).run();
+                              const SolveOptions& options, const Progress& progress, Stages& stages,
+                              const GoalWeights* goal) {
+  return DirectFieldSearch(prepared, plan, options, progress, stages, goal).run();
 }
 
 DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options,

@@ -2,6 +2,7 @@
 
 #include "meshing/patches/discontinuity_mesh.h"
 #include "solver/adapt/adaptive_field.h"
+#include "solver/pipeline/goal.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
@@ -26,13 +27,14 @@ struct DirectField {
 /// Exact direct light as polynomials, to options.tolerance in the L2 norm if elements are refined.
 /// First without curves, unless they are forced: with as many samples as finding curves would cost.
 /// Only if those do not get there are curves looked for, and the work is at most twice that of the
-/// better way. Adds its stages to `stages`.
+/// better way. With a goal the tolerance is that of what the error does to it. Adds its stages to
+/// `stages`.
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
-                              const SolveOptions& options, const Progress& progress,
-                              Stages& stages);
+                              const SolveOptions& options, const Progress& progress, Stages& stages,
+                              const GoalWeights* goal = nullptr);
 
-/// What `options` say of a field on elements.
-AdaptiveFieldOptions field_options(const SolveOptions& options);
+/// What `options` and a goal, if any, say of a field on elements.
+AdaptiveFieldOptions field_options(const SolveOptions& options, const GoalWeights* goal = nullptr);
 
 /// No light on elements that are as large as the surfaces allow: where direct light is found like
 /// reflected light.

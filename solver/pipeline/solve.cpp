@@ -29,6 +29,8 @@ void check(const SolveOptions& options) {
                 fmt::format("rounds of subdivision ({}) must not be negative and its gradient ({}) "
                             "be above 0",
                             options.subdivision.rounds, options.subdivision.gradient));
+  if (options.method == SolveMethod::matrix && !options.goal.empty())
+    throw Error(ErrorCode::usage, {}, "--goal goes with --method fields, not with the matrix");
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)
     throw Error(ErrorCode::contract, "solve",
                 fmt::format("tolerance ({}) and secondary ({}) must be finite and not negative",
@@ -60,6 +62,7 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
                   const Progress& progress) {
   check(options);
   require_few_surfaces(prepared.scene(), options);
+  if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);
   Stages stages(result.stages);
   const Plan plan = make_plan(prepared, options, progress, stages);

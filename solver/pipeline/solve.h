@@ -10,6 +10,7 @@
 #include "solver/elements/element_field.h"
 #include "solver/elements/solution.h"
 #include "solver/heat/heat.h"
+#include "solver/pipeline/goal.h"
 #include "solver/pipeline/solve_options.h"
 #include "solver/pipeline/stages.h"
 #include "solver/pipeline/warnings.h"
@@ -56,11 +57,13 @@ struct SolveResult {
   std::vector<Warning> warnings;
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual.
+  /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual. With a
+  /// goal: of that.
   double relative_error = 0;
-  Heat heat;                 ///< what is known of temperatures; see solve_net_exchange
-  std::string not_reached;   ///< why the accuracy asked for was not; empty if it was
-  bool interrupted = false;  ///< stopped early; see compute_exchange for factors not reached
+  Heat heat;                       ///< what is known of temperatures; see solve_net_exchange
+  std::optional<GoalResult> goal;  ///< if one was asked for
+  std::string not_reached;         ///< why the accuracy asked for was not; empty if it was
+  bool interrupted = false;        ///< stopped early; see compute_exchange for factors not reached
 };
 
 /// The main job: makes the scene sound, meshes it along its discontinuities, computes form factors,

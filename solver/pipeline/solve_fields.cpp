@@ -2,6 +2,7 @@
 
 #include "solver/elements/material_arrays.h"
 #include "solver/pipeline/direct_field.h"
+#include "solver/pipeline/goal_correction.h"
 #include "solver/pipeline/total_field.h"
 #include "solver/reflected/reflected_mesh.h"
 
@@ -9,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -16,6 +19,13 @@ namespace {
 /// Of the tolerance: direct light, relative to it alone; reflected light; its values on the
 /// elements of direct light. Squares sum to less than 1.
 constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
+/// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
+/// by so much more than the goal, for the residual corrects what that does; values do not enter it.
+constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;
+/// Of these bounds: what the correction may be off, as the adjoint light is, which is solved for to
+/// this and gathered once more. Of the tolerance: standard deviation of the correction.
+constexpr double share_of_bound = 0.025, share_of_deviation = 0.2;
+constexpr double deviations_claimed = 2;
 
 std::string reason(FieldLimit limit) {
   switch (limit) {
@@ -52,17 +62,29 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
     return {};
   const auto first =
       std::find_if(reasons.begin(), reasons.end(), [](const auto& text) { return !text.empty(); });
-  return fmt::format("the error is about {:.2g} of the irradiance instead of {:.2g}{}{}",
-                     result.relative_error, options.tolerance,
-                     first == reasons.end() ? "" : "; less would take ",
-                     first == reasons.end() ? "" : *first);
+  return fmt::format(
+      "the error is about {:.2g} of the {} instead of {:.2g}{}{}", result.relative_error,
+      result.goal ? fmt::format("mean irradiance of '{}'", options.goal) : "irradiance",
+      options.tolerance, first == reasons.end() ? "" : "; less would take ",
+      first == reasons.end() ? "" : *first);
 }
 
-ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options,
-                                   double tolerance) {
+/// The tolerance of direct or reflected light that a goal takes; slack is for corrected ones.
+double goal_tolerance(double share, double tolerance) {
+  constexpr double most = 0.5;
+  return std::min(slack_of_goal * share * tolerance, std::max(most, share * tolerance));
+}
+
+ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options, double tolerance,
+                                   const GoalWeights* goal) {
   ReflectedOptions result;
   result.visibility = options.visibility;
   result.tolerance = reflected_share * tolerance;
+  if (goal) {
+    result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
+    result.weight = goal->weight;
+    result.norm = goal->norm;
+  }
   result.bounces = options.radiosity.bounces;
   result.through_operator = !plan.no_exact_direct_light.empty();
   // What arrives straight from emitters arrives by the operator's first application.
@@ -71,8 +93,9 @@ ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options
   return result;
 }
 
-AdaptiveFieldOptions values_options(const SolveOptions& options, double tolerance) {
-  AdaptiveFieldOptions result = field_options(options);
+AdaptiveFieldOptions values_options(const SolveOptions& options, double tolerance,
+                                    const GoalWeights* goal) {
+  AdaptiveFieldOptions result = field_options(options, goal);
   result.tolerance = values_share * tolerance;
   result.order = -1;
   result.highest_order = max_reflected_order;
@@ -107,19 +130,68 @@ void fill_powers(SolveResult& result) {
   }
 }
 
+/// The goal asked for and what matters to it.
+struct Goal {
+  std::shared_ptr<const GoalAdjoint> adjoint;
+  GoalWeights weights;
+};
+
+std::optional<Goal> find_goal(const SoundScene& scene, const SolveOptions& options,
+                              const Progress& progress, Stages& stages) {
+  if (options.goal.empty()) return std::nullopt;
+  Goal goal;
+  stages.run("importance for the goal", [&] {
+    goal.adjoint = std::make_shared<const GoalAdjoint>(
+        solve_adjoint(scene, halfshade::find_goal(scene, options.goal), options, progress));
+    return static_cast<std::size_t>(goal.adjoint->light.report().elements);
+  });
+  goal.weights = weights_of(goal.adjoint);
+  return goal;
+}
+
+/// The mean, corrected, and its error.
+void fill_goal(const PreparedScene& prepared, const Goal& goal, double tolerance,
+               const Progress& progress, Stages& stages, SolveResult& result) {
+  const ReflectedLight* reflected = result.reflected_light ? &*result.reflected_light : nullptr;
+  GoalResult found = goal_mean(goal.weights.group, result.elements, result.direct, reflected);
+  // As many as direct light was found with, not with those of reflected light's values.
+  found.unknowns += result.refinement.unknowns - at(result.direct.first.back());
+  if (goal.weights.weight) {
+    double error = goal.weights.norm * (result.refinement.relative_error + result.reflected.error);
+    stages.run("correction of the goal", [&] {
+      const GoalCorrection more =
+          correct_goal(prepared, *goal.adjoint, {result.elements, result.direct, reflected},
+                       share_of_deviation * tolerance * goal.weights.norm, progress);
+      if (!more.complete) return std::size_t{0};
+      found.mean += more.missing;
+      error = share_of_bound * error + deviations_claimed * more.deviation.matrix().norm();
+      return more.points;
+    });
+    const double mean = found.mean.matrix().norm();
+    result.relative_error = mean > 0 ? error / mean : 1;
+  }
+  found.relative_error = result.relative_error;
+  result.goal = found;
+}
+
 }  // namespace
 
 void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
                   const Progress& progress, Stages& stages, SolveResult& result) {
   const bool reflects = plan.no_factors.empty();
+  const std::optional<Goal> asked = find_goal(prepared.scene(), options, progress, stages);
+  const GoalWeights* goal = asked && asked->weights.weight ? &asked->weights : nullptr;
   SolveOptions direct_options = options;
-  if (reflects) direct_options.tolerance *= direct_share;
+  if (goal)
+    direct_options.tolerance = goal_tolerance(direct_share_of_goal, options.tolerance);
+  else if (reflects)
+    direct_options.tolerance *= direct_share;
   const bool is_exact = plan.no_exact_direct_light.empty();
   stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
   stages.leave_out_if(!is_exact, "discontinuities", plan.no_discontinuities);
-  DirectField direct = is_exact
-                           ? find_direct_field(prepared, plan, direct_options, progress, stages)
-                           : no_direct_field(prepared.scene(), options, progress, stages);
+  DirectField direct =
+      is_exact ? find_direct_field(prepared, plan, direct_options, progress, stages, goal)
+               : no_direct_field(prepared.scene(), options, progress, stages);
   result.discontinuities = direct.discontinuities;
   result.curves = direct.curves;
   add(direct.warnings, result.warnings);
@@ -135,10 +207,10 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   if (reflects) {
     // Where direct light could not be had as exact, reflected light need not be more exact.
     const double tolerance = std::max(options.tolerance, direct.light.report.relative_error);
-    TotalField total = add_reflected_light(
-        prepared.scene(), std::move(direct),
-        {reflected_options(plan, options, tolerance), values_options(options, tolerance)}, progress,
-        stages);
+    TotalField total = add_reflected_light(prepared.scene(), std::move(direct),
+                                           {reflected_options(plan, options, tolerance, goal),
+                                            values_options(options, tolerance, goal)},
+                                           progress, stages);
     result.reflected = total.reflected->report();
     result.reflected_light = std::move(total.reflected);
     of_values = reason(total.values.limit);
@@ -156,6 +228,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     result.solution.region = std::move(direct.region);
     error = std::move(direct.light.error);
   }
+  if (asked) fill_goal(prepared, *asked, options.tolerance, progress, stages, result);
   result.not_reached = not_reached(
       result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   fill_solution(prepared.scene(), error, result);

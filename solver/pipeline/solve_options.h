@@ -5,6 +5,8 @@
 #include "solver/linear/radiosity.h"
 #include "solver/reflected/reflected_light.h"
 
+#include <string>
+
 namespace halfshade {
 
 enum class DirectLightBy {
@@ -46,6 +48,9 @@ struct SolveOptions {
   double tolerance = 0.01;
   int order = -1;              ///< of all elements, 0…max_order; −1: chosen for each
   int max_unknowns = 1000000;  ///< per channel
+  /// Name of a group: the tolerance is that of its mean irradiance, and effort goes where that
+  /// feels it. Empty: all irradiance matters. Not with the matrix.
+  std::string goal;
   int elements =
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
   double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`

@@ -12,7 +12,8 @@ constexpr double graded = 3;
 
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
                                  const ElementField& irradiance,
-                                 const std::vector<UnsureLoss>& unsure) {
+                                 const std::vector<UnsureLoss>& unsure,
+                                 const std::vector<double>& weight) {
   const auto& [mesh, light, exchange, systems] = system;
   ChannelArray put_in = ChannelArray::Zero(systems.count(), 3);
   ChannelArray not_known = put_in, square = put_in;
@@ -25,7 +26,7 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
     of_element.push_back(mesh.area(e) * unsure[at(e)].factor * leaving.abs());
     put_in.row(s) += mesh.area(e) * first.transpose();
     not_known.row(s) += of_element.back().transpose();
-    square.row(s) += mesh.area(e) * irradiance.of(e).square().colwise().sum();
+    square.row(s) += mesh.area(e) * weight[at(e)] * irradiance.of(e).square().colwise().sum();
   }
   BalanceEstimate estimate;
   // What gets lost is missing where it would get lost from.

@@ -14,7 +14,8 @@ TrianglePlace random_place(std::uint64_t seed) {
 
 }  // namespace
 
-std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, int points, int use) {
+std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, const std::vector<double>& weight,
+                                      int points, int use) {
   double roots = 0;
   for (int e = 0; e < mesh.count(); ++e) roots += std::sqrt(mesh.area(e));
   std::vector<ProbePlace> probes;
@@ -26,7 +27,7 @@ std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, int points, int
     const int count = static_cast<int>(std::floor(wanted + random_number(count_seed, 0)));
     for (int k = 0; k < count; ++k) {
       const std::uint64_t seed = place_seed + static_cast<std::uint64_t>(k) * 0x1000003;
-      probes.push_back({e, random_place(seed), mesh.area(e) / wanted, seed});
+      probes.push_back({e, random_place(seed), mesh.area(e) / wanted, seed, weight[at(e)]});
     }
   }
   return probes;

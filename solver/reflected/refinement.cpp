@@ -27,7 +27,8 @@ std::vector<double> tails(const RefinementInput& input) {
     const int p = input.irradiance.order[at(e)];
     const double square = input.irradiance.of(e).bottomRows(p + 1).square().sum();
     const double noise = input.noise[at(e)] * (p + 1) / basis_size(p);
-    result.push_back(p == 0 ? 0 : std::max(0., input.mesh.area(e) * square - noise));
+    result.push_back(
+        p == 0 ? 0 : std::max(0., input.mesh.area(e) * input.weight[at(e)] * square - noise));
   }
   return result;
 }

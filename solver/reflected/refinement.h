@@ -19,7 +19,8 @@ struct RefinementPlan {
 struct RefinementInput {
   const ReflectedMesh& mesh;
   const ElementField& irradiance;
-  const std::vector<double>& noise;  ///< see FinalPass
+  const std::vector<double>& noise;   ///< see FinalPass; weighted
+  const std::vector<double>& weight;  ///< of square errors of each element
   const ReflectionEstimate& estimate;
   const BalanceEstimate& balance;
 };

@@ -65,8 +65,12 @@ void check(const ReflectedOptions& options) {
 /// Elements as long as this to begin with.
 double first_length(const ElementTable& roots, const ReflectedOptions& options) {
   constexpr double mean_area = 0.3;  // of elements that are at most 1 long, see make_reflected_mesh
+  constexpr double fewest = 50;
   const double wanted =
-      std::clamp(usual_elements * std::pow(usual_error / options.tolerance, 2. / 3), 50., 5000.);
+      options.weight  // most elements do not matter then
+          ? fewest
+          : std::clamp(usual_elements * std::pow(usual_error / options.tolerance, 2. / 3), fewest,
+                       5000.);
   const double area = std::accumulate(roots.area.begin(), roots.area.end(), 0.);
   const double length = std::sqrt(area / (mean_area * wanted));
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
@@ -79,8 +83,10 @@ int first_rays(const ReflectedOptions& options) {
 
 /// Whether exactly visible parts are expected to take less time than rays. CPU seconds, measured on
 /// rooms of 15 to 560 surfaces; both need more elements where there is more furniture.
-bool parts_are_quicker(int surfaces, double tolerance) {
-  const double finer = usual_error / tolerance;
+bool parts_are_quicker(int surfaces, const ReflectedOptions& options) {
+  // Noise of rays is everywhere, and few elements matter.
+  constexpr double with_weights = 10;
+  const double finer = (options.weight ? with_weights : 1) * usual_error / options.tolerance;
   const double rows = 6 * (usual_elements + 8 * surfaces) * std::pow(finer, 2. / 3) * 1.5 + 1500;
   const double by_parts = rows * 3.4e-6 * std::pow(surfaces, 1.25);
   const double by_rays = 1.1 * std::pow(finer, 2.5) * (1 + surfaces / 50.);
@@ -141,8 +147,8 @@ class Rounds {
  private:
   struct Found {
     SplitIrradiance irradiance;
-    ElementField leaving;  ///< what it is compared with came from, see estimate_error
-    std::vector<double> noise;
+    ElementField leaving;       ///< what it is compared with came from, see estimate_error
+    std::vector<double> noise;  ///< weighted, as all square errors
   };
 
   /// False if it was the last.
@@ -228,34 +234,47 @@ class Rounds {
     irradiance.rest.coefficients += more.irradiance.rest.coefficients;
   }
 
-  bool judge(const ReflectedSystem& system, const Found& now) {
+  std::vector<double> element_weights() const {
+    std::vector<double> weights;
+    for (int e = 0; e < mesh_.count(); ++e)
+      weights.push_back(mean_weight(options_.weight, state_.light.surface[at(mesh_.root(e))],
+                                    mesh_.forest.corners(mesh_.triangle[at(e)])));
+    return weights;
+  }
+
+  bool judge(const ReflectedSystem& system, Found& now) {
     const SplitIrradiance& irradiance = now.irradiance;
-    const std::vector<double>& noise = now.noise;
+    const std::vector<double> weight = element_weights();
+    std::vector<double>& noise = now.noise;
+    for (std::size_t e = 0; e < noise.size(); ++e) noise[e] *= weight[e];
     ReflectedReport& report = state_.report;
     const int nodes = static_cast<int>(irradiance.rest.first.back());
     const int points = std::clamp(nodes / 3, 800, 4000);
     const ReflectionEstimate estimate =
-        parts_
-            ? estimate_exactly(*state_.sight,
-                               ExactGather(*state_.sight, state_.reflecting, state_.light, mesh_,
-                                           now.leaving, state_.accuracy, many_direct_points),
-                               system, irradiance, spread_probes(mesh_, surer_ * points, use_),
-                               progress_)
-            : estimate_error(state_.reflecting, system, irradiance,
-                             {now.leaving, (report.rounds + 1) * points, rays_, use_}, progress_);
+        parts_ ? estimate_exactly(*state_.sight,
+                                  ExactGather(*state_.sight, state_.reflecting, state_.light, mesh_,
+                                              now.leaving, state_.accuracy, many_direct_points),
+                                  system, irradiance,
+                                  spread_probes(mesh_, weight, surer_ * points, use_), progress_)
+               : estimate_error(state_.reflecting, system, irradiance,
+                                {now.leaving, weight, (report.rounds + 1) * points, rays_, use_},
+                                progress_);
     if (!estimate.complete) return false;
     keep(system, irradiance);
     ++report.rounds;
     report.rays += estimate.rays;
-    const double all = estimate.square_total, found = std::max(estimate.sum, 0.);
+    const double found = std::max(estimate.sum, 0.);
+    const double all =
+        options_.weight ? std::pow(state_.scale * options_.norm, 2) : estimate.square_total;
     const auto share = [&](double square) { return all > 0 ? std::sqrt(square / all) : 0; };
     const BalanceEstimate balance = estimate_balance(
         system, direct_.leaving(mesh_, state_.light), irradiance.rest,
-        parts_ ? parts_->unsure() : unsure_by_rays(system, kept_strata * kept_strata));
+        parts_ ? parts_->unsure() : unsure_by_rays(system, kept_strata * kept_strata), weight);
     report.error = std::hypot(comes_back * share(found + 2 * estimate.deviation),
                               share(balance.square), report.residual * report.amplification);
     report.noise = share(std::accumulate(noise.begin(), noise.end(), 0.));
-    report.mean_square_total = all / system.systems.area.sum() / (state_.scale * state_.scale);
+    report.mean_square_total =
+        estimate.square_total / system.systems.area.sum() / (state_.scale * state_.scale);
     if (report.error <= options_.tolerance) {
       report.end = ReflectedEnd::accurate;
       return false;
@@ -265,7 +284,7 @@ class Rounds {
       report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
       return false;
     }
-    return prepare_next({mesh_, irradiance.rest, noise, estimate, balance}, goal);
+    return prepare_next({mesh_, irradiance.rest, noise, weight, estimate, balance}, goal);
   }
 
   bool prepare_next(const RefinementInput& input, double goal) {
@@ -360,7 +379,7 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   const int surfaces = static_cast<int>(scene.surfaces.size());
   state->report.is_exact = options.visibility == ReflectedVisibility::exact ||
                            (options.visibility == ReflectedVisibility::automatic &&
-                            parts_are_quicker(surfaces, options.tolerance));
+                            parts_are_quicker(surfaces, options));
   state->report.through_operator = options.through_operator;
   if (state->report.is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);

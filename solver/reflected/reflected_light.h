@@ -5,6 +5,7 @@
 #include "meshing/patches/element_table.h"
 #include "solver/direct/direct_light.h"
 #include "solver/elements/element_field.h"
+#include "solver/elements/error_weight.h"
 
 #include <cstddef>
 #include <functional>
@@ -36,6 +37,9 @@ struct ReflectedOptions {
   /// Direct light is not given but found like reflected light: what leaves first is the exitance,
   /// and the result is all irradiance. For scenes where nearly everything emits.
   bool through_operator = false;
+  /// Of square errors: with one, errors are relative to `norm` alone, W/m².
+  ErrorWeight weight;
+  double norm = 0;
 };
 
 enum class ReflectedEnd {

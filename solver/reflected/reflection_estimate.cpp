@@ -12,7 +12,7 @@ void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePla
   square_error.resize(at(mesh.count()), 0);
   double variance = deviation * deviation;
   for (const ProbePlace& probe : probes) {
-    const double error = probe.share * probe.square_error;
+    const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
     sum += error;
     variance += error * error;
@@ -27,7 +27,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
   const auto& [mesh, light, exchange, systems] = system;
   const QuickField leaving(options.leaving);
   const QuickField rest(irradiance.rest);
-  std::vector<ProbePlace> probes = spread_probes(mesh, options.points, options.use);
+  std::vector<ProbePlace> probes = spread_probes(mesh, options.weight, options.points, options.use);
   const int strata = std::max(3, static_cast<int>(std::lround(std::sqrt(options.rays / 2.))));
   ReflectionEstimate estimate;
   estimate.complete = parallel_for(

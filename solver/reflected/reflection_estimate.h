@@ -14,10 +14,10 @@ namespace halfshade {
 struct ReflectionEstimate {
   /// Element → ∫ over it of |error|², without bias: of one element it is mostly noise, and may be
   /// negative.
-  std::vector<double> square_error;
-  double sum = 0;           ///< of it
-  double deviation = 0;     ///< standard deviation of the sum
-  double square_total = 0;  ///< ∫ |H_d + G|²
+  std::vector<double> square_error;  ///< weighted, as the next two
+  double sum = 0;                    ///< of it
+  double deviation = 0;              ///< standard deviation of the sum
+  double square_total = 0;           ///< ∫ |H_d + G|²
   std::size_t rays = 0;
   bool complete = true;
 
@@ -26,10 +26,11 @@ struct ReflectionEstimate {
 };
 
 struct ReflectionProbes {
-  const ElementField& leaving;  ///< what it came from without S, less the constants' part
-  int points = 1000;            ///< over all surfaces
-  int rays = 256;               ///< from each
-  int use = 0;                  ///< see ray_seed
+  const ElementField& leaving;        ///< what it came from without S, less the constants' part
+  const std::vector<double>& weight;  ///< of |error|² in each element
+  int points = 1000;                  ///< over all surfaces
+  int rays = 256;                     ///< from each
+  int use = 0;                        ///< see ray_seed
 };
 
 /// Compares irradiance with what arrives of leaving light. Two halves of the

@@ -147,7 +147,9 @@ TEST(ReadMtl, SpreadsASingleNumberOverTheChannels) {
 
 TEST(ReadMtl, WarnsOfWhatIsNotUsed) {
   EXPECT_THAT(read_material("Kd 1 1 1\nmap_Kd wood.png\n").warnings,
-              ElementsAre(HasSubstr("scene.mtl:3: painted reflectances")));
+              ElementsAre(HasSubstr("scene.mtl:3: the picture 'wood.png' is not read")));
+  EXPECT_THAT(read_material("Kd 1 1 1\nmap_Kd -s 2 2 1 wood.png\nmap_Kd oak.png\n").warnings,
+              ElementsAre(HasSubstr("'wood.png'"), HasSubstr("'oak.png'")));
   EXPECT_THAT(read_material("Kd 1 1 1\nd 0.5\n").warnings, ElementsAre(HasSubstr("opaque")));
   EXPECT_THAT(read_material("Kd 1 1 1\nTr 0.5\n").warnings, ElementsAre(HasSubstr("opaque")));
   EXPECT_THAT(read_material("Kd 1 1 1\nTr 0\nTr 0\n").warnings, IsEmpty());

@@ -142,12 +142,17 @@ class Search {
       };
     };
     const std::size_t count = scene_.surfaces.size();
+    std::size_t contacts = 0;
+    for (const Surface& surface : scene_.surfaces) contacts += surface.contacts.size();
+    // At least one look at each surface, and one on either side of a contact line.
+    const double of_contacts =
+        2 * look * static_cast<double>(contacts) / static_cast<double>(count);
     Curves found;
     if (options_.face)
-      found = run_all(CurveKind::face, {count, 0, "plane of the light"},
+      found = run_all(CurveKind::face, {count, look, "plane of the light"},
                       find(&BorderSearch::add_plane_curves));
     if (options_.contact)
-      append(run_all(CurveKind::contact, {count, 0, "contact lines"},
+      append(run_all(CurveKind::contact, {count, of_contacts, "contact lines"},
                      find(&BorderSearch::add_contact_curves)),
              found);
     return found;

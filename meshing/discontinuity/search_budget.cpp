@@ -49,9 +49,10 @@ std::vector<std::size_t> SearchBudget::sample(std::size_t count) const {
 }
 
 double SearchBudget::most_for_one(std::size_t count) const {
-  return std::max(most_ - used_, 0.) *
-         std::max(most_of_share / static_cast<double>(std::max<std::size_t>(count, 1)),
-                  0.03 / static_cast<double>(sample_size));
+  const double share =
+      std::max(most_of_share / static_cast<double>(std::max<std::size_t>(count, 1)),
+               0.03 / static_cast<double>(sample_size));
+  return std::max(share * (most_ - used_), 1.);
 }
 
 }  // namespace halfshade

@@ -37,7 +37,7 @@ class SearchBudget {
 
   /// Jobs, evenly spread, that tell what all take; none if there is no need to know.
   std::vector<std::size_t> sample(std::size_t count) const;
-  /// Work on one of the sample that is enough to know that all take too much.
+  /// Work on one of the sample that is enough to know that all take too much; above 0.
   double most_for_one(std::size_t count) const;
 
   double used() const { return used_; }

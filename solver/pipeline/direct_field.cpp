@@ -6,6 +6,7 @@
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
 #include "solver/pipeline/shadow_places.h"
+#include "solver/pipeline/solve_mesh.h"
 
 #include <fmt/format.h>
 
@@ -114,7 +115,8 @@ class DirectFieldSearch {
   void fit_without_curves(double most_samples) {
     const PlanarMeshOptions mesh_options = plain_mesh_options(scene(), options_);
     stages_.run("mesh", [&] {
-      found_.patches = std::make_shared<PatchMesh>(scene(), mesh_options, progress_);
+      found_.patches =
+          std::make_shared<PatchMesh>(mesh_plainly(scene(), mesh_options, options_, progress_));
       return static_cast<std::size_t>(found_.patches->element_count());
     });
     AdaptiveFieldOptions fit = field_options(options_, goal_);
@@ -247,7 +249,8 @@ DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options
                             const Progress& progress, Stages& stages) {
   DirectField none;
   stages.run("mesh", [&] {
-    none.patches = std::make_shared<PatchMesh>(scene, plain_mesh_options(scene, options), progress);
+    none.patches = std::make_shared<PatchMesh>(
+        mesh_plainly(scene, plain_mesh_options(scene, options), options, progress));
     none.light.elements = none.patches->elements();
     return none.light.elements.corners.size();
   });

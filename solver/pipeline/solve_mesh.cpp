@@ -50,16 +50,6 @@ std::size_t count_contacts(const SoundScene& scene) {
                               : ""));
 }
 
-PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
-                       const SolveOptions& options, const Progress& progress) {
-  try {
-    return PatchMesh(scene, mesh_options, progress);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_large) throw;
-    refuse(scene, options);
-  }
-}
-
 /// How the length and the tolerance come to suit the number of elements asked for. Works with the
 /// inverse square of the length, which the number of elements is nearly linear in: curves make some
 /// of their own, whatever the length.
@@ -115,6 +105,16 @@ class SizeSearch {
 };
 
 }  // namespace
+
+PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
+                       const SolveOptions& options, const Progress& progress) {
+  try {
+    return PatchMesh(scene, mesh_options, progress);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    refuse(scene, options);
+  }
+}
 
 // Every surface takes an element, and every contact line two sides of three.
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {

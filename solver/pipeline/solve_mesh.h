@@ -19,6 +19,11 @@ struct SolveMesh {
 /// Throws Error(too_large) if surfaces and contact lines alone take more than options.max_elements.
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options);
 
+/// Elements that follow no curves. Throws Error(too_large) that names options.max_elements if they
+/// are more than `mesh_options` allows.
+PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
+                       const SolveOptions& options, const Progress& progress);
+
 /// The longest element edge that a mesh along curves may come to have.
 double longest_edge(const SoundScene& scene, const SolveOptions& options);
 

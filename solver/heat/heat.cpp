@@ -12,6 +12,8 @@ constexpr double second_radiation_constant = 14387.768775039337;
 
 /// Below this the series of exponentials takes long, and the one of powers few terms.
 constexpr double series_limit = 1;
+/// Terms below this share of their sum are lost to rounding.
+constexpr double negligible = 1e-18;
 
 /// 15/π⁴ ∫ from x to ∞ of t³/(eᵗ − 1): terms of e⁻ⁿˣ. x ≥ series_limit.
 double share_beyond(double x) {
@@ -20,7 +22,7 @@ double share_beyond(double x) {
     const double term =
         std::exp(-n * x) * (((x + 3. / n) * x + 6. / (1. * n * n)) * x + 6. / (1. * n * n * n)) / n;
     sum += term;
-    if (!(term > 1e-18 * sum)) break;
+    if (!(term > negligible * sum)) break;
   }
   return 15 / std::pow(std::numbers::pi, 4) * sum;
 }

@@ -3,6 +3,7 @@
 #include "solver/adapt/recovery_estimate.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/material_arrays.h"
+#include "solver/elements/solution_parts.h"
 #include "solver/factors/saved_factors.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -87,18 +88,6 @@ MaterialArrays materials_of_rows(const FactorScene& faces, const Scene& scene) {
   return arrays;
 }
 
-/// The rows' light on elements that lie on them.
-Solution on_elements(const Solution& rows, const std::vector<int>& row) {
-  Solution solution;
-  solution.rho = rows.rho(row, Eigen::all);
-  solution.exitance = rows.exitance(row, Eigen::all);
-  solution.radiosity = rows.radiosity(row, Eigen::all);
-  solution.irradiance = rows.irradiance(row, Eigen::all);
-  solution.direct_irradiance = rows.direct_irradiance(row, Eigen::all);
-  solution.error_estimate = rows.error_estimate(row);
-  return solution;
-}
-
 void estimate_relative_error(SolveResult& result) {
   const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
   const ChannelArray irradiance = scale * result.solution.irradiance;
@@ -145,7 +134,7 @@ SolveResult solve_by_faces(const Scene& scene, const FactorMatrix& factors,
     std::vector<int> row_of_element;
     for (const int surface : result.elements.surface)
       row_of_element.push_back(surfaces.row[at(surface)]);
-    result.solution = on_elements(rows, row_of_element);
+    result.solution = solution_of_parts(rows, row_of_element);
     result.exchange = exchange.report;
     return static_cast<std::size_t>(result.radiosity.unknowns);
   });

@@ -1,6 +1,7 @@
 #include "solver/pipeline/linear_result.h"
 
 #include "solver/elements/linear_pieces.h"
+#include "solver/elements/solution_parts.h"
 #include "solver/elements/vertex_values.h"
 
 #include <algorithm>
@@ -36,19 +37,6 @@ ElementTable piece_table(const ElementTable& whole, LinearPieces& pieces) {
   return table;
 }
 
-Solution piece_solution(const Solution& whole, const std::vector<int>& element) {
-  Solution solution;
-  solution.rho = whole.rho(element, Eigen::all);
-  solution.exitance = whole.exitance(element, Eigen::all);
-  solution.radiosity = whole.radiosity(element, Eigen::all);
-  solution.irradiance = whole.irradiance(element, Eigen::all);
-  solution.direct_irradiance = whole.direct_irradiance(element, Eigen::all);
-  solution.error_estimate = whole.error_estimate(element);
-  for (const int e : element)
-    if (!whole.region.empty()) solution.region.push_back(whole.region[at(e)]);
-  return solution;
-}
-
 LinearResult cut(const SolveResult& result) {
   std::vector<std::array<Vec3, 3>> triangles;
   for (int e = 0; e < result.elements.count(); ++e)
@@ -57,7 +45,7 @@ LinearResult cut(const SolveResult& result) {
   LinearResult out;
   out.elements = piece_table(result.elements, pieces);
   out.is_border = std::move(pieces.is_border);
-  out.solution = piece_solution(result.solution, pieces.element);
+  out.solution = solution_of_parts(result.solution, pieces.element);
   const std::size_t emitters = result.emitters.size();
   for (const int e : pieces.element)
     if (!result.regions.empty())

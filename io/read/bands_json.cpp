@@ -12,6 +12,9 @@ namespace {
 using nlohmann::json;
 using std::filesystem::path;
 
+/// Each is solved for; more are no bands but a mistake.
+constexpr std::size_t most_bands = 1000;
+
 /// Of a band as an object: {"name": "solar", "wavelengths_um": [0.2, 3]}; null is without an end.
 Band read_band(const json& value, const path& file, const std::string& key) {
   Band band;
@@ -40,7 +43,7 @@ Band read_band(const json& value, const path& file, const std::string& key) {
 std::vector<Band> read_bands(const json& value, const path& file, const std::string& key) {
   if (value.empty() || value.size() > most_bands)
     fail(file, 0,
-         fmt::format("{} has {} entries; 1 to {} bands can be solved for", key, value.size(),
+         fmt::format("{} has {} entries; there can be 1 to {} bands", key, value.size(),
                      most_bands));
   std::vector<Band> bands;
   for (std::size_t k = 0; k < value.size(); ++k) {

@@ -3,6 +3,7 @@
 #include "io/read/read_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,22 +14,17 @@ namespace {
 /// Numbers as they are typed: 0.3 and 0.7 make one.
 constexpr double typed = 1e-9;
 
-std::string text_of(const Rgb& value) {
-  return value[0] == value[1] && value[0] == value[2]
-             ? fmt::format("{}", value[0])
-             : fmt::format("[{}, {}, {}]", value[0], value[1], value[2]);
+std::string text_of(const Eigen::ArrayXd& values) {
+  if ((values == values[0]).all()) return fmt::format("{}", values[0]);
+  return fmt::format("[{}]", fmt::join(values.begin(), values.end(), ", "));
 }
 
-bool is_grey(const Rgb& value, std::size_t channels) {
-  for (std::size_t c = 1; c < channels; ++c)
-    if (value[static_cast<int>(c)] != value[0]) return false;
-  return true;
-}
+bool is_grey(const Rgb& value) { return (value == value[0]).all(); }
 
 /// The first material that differs between channels; none if the scene has one channel.
 const Material* first_coloured(const SceneDraft& draft) {
   for (const Material& material : draft.scene.materials)
-    if (!is_grey(material.rho, 3) || !is_grey(material.exitance, 3)) return &material;
+    if (!is_grey(material.rho) || !is_grey(material.exitance)) return &material;
   return nullptr;
 }
 
@@ -47,11 +43,6 @@ void require_known_parts(const SceneDraft& draft, const std::string& name, bool 
                     "the heat is known; give the materials 'bands' with 'wavelengths_um'",
                     in_quotes(coloured->name)));
   if (bands.size() < 2) return;
-  if (is_adiabatic)
-    refuse(
-        fmt::format("but there are {} bands, which its temperature would have to balance "
-                    "together; that takes a single band",
-                    bands.size()));
   for (const Band& band : bands)
     if (!band.has_wavelengths)
       refuse(
@@ -60,26 +51,37 @@ void require_known_parts(const SceneDraft& draft, const std::string& name, bool 
                       in_quotes(band.name)));
 }
 
-/// Fails where a scene file gives colours that bands cannot be. Channels without a band get
-/// nothing, and with one band all are alike.
-void fit_bands(SceneDraft& draft) {
+/// A value for each band: as given, or the scene file's if it says nothing of colours, nor of
+/// light.
+Eigen::ArrayXd fit_bands(const SceneDraft& draft, std::size_t material, bool is_rho) {
+  const MaterialOrigin& origin = draft.origins[material];
+  const auto& by_band = is_rho ? origin.rho_by_band : origin.exitance_by_band;
+  if (by_band) return *by_band;
+  const Material& has = draft.scene.materials[material];
+  const Rgb& value = is_rho ? has.rho : has.exitance;
   const std::size_t bands = draft.bands.size();
-  for (std::size_t m = 0; m < draft.origins.size(); ++m) {
-    Material& material = draft.scene.materials[m];
-    const MaterialOrigin& origin = draft.origins[m];
-    for (Rgb* value : {&material.rho, &material.exitance}) {
-      const bool is_by_band = value == &material.rho ? origin.rho_by_band : origin.exitance_by_band;
-      if (!is_by_band && (!is_grey(*value, 3) || (value == &material.exitance && (*value)[0] > 0)))
-        fail(draft.scene.source, 0,
-             fmt::format("material {} has the {} {} of the scene's file; give it for the {} band{} "
-                         "of the materials",
-                         in_quotes(material.name),
-                         value == &material.rho ? "reflectance" : "exitance", text_of(*value),
-                         bands, bands == 1 ? "" : "s"));
-      for (std::size_t c = bands; c < 3; ++c)
-        (*value)[static_cast<int>(c)] = bands == 1 ? (*value)[0] : 0;
-    }
-  }
+  if (!is_grey(value) || (!is_rho && value[0] > 0))
+    fail(draft.scene.source, 0,
+         fmt::format("material {} has the {} {} of the scene's file; give it for the {} band{} of "
+                     "the materials",
+                     in_quotes(has.name), is_rho ? "reflectance" : "exitance", text_of(value),
+                     bands, bands == 1 ? "" : "s"));
+  return Eigen::ArrayXd::Constant(static_cast<Eigen::Index>(bands), value[0]);
+}
+
+/// What a material reflects and sends out in each band.
+void take_band_values(const SceneDraft& draft, std::size_t material, HeatMaterial& said) {
+  if (draft.bands.empty()) return;
+  said.rho = fit_bands(draft, material, true);
+  said.exitance = fit_bands(draft, material, false);
+  if (!said.is_adiabatic) return;
+  if (draft.bands.size() == 1)
+    said.rho.setOnes();
+  else if (draft.origins[material].rho_place.empty())
+    fail(draft.scene.source, 0,
+         fmt::format("material {} has a net flux, but no emissivity, on which its temperature "
+                     "depends where there are {} bands",
+                     in_quotes(draft.scene.materials[material].name), draft.bands.size()));
 }
 
 }  // namespace
@@ -117,13 +119,17 @@ void require_consistent(const MaterialEntry& entry, const std::filesystem::path&
 
 void apply_entry(const MaterialEntry& entry, const std::string& place, Material& material,
                  MaterialOrigin& origin) {
-  if (entry.rho) material.rho = *entry.rho;
-  if (entry.emissivity) material.rho = 1 - *entry.emissivity;
+  const auto channels = [](const Eigen::ArrayXd& values) {
+    return to_channels(values, values.sum());
+  };
+  if (entry.rho) material.rho = channels(*entry.rho);
+  if (entry.emissivity) material.rho = channels(1 - *entry.emissivity);
   if (entry.rho || entry.emissivity) origin.rho_place = place;
-  if (entry.exitance) material.exitance = *entry.exitance;
+  if (entry.exitance) material.exitance = channels(*entry.exitance);
   if (entry.temperature || entry.net_flux) material.exitance.setZero();
   if (entry.exitance || entry.temperature || entry.net_flux) {
     origin.exitance_place = place;
+    origin.exitance_by_band.reset();
     origin.heat = {entry.temperature, entry.net_flux.has_value()};
   }
   origin.says_heat = origin.says_heat || entry.emissivity || entry.temperature || entry.net_flux;
@@ -135,24 +141,30 @@ Heat apply_heat(SceneDraft& draft) {
   for (const MaterialOrigin& origin : draft.origins) heat.is_given |= origin.says_heat;
   if (!heat.is_given) return heat;
   heat.bands = draft.bands;
-  if (!heat.bands.empty()) fit_bands(draft);
   for (std::size_t m = 0; m < draft.origins.size(); ++m) {
-    Material& material = draft.scene.materials[m];
-    const HeatMaterial& said = draft.origins[m].heat;
-    if (said.is_adiabatic) material.rho.setOnes();
-    heat.materials.push_back(said);
+    HeatMaterial said = draft.origins[m].heat;
+    take_band_values(draft, m, said);
+    if (said.is_adiabatic && heat.bands.empty()) draft.scene.materials[m].rho.setOnes();
+    heat.materials.push_back(std::move(said));
   }
   for (std::size_t m = 0; m < draft.origins.size(); ++m) {
     const HeatMaterial& said = heat.materials[m];
-    Material& material = draft.scene.materials[m];
-    if (!said.temperature && !said.is_adiabatic) continue;
-    require_known_parts(draft, material.name, said.is_adiabatic);
+    if (said.temperature || said.is_adiabatic)
+      require_known_parts(draft, draft.scene.materials[m].name, said.is_adiabatic);
   }
   // Only now, for an exitance by bands is no colour.
-  for (std::size_t m = 0; m < draft.origins.size(); ++m)
-    if (const auto& temperature = heat.materials[m].temperature)
-      draft.scene.materials[m].exitance =
-          (1 - draft.scene.materials[m].rho) * blackbody_exitance(*temperature, heat.bands);
+  for (std::size_t m = 0; m < draft.origins.size(); ++m) {
+    HeatMaterial& said = heat.materials[m];
+    Material& material = draft.scene.materials[m];
+    const auto black = [&] { return blackbody_exitance(*said.temperature, heat.bands); };
+    if (heat.bands.empty()) {
+      if (said.temperature) material.exitance = (1 - material.rho) * black()[0];
+      continue;
+    }
+    if (said.temperature) said.exitance = (1 - said.rho) * black();
+    material.rho = to_channels(said.rho, said.rho.mean());
+    material.exitance = to_channels(said.exitance, said.exitance.sum());
+  }
   return heat;
 }
 

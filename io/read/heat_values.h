@@ -10,9 +10,9 @@ namespace halfshade::reading {
 
 /// What one entry of a file says of a material.
 struct MaterialEntry {
-  std::optional<Rgb> rho, exitance, emissivity;
-  std::optional<double> temperature;  ///< K
-  std::optional<double> net_flux;     ///< W/m²; only 0 can be given
+  std::optional<Eigen::ArrayXd> rho, exitance, emissivity;  ///< one a channel, or a band
+  std::optional<double> temperature;                        ///< K
+  std::optional<double> net_flux;                           ///< W/m²; only 0 can be given
 };
 
 /// Fails unless what an entry says goes together; `name` is what the message calls it. emissivity
@@ -27,8 +27,10 @@ void apply_entry(const MaterialEntry& entry, const std::string& place, Material&
                  MaterialOrigin& origin);
 
 /// Gives materials the exitances and reflectances that follow from temperatures and net fluxes,
-/// once all files are read and unused materials dropped. Fails where it is not known which part of
-/// the heat a channel has: with several channels without wavelengths, or a net flux in several.
+/// once all files are read and unused materials dropped. With bands they are in the heat, and in
+/// the scene as to_channels has them: sums of exitances, means of reflectances where there are more
+/// than channels. Fails where it is not known which part of the heat a channel has, with several
+/// channels without wavelengths, and where a net flux in several bands comes without an emissivity.
 Heat apply_heat(SceneDraft& draft);
 
 }  // namespace halfshade::reading

@@ -22,18 +22,17 @@ struct Override {
 };
 
 /// One number, or as many as there are bands, or three; each at least 0 and at most `most`.
-Rgb channels(const json& value, double most, const std::vector<Band>& bands, const path& file,
-             const std::string& key) {
-  const std::size_t count = bands.empty() ? 3 : bands.size();
-  Rgb result = Rgb::Constant(NAN);
+Eigen::ArrayXd channels(const json& value, double most, const std::vector<Band>& bands,
+                        const path& file, const std::string& key) {
+  const std::size_t count = bands.empty() ? most_channels : bands.size();
+  Eigen::ArrayXd result = Eigen::ArrayXd::Constant(static_cast<Eigen::Index>(count), NAN);
   if (value.is_number()) {
-    result = Rgb::Constant(value.get<double>());
+    result.setConstant(value.get<double>());
   } else if (value.is_array() && value.size() == count) {
-    for (std::size_t c = 0; c < 3; ++c)
-      if (const json& number = value[std::min(c, count - 1)]; number.is_number())
-        result[static_cast<int>(c)] = number.get<double>();
+    for (std::size_t c = 0; c < count; ++c)
+      if (value[c].is_number()) result[static_cast<Eigen::Index>(c)] = value[c].get<double>();
   }
-  if (!result.allFinite())
+  if (!result.isFinite().all())
     fail(file, 0,
          bands.empty() ? fmt::format("{} must be a number or three numbers [r, g, b]", key)
                        : fmt::format("{} must be a number or a list of one for each of the {} "
@@ -77,9 +76,11 @@ Override read_override(const json& object, const std::vector<Band>& bands, const
 
 void apply(const Override& change, bool by_band, const path& file, Material& material,
            MaterialOrigin& origin) {
-  apply_entry(change.entry, file.string(), material, origin);
-  if (change.entry.rho || change.entry.emissivity) origin.rho_by_band = by_band;
-  if (change.entry.exitance) origin.exitance_by_band = by_band;
+  const MaterialEntry& entry = change.entry;
+  apply_entry(entry, file.string(), material, origin);
+  if (by_band && entry.rho) origin.rho_by_band = *entry.rho;
+  if (by_band && entry.emissivity) origin.rho_by_band = 1 - *entry.emissivity;
+  if (by_band && entry.exitance) origin.exitance_by_band = *entry.exitance;
   if (change.two_sided) material.two_sided = *change.two_sided;
   origin.undefined_place.clear();
   origin.from_json = true;

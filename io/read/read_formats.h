@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_map>
@@ -22,7 +23,7 @@ struct MaterialOrigin {
   bool from_json = false;       ///< given by a materials file or a sidecar
   HeatMaterial heat;            ///< as the last file says
   bool says_heat = false;       ///< an emissivity, a temperature or a net flux was given
-  bool rho_by_band = false, exitance_by_band = false;  ///< given where the bands were known
+  std::optional<Eigen::ArrayXd> rho_by_band, exitance_by_band;  ///< given with the bands known
 };
 
 struct MissingFile {

@@ -20,10 +20,10 @@ struct SceneFile {
 };
 
 /// Reads a scene by its extension: .obj (+ .mtl), .ply, .off, .vs3, .msh and .stl as text in double
-/// precision, .stl binary in its single one; .gltf, .glb, .dae and .3ds through assimp in single
-/// precision. Polygons stay polygons. Applies the sidecar (the scene's path with .json as
-/// extension, if there is one) and then the materials file `materials` (none if empty), and
-/// validates the result.
+/// precision, .msh binary too, .stl binary in its single one; .gltf, .glb, .dae and .3ds through
+/// assimp in single precision. Polygons stay polygons. Applies the sidecar (the scene's path with
+/// .json as extension, if there is one) and then the materials file `materials` (none if empty),
+/// and validates the result.
 ///
 /// OBJ: `Kd` is the reflectance, `Ke` the exitance in W/m²; `g` and `o` start groups; faces before
 /// any usemtl, and formats without materials, get a material named "default". glTF and COLLADA:
@@ -36,7 +36,8 @@ struct SceneFile {
 ///
 /// Heat: `emissivity` (1 − reflectance), `temperature` (K, for the exitance) and `net_flux` (0: the
 /// reflectance is 1, the temperature is found) of .mtl and materials files become reflectances and
-/// exitances. `bands` in a materials file name 1 to 3 channels, with or without wavelengths_um.
+/// exitances. `bands` in a materials file name channels, with or without wavelengths_um; more than
+/// three are in the heat alone, and the scene has what they come to.
 ///
 /// Throws Error(usage) for an unknown extension and Error(invalid_input) with file, line or face
 /// for anything that is not a sound scene.

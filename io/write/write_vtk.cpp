@@ -1,7 +1,7 @@
 #include "io/write/detail/vtk_file.h"
 #include "io/write/result_bytes.h"
+#include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/linear_result.h"
-#include "solver/pipeline/net_exchange.h"
 
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
@@ -15,19 +15,29 @@ struct CellData {
   const ElementTable& elements;
   const Solution& solution;
   const std::vector<Region>& regions;
-  const Heat& heat;
+  const SolveResult& result;  ///< that the elements are of, or parts of its elements
   std::vector<int> order;
 };
 
+/// One component a band, in the report's order.
+void add_bands(vtkFieldData* data, const char* name, const Eigen::ArrayXXd& values) {
+  const Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values;
+  add_numbers(data, name, {rows.data(), rows.data() + rows.size()},
+              static_cast<int>(values.cols()));
+}
+
 /// What surfaces give net, and how hot they are.
 void add_heat(const CellData& cells, vtkFieldData* data) {
-  if (!cells.heat.is_given) return;
+  if (!cells.result.heat.is_given) return;
   const Solution& solution = cells.solution;
   add_channels(data, "net_flux", solution.radiosity - solution.irradiance);
-  const Eigen::ArrayXd kelvin =
-      temperatures(cells.heat, cells.elements.material, solution.irradiance);
+  const Eigen::ArrayXd kelvin = temperatures(cells.result, cells.elements, solution.irradiance);
   if (!kelvin.isNaN().all())
     add_numbers(data, "temperature", {kelvin.data(), kelvin.data() + kelvin.size()});
+  if (solution.band_radiosity.rows() == 0) return;
+  add_bands(data, "radiosity_by_band", solution.band_radiosity);
+  add_bands(data, "irradiance_by_band", solution.band_irradiance);
+  add_bands(data, "net_flux_by_band", solution.band_radiosity - solution.band_irradiance);
 }
 
 void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* data) {
@@ -73,7 +83,7 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
   const LinearResult linear = linear_result(result);
   const auto grid = element_grid(linear.elements, extension);
   const bool is_constant = result.irradiance.count() == 0;
-  add_cell_data({linear.elements, linear.solution, linear.regions, result.heat,
+  add_cell_data({linear.elements, linear.solution, linear.regions, result,
                  std::vector<int>(linear.elements.corners.size(), is_constant ? 0 : 1)},
                 result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
@@ -87,9 +97,8 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
 std::string polynomial_bytes(const SolveResult& result) {
   const NodeValues nodes = node_values(result);
   const auto grid = polynomial_grid(nodes.points, nodes.order);
-  add_cell_data(
-      {result.elements, result.solution, result.regions, result.heat, result.irradiance.order},
-      result.emitters.size(), grid->GetCellData());
+  add_cell_data({result.elements, result.solution, result.regions, result, result.irradiance.order},
+                result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
   add_field_data(result, grid->GetFieldData());

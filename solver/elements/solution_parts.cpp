@@ -10,6 +10,10 @@ Solution solution_of_parts(const Solution& whole, const std::vector<int>& elemen
   solution.irradiance = whole.irradiance(element, Eigen::all);
   solution.direct_irradiance = whole.direct_irradiance(element, Eigen::all);
   solution.error_estimate = whole.error_estimate(element);
+  if (whole.band_irradiance.rows() > 0) {
+    solution.band_radiosity = whole.band_radiosity(element, Eigen::all);
+    solution.band_irradiance = whole.band_irradiance(element, Eigen::all);
+  }
   for (const int e : element)
     if (!whole.region.empty()) solution.region.push_back(whole.region[at(e)]);
   return solution;

@@ -100,13 +100,16 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
   if (cell.degree == degrees[0] || !cell.is_smooth)
     cell.error = std::max(cell.error,
                           std::ldexp(share_of_spread, -cell.halvings) * area * cell.hidden.size());
-  if (sum.is_lit || cell.degree == degrees[0]) {
-    const double most = hidden_at_most(scene_, cell.corners, a_, b_);
-    const double missed = share_of_unseen * std::min(most, area * sum.unobstructed) - cell.value;
+  const double all = area * sum.unobstructed;
+  // What may hide things is asked only where that could tell more than the rules do.
+  if (sum.is_lit ||
+      (cell.degree == degrees[0] && share_of_unseen * all - cell.value > cell.error)) {
+    const double most = hidden_at_most(scene_, cell.corners, a_, b_, all);
+    const double missed = share_of_unseen * std::min(most, all) - cell.value;
     cell.error = sum.is_lit ? missed : std::max(cell.error, missed);
   }
   if (cell.is_dark)
-    estimate_dark(area * sum.unobstructed, cell);
+    estimate_dark(all, cell);
   else if (cell.is_smooth && !cell.is_lit)
     look_at_corners(cell);
 }

@@ -85,7 +85,7 @@ class BlockedCells {
 
 /// At most what may hide surface `b` from a triangle of surface `a`, as a mutual area: 0 if nothing
 /// comes between, else what the two see of all that reaches into their hull. Not a bound to the
-/// letter, for it is found from few points.
-double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b);
+/// letter, for it is found from few points. More than `enough` is not summed up.
+double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough);
 
 }  // namespace halfshade

@@ -68,8 +68,8 @@ struct FactorMatrix {
 /// Computes each pair of surfaces once: nothing for those that cannot see each other, closed forms
 /// where nothing is in between, else cubature of exact point factors; see factors.md. No emitter is
 /// needed. Throws as make_factor_scene does, and Error(too_large) if the matrix would not fit into
-/// memory. If stopped, what comes back is not complete. The same for any number of threads. Cost:
-/// n²/2 shafts for n surfaces.
+/// memory or exact pairs would take more than a day. If stopped, what comes back is not complete.
+/// The same for any number of threads. Cost: n²/2 shafts for n surfaces.
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
                                 const Progress& progress = {});
 

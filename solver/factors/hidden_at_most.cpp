@@ -48,7 +48,7 @@ double hidden_by(const Triangle3& cell, const Vec3& normal, const Polygon3& bloc
 
 }  // namespace
 
-double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b) {
+double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough) {
   const PlaneFrame& plane = scene.surfaces[at(a)].frame;
   double sum = 0;
   for (const Polygon3& piece : scene.surfaces[at(b)].pieces) {
@@ -61,6 +61,7 @@ double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int
       const Triangle3 triangle = scene.reflecting.roots.triangle(root);
       const Polygon3 between = clipped({triangle.begin(), triangle.end()}, shaft);
       if (!between.empty()) sum += hidden_by(part, plane.normal, between);
+      if (sum > enough) return sum;
     }
   }
   return sum;

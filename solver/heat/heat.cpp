@@ -38,6 +38,17 @@ double share_up_to(double x) {
   return 15 / std::pow(std::numbers::pi, 4) * sum * x * x * x;
 }
 
+/// What the share of σT⁴ below λ grows by with ln(λT).
+double share_slope(double wavelength_times_temperature) {
+  const double x = second_radiation_constant / wavelength_times_temperature;
+  if (!(x > 0) || std::isinf(x)) return 0;
+  return 15 / std::pow(std::numbers::pi, 4) * std::pow(x, 4) / std::expm1(x);
+}
+
+bool is_whole_spectrum(const std::vector<Band>& bands) {
+  return bands.empty() || (bands.size() == 1 && !bands[0].has_wavelengths);
+}
+
 }  // namespace
 
 double blackbody_share_below(double wavelength, double temperature) {
@@ -48,16 +59,43 @@ double blackbody_share_below(double wavelength, double temperature) {
   return x < series_limit ? 1 - share_up_to(x) : share_beyond(x);
 }
 
-Rgb blackbody_exitance(double temperature, const std::vector<Band>& bands) {
+Eigen::ArrayXd blackbody_exitance(double temperature, const std::vector<Band>& bands) {
   const double all = stefan_boltzmann * std::pow(temperature, 4);
-  if (bands.empty() || (bands.size() == 1 && !bands[0].has_wavelengths)) return Rgb::Constant(all);
-  Rgb result = Rgb::Zero();
-  for (std::size_t c = 0; c < bands.size(); ++c)
-    result[static_cast<int>(c)] =
-        all * std::max(0., blackbody_share_below(bands[c].longest, temperature) -
-                               blackbody_share_below(bands[c].shortest, temperature));
-  if (bands.size() == 1) result = Rgb::Constant(result[0]);
+  if (is_whole_spectrum(bands)) return Eigen::ArrayXd::Constant(1, all);
+  Eigen::ArrayXd result(static_cast<Eigen::Index>(bands.size()));
+  for (std::size_t k = 0; k < bands.size(); ++k)
+    result[static_cast<Eigen::Index>(k)] =
+        all * std::max(0., blackbody_share_below(bands[k].longest, temperature) -
+                               blackbody_share_below(bands[k].shortest, temperature));
   return result;
+}
+
+Eigen::ArrayXd blackbody_slope(double temperature, const std::vector<Band>& bands) {
+  const double all = stefan_boltzmann * std::pow(temperature, 4);
+  Eigen::ArrayXd result = 4 * blackbody_exitance(temperature, bands);
+  if (!is_whole_spectrum(bands))
+    for (std::size_t k = 0; k < bands.size(); ++k)
+      result[static_cast<Eigen::Index>(k)] += all * (share_slope(bands[k].longest * temperature) -
+                                                     share_slope(bands[k].shortest * temperature));
+  return result / temperature;
+}
+
+Rgb to_channels(const Eigen::ArrayXd& by_band, double all) {
+  if (by_band.size() == 1) return Rgb::Constant(by_band[0]);
+  if (by_band.size() > most_channels) return Rgb::Constant(all);
+  Rgb result = Rgb::Zero();
+  result.head(by_band.size()) = by_band;
+  return result;
+}
+
+int bands_of(const Heat& heat) {
+  return heat.bands.empty() ? 1 : static_cast<int>(heat.bands.size());
+}
+
+bool balances_bands(const Heat& heat) {
+  return bands_of(heat) > 1 &&
+         std::any_of(heat.materials.begin(), heat.materials.end(),
+                     [](const HeatMaterial& said) { return said.is_adiabatic; });
 }
 
 double blackbody_temperature(double exitance) {

@@ -24,19 +24,21 @@ struct Band {
   bool operator==(const Band&) const = default;
 };
 
-/// At most as many bands as there are channels.
-inline constexpr std::size_t most_bands = 3;
+/// As many bands a scene's channels can hold; more stand beside it.
+inline constexpr int most_channels = 3;
 
 /// What is said of a material beside its reflectance and exitance, which follow from it.
 struct HeatMaterial {
   std::optional<double> temperature;  ///< K, ≥ 0; the exitance is ε σ T⁴, ε = 1 − rho
-  bool is_adiabatic = false;          ///< gives net nothing: rho = 1, exitance 0, T is found
+  /// Gives net nothing and has exitance 0: T is found. In one band rho = 1 says the same.
+  bool is_adiabatic = false;
+  Eigen::ArrayXd rho = {}, exitance = {};  ///< one a band (W/m²); empty if no bands are named
 };
 
 /// What a scene says of heat.
 struct Heat {
-  bool is_given = false;    ///< anything but reflectances and exitances
-  std::vector<Band> bands;  ///< channels in order; none: three colours, or one grey band
+  bool is_given = false;                ///< anything but reflectances and exitances
+  std::vector<Band> bands;              ///< in order; none: three colours, or one grey band
   std::vector<HeatMaterial> materials;  ///< one a material of the scene; none if nothing is given
   std::optional<double> surroundings;   ///< K, of what space radiates; none: it is dark
 };
@@ -45,10 +47,22 @@ struct Heat {
 /// `wavelength` in µm ≥ 0 or infinite, `temperature` in K ≥ 0.
 double blackbody_share_below(double wavelength, double temperature);
 
-/// What a black body sends out in each channel, W/m²: σT⁴ in all without bands or with one that has
-/// no wavelengths, else what lies in each band; 0 in channels without a band. Precondition: several
-/// bands have wavelengths.
-Rgb blackbody_exitance(double temperature, const std::vector<Band>& bands);
+/// What a black body sends out in each band, W/m²: σT⁴ without bands or with one that has no
+/// wavelengths, else what lies in each. Precondition: several bands have wavelengths.
+Eigen::ArrayXd blackbody_exitance(double temperature, const std::vector<Band>& bands);
+
+/// Its derivative by the temperature, W/(m² K). Preconditions: as above; the temperature is > 0.
+Eigen::ArrayXd blackbody_slope(double temperature, const std::vector<Band>& bands);
+
+/// Values of bands as channels of a scene: one is all channels, up to three are the first ones,
+/// and for more `all` stands in each.
+Rgb to_channels(const Eigen::ArrayXd& by_band, double all);
+
+/// How many there are; 1 if none is named.
+int bands_of(const Heat& heat);
+
+/// Whether temperatures are to be found from the balance of several bands together.
+bool balances_bands(const Heat& heat);
 
 /// The temperature of a black body that sends out this much, K; `exitance` in W/m², ≥ 0.
 double blackbody_temperature(double exitance);

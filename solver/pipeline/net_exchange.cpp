@@ -1,33 +1,20 @@
 #include "solver/pipeline/net_exchange.h"
 
 #include "meshing/core/error.h"
-#include "solver/adapt/recovery_estimate.h"
-#include "solver/elements/balancing_scale.h"
-#include "solver/elements/material_arrays.h"
+#include "solver/pipeline/adiabatic_faces.h"
+#include "solver/pipeline/result_error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
 
-/// A channel that is solved: of one band, what is above or what is below the surroundings.
-struct Part {
-  int band;
-  double sign;
-};
-
-int bands_of(const Heat& heat) {
-  return heat.bands.empty() ? 1 : static_cast<int>(heat.bands.size());
-}
-
-/// What a material sends out beyond what it would in equilibrium with the surroundings.
-Rgb excess(const Material& material, const Rgb& space) {
-  return material.exitance - (1 - material.rho) * space;
-}
-
 bool is_grey(const Rgb& value) { return value[0] == value[1] && value[0] == value[2]; }
+
+bool has_surroundings(const Heat& heat) { return heat.surroundings && *heat.surroundings > 0; }
 
 /// Fails unless it is known how much the surroundings send in each channel.
 void require_known_space(const Scene& scene, const Heat& heat) {
@@ -48,117 +35,98 @@ void require_known_space(const Scene& scene, const Heat& heat) {
                       material.name));
 }
 
-std::vector<Part> find_signed_parts(const Scene& scene, const Heat& heat, const Rgb& space) {
-  std::vector<Part> parts;
-  for (int band = 0; band < bands_of(heat); ++band)
-    for (const double sign : {1., -1.}) {
-      const bool is_there = std::any_of(
-          scene.materials.begin(), scene.materials.end(),
-          [&](const Material& material) { return sign * excess(material, space)[band] > 0; });
-      if (is_there) parts.push_back({band, sign});
-    }
-  if (parts.size() > most_bands)
-    throw Error(ErrorCode::invalid_input, scene.source,
-                fmt::format("in {} bands surfaces are hotter and colder than the surroundings of "
-                            "{} K, which takes {} channels; there are {}",
-                            bands_of(heat), *heat.surroundings, parts.size(), most_bands));
-  return parts;
-}
-
-/// With a single part all channels are alike, so that one is solved.
-Scene scene_of_parts(Scene scene, const std::vector<Part>& parts, const Rgb& space) {
-  for (Material& material : scene.materials) {
-    const Rgb rho = material.rho, more = excess(material, space);
-    material.rho.setZero();
-    material.exitance.setZero();
-    for (std::size_t c = 0; c < most_bands && !parts.empty(); ++c) {
-      if (c >= parts.size() && parts.size() > 1) break;
-      const Part& part = parts[std::min(c, parts.size() - 1)];
-      material.rho[static_cast<int>(c)] = rho[part.band];
-      material.exitance[static_cast<int>(c)] = std::max(0., part.sign * more[part.band]);
-    }
-  }
-  return scene;
-}
-
-/// Sums the parts of each band, and puts the surroundings back.
-class Combination {
+/// Light of bands as channels of a result: as they are, or their sums.
+class Channels {
  public:
-  Combination(const std::vector<Part>& parts, const Heat& heat, const Rgb& space)
-      : parts_(parts), bands_(bands_of(heat)), space_(space) {}
+  Channels(const BandLight& light, const BandMaterials& materials, const Eigen::ArrayXd& space)
+      : light_(light), materials_(materials), space_(space) {}
 
-  /// `uniform` rows of each element get what space sends.
-  ChannelArray signed_sum(const ChannelArray& values) const {
-    ChannelArray result = ChannelArray::Zero(values.rows(), 3);
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-      result.col(parts_[p].band) += parts_[p].sign * values.col(static_cast<Eigen::Index>(p));
-    if (bands_ == 1)
-      for (int c = 1; c < 3; ++c) result.col(c) = result.col(0);
-    return result;
-  }
-
-  ChannelArray with_space(const ChannelArray& values) const {
-    return signed_sum(values).rowwise() + space_.transpose();
-  }
-
-  void put_back(SolveResult& result) const {
+  void fill(SolveResult& result) const {
     Solution& solution = result.solution;
-    solution.irradiance = with_space(solution.irradiance);
-    solution.direct_irradiance = signed_sum(solution.direct_irradiance);
+    const auto rows = static_cast<Eigen::Index>(result.elements.corners.size());
+    const Eigen::ArrayXXd irradiance = light_.irradiance.rowwise() + space_.transpose();
+    const Eigen::ArrayXXd rho = materials_.rho(result.elements.material, Eigen::all);
+    const Eigen::ArrayXXd exitance = materials_.exitance(result.elements.material, Eigen::all);
+    solution.irradiance = channels(irradiance);
+    solution.direct_irradiance = channels(light_.direct_irradiance);
+    solution.exitance = channels(exitance);
+    solution.rho.resize(rows, 3);
+    for (Eigen::Index e = 0; e < rows; ++e)
+      solution.rho.row(e) =
+          to_channels(rho.row(e), reflected_share(rho.row(e), irradiance.row(e))).transpose();
     // From the irradiance: mirrors and equilibria stay exact.
     solution.radiosity = solution.exitance + solution.rho * solution.irradiance;
-    for (ElementField* field : {&result.direct, &result.irradiance})
-      if (field->count() > 0) field->coefficients = signed_sum(field->coefficients);
+    if (is_sum()) {
+      solution.band_irradiance = irradiance;
+      solution.band_radiosity = exitance + rho * irradiance;
+      solution.radiosity = channels(solution.band_radiosity);
+    }
+    if (result.irradiance.count() > 0) {
+      result.irradiance.coefficients = channels(light_.field);
+      result.direct.coefficients = channels(light_.direct_field);
+    }
     for (int e = 0; e < result.irradiance.count(); ++e)
-      result.irradiance.of(e).row(0) += space_.transpose();
-  }
-
-  /// Two parts may be off in opposite directions.
-  double error_factor() const { return static_cast<int>(parts_.size()) > bands_ ? 2 : 1; }
-
-  void sum_reports(const SolveResult& result, RadiosityReport& report) const {
-    std::array<ChannelReport, 3> channels{};
-    for (std::size_t p = 0; p < parts_.size(); ++p) {
-      ChannelReport& of_band = channels[static_cast<std::size_t>(parts_[p].band)];
-      const ChannelReport& part = report.channel[p];
-      const double escaped = of_band.escaped_power + parts_[p].sign * part.escaped_power;
-      if (of_band.history.size() <= part.history.size()) of_band.history = part.history;
-      of_band.iterations = std::max(of_band.iterations, part.iterations);
-      of_band.residual = std::max(of_band.residual, part.residual);
-      of_band.error = std::max(of_band.error, part.error);
-      of_band.escaped_power = escaped;
-    }
-    const Solution& s = result.solution;
-    const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(),
-                                                result.elements.count());
-    for (int c = 0; c < bands_; ++c) {
-      ChannelReport& channel = channels[static_cast<std::size_t>(c)];
-      channel.emitted_power = (area * s.exitance.col(c)).sum();
-      channel.absorbed_power = (area * (1 - s.rho.col(c)) * s.irradiance.col(c)).sum();
-      const double most = std::max(channel.emitted_power, channel.absorbed_power);
-      channel.balance =
-          most > 0
-              ? std::abs(channel.emitted_power - channel.absorbed_power - channel.escaped_power) /
-                    most
-              : 0;
-    }
-    if (bands_ == 1) channels[1] = channels[2] = channels[0];
-    report.channels = bands_ == 1 ? 1 : 3;
-    report.channel = channels;
+      result.irradiance.of(e).row(0) += to_channels(space_, space_.sum()).transpose();
+    fill_reports(result, irradiance, rho, exitance);
   }
 
  private:
-  const std::vector<Part>& parts_;
-  int bands_;
-  Rgb space_;
-};
+  bool is_sum() const { return space_.size() > most_channels; }
 
-void restore_materials(const Scene& scene, SolveResult& result) {
-  result.scene.materials = scene.materials;
-  const MaterialArrays arrays = material_arrays(result.scene, result.elements);
-  result.solution.rho = arrays.rho;
-  result.solution.exitance = arrays.exitance;
-}
+  ChannelArray channels(const Eigen::ArrayXXd& by_band) const {
+    ChannelArray result(by_band.rows(), 3);
+    for (Eigen::Index row = 0; row < by_band.rows(); ++row)
+      result.row(row) = to_channels(by_band.row(row), by_band.row(row).sum()).transpose();
+    return result;
+  }
+
+  static double reflected_share(const Eigen::ArrayXd& rho, const Eigen::ArrayXd& irradiance) {
+    const double all = irradiance.sum();
+    return all > 0 ? std::clamp((rho * irradiance).sum() / all, 0., 1.) : rho.mean();
+  }
+
+  void fill_reports(SolveResult& result, const Eigen::ArrayXXd& irradiance,
+                    const Eigen::ArrayXXd& rho, const Eigen::ArrayXXd& exitance) const {
+    const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(),
+                                                result.elements.count());
+    std::vector<ChannelReport> bands = light_.reports;
+    result.found_heat.escaped_power.resize(space_.size());
+    for (Eigen::Index k = 0; k < space_.size(); ++k) {
+      ChannelReport& band = bands[static_cast<std::size_t>(k)];
+      band.emitted_power = (area * exitance.col(k)).sum();
+      band.absorbed_power = (area * (1 - rho.col(k)) * irradiance.col(k)).sum();
+      result.found_heat.escaped_power[k] = band.escaped_power;
+    }
+    if (is_sum()) bands.assign(1, joined(bands));
+    for (ChannelReport& band : bands) {
+      const double most = std::max(band.emitted_power, band.absorbed_power);
+      const double missing = band.emitted_power - band.absorbed_power - band.escaped_power;
+      band.balance = most > 0 ? std::abs(missing) / most : 0;
+    }
+    result.radiosity.channels = bands.size() == 1 ? 1 : 3;
+    if (bands.size() == 1) bands.resize(3, bands[0]);
+    bands.resize(3);
+    std::copy(bands.begin(), bands.end(), result.radiosity.channel.begin());
+  }
+
+  static ChannelReport joined(const std::vector<ChannelReport>& bands) {
+    ChannelReport sum;
+    for (const ChannelReport& band : bands) {
+      if (sum.history.size() <= band.history.size()) sum.history = band.history;
+      sum.iterations = std::max(sum.iterations, band.iterations);
+      sum.residual = std::max(sum.residual, band.residual);
+      sum.error = std::max(sum.error, band.error);
+      sum.emitted_power += band.emitted_power;
+      sum.absorbed_power += band.absorbed_power;
+      sum.escaped_power += band.escaped_power;
+    }
+    return sum;
+  }
+
+  const BandLight& light_;
+  const BandMaterials& materials_;
+  const Eigen::ArrayXd& space_;
+};
 
 /// They speak of light that is lost or missing; with surroundings it comes from everywhere.
 bool is_of_light(const Warning& warning) {
@@ -166,117 +134,55 @@ bool is_of_light(const Warning& warning) {
          warning.kind == Warning::Kind::light_escapes || warning.kind == Warning::Kind::dark_groups;
 }
 
-void estimate_again(double factor, SolveResult& result) {
-  result.solution.error_estimate *= factor;
-  const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
-  const ChannelArray irradiance = scale * result.solution.irradiance;
-  const Eigen::ArrayXd estimate = scale * result.solution.error_estimate;
-  double of_solver = 0;
-  for (const ChannelReport& channel : result.radiosity.channel)
-    of_solver = std::max(of_solver, channel.error);
-  result.relative_error = relative_error(result.elements, irradiance, estimate) + of_solver;
+/// As the scene has them, instead of copies.
+void restore_materials(const Scene& scene, const std::vector<int>& original, SolveResult& result) {
+  result.scene.materials = scene.materials;
+  if (original.empty()) return;
+  for (int& material : result.elements.material) material = original[at(material)];
+  for (Surface& surface : result.scene.surfaces) surface.material = original[at(surface.material)];
+}
+
+SolveResult assembled(BandLight light, const BandMaterials& materials, const Eigen::ArrayXd& space,
+                      const Heat& heat) {
+  SolveResult result = std::move(light.result);
+  result.heat = heat;
+  result.reflected_light.reset();  // it knows the parts only
+  result.patches.reset();
+  Channels(light, materials, space).fill(result);
+  if (light.both_signs) result.solution.error_estimate *= 2;
+  result.relative_error = error_of_elements_and_solver(result);
+  if (has_surroundings(heat)) std::erase_if(result.warnings, is_of_light);
+  return result;
 }
 
 }  // namespace
 
-SolveResult solve_net_exchange(const Scene& scene, const Heat& heat,
-                               const std::function<SolveResult(const Scene&)>& solve) {
-  if (!(heat.surroundings && *heat.surroundings > 0)) {
+SolveResult solve_net_exchange(const Scene& scene, const Heat& heat, const SceneSolver& solve) {
+  const bool balances = balances_bands(heat);
+  if (!has_surroundings(heat) && bands_of(heat) <= most_channels && !balances) {
     SolveResult result = solve(scene);
     result.heat = heat;
     return result;
   }
-  require_known_space(scene, heat);
-  const Rgb space = blackbody_exitance(*heat.surroundings, heat.bands);
-  const std::vector<Part> parts = find_signed_parts(scene, heat, space);
-  SolveResult result = solve(scene_of_parts(scene, parts, space));
-  result.heat = heat;
-  result.reflected_light.reset();  // it knows the parts only
-  restore_materials(scene, result);
-  const Combination combination(parts, heat, space);
-  combination.put_back(result);
-  combination.sum_reports(result, result.radiosity);
-  estimate_again(combination.error_factor(), result);
-  std::erase_if(result.warnings, is_of_light);
+  Eigen::ArrayXd space = Eigen::ArrayXd::Zero(bands_of(heat));
+  if (has_surroundings(heat)) {
+    require_known_space(scene, heat);
+    space = blackbody_exitance(*heat.surroundings, heat.bands);
+  }
+  if (!balances) {
+    const BandMaterials materials = band_materials(scene, heat);
+    SolveResult result =
+        assembled(solve_bands(scene, materials, space, solve), materials, space, heat);
+    restore_materials(scene, {}, result);
+    return result;
+  }
+  AdiabaticFaces faces = adiabatic_faces(scene, heat);
+  std::vector<double> kelvin = find_temperatures(faces, heat, space, solve);
+  SolveResult result = assembled(solve_bands(faces.scene, faces.materials, space, solve),
+                                 faces.materials, space, heat);
+  result.found_heat.face_temperature = std::move(kelvin);
+  restore_materials(scene, faces.original, result);
   return result;
-}
-
-int channels_of(const SolveResult& result) {
-  if (!result.heat.bands.empty()) return static_cast<int>(result.heat.bands.size());
-  return result.radiosity.channels == 1 ? 1 : 3;
-}
-
-Eigen::ArrayXd temperatures(const Heat& heat, const std::vector<int>& material,
-                            const ChannelArray& irradiance) {
-  Eigen::ArrayXd result = Eigen::ArrayXd::Constant(irradiance.rows(), NAN);
-  if (heat.materials.empty()) return result;
-  for (std::size_t e = 0; e < material.size(); ++e) {
-    const HeatMaterial& said = heat.materials[at(material[e])];
-    const auto row = static_cast<Eigen::Index>(e);
-    if (said.temperature) result[row] = *said.temperature;
-    // What arrives is what leaves, and both are what a black body of that temperature sends.
-    if (said.is_adiabatic) result[row] = blackbody_temperature(irradiance(row, 0));
-  }
-  return result;
-}
-
-double require_metres_in(const std::string& unit) {
-  const std::optional<double> metres = metres_in(unit);
-  if (!metres)
-    throw Error(ErrorCode::invalid_input, {},
-                fmt::format("the scene's unit of length is '{}', of which it is not known how many "
-                            "metres it has; powers in W take a unit such as m, mm or inch",
-                            unit));
-  return *metres;
-}
-
-namespace {
-
-/// What the elements of a group have in common.
-struct GroupState {
-  double arriving = 0;   ///< W, in the first channel
-  double adiabatic = 0;  ///< m²
-  double coldest = HUGE_VAL, hottest = -HUGE_VAL;
-
-  void add(double area, double irradiance, bool is_adiabatic, double kelvin) {
-    arriving += area * irradiance;
-    if (is_adiabatic) adiabatic += area;
-    coldest = std::min(coldest, std::isnan(kelvin) ? -HUGE_VAL : kelvin);
-    hottest = std::max(hottest, kelvin);
-  }
-
-  double temperature(double area) const {
-    if (area > 0 && adiabatic == area) return blackbody_temperature(arriving / area);
-    return coldest == hottest ? coldest : NAN;
-  }
-};
-
-}  // namespace
-
-HeatSums sum_heat(const SolveResult& result) {
-  HeatSums sums;
-  sums.metres = require_metres_in(result.unit);
-  const double square = sums.metres * sums.metres;
-  for (const std::string& name : result.scene.groups) sums.groups.push_back({name});
-  std::vector<GroupState> states(sums.groups.size());
-  const Solution& solution = result.solution;
-  const std::vector<int>& material = result.elements.material;
-  const Eigen::ArrayXd kelvin = temperatures(result.heat, material, solution.irradiance);
-  for (int e = 0; e < result.elements.count(); ++e) {
-    GroupHeat& group = sums.groups[at(result.elements.group[at(e)])];
-    const double area = square * result.elements.area[at(e)];
-    group.area += area;
-    group.net_power += area * (solution.radiosity.row(e) - solution.irradiance.row(e)).transpose();
-    const bool is_adiabatic =
-        !result.heat.materials.empty() && result.heat.materials[at(material[at(e)])].is_adiabatic;
-    states[at(result.elements.group[at(e)])].add(area, solution.irradiance(e, 0), is_adiabatic,
-                                                 kelvin[e]);
-  }
-  for (std::size_t g = 0; g < states.size(); ++g)
-    sums.groups[g].temperature = states[g].temperature(sums.groups[g].area);
-  for (int c = 0; c < 3; ++c)
-    sums.to_space[c] = square * result.radiosity.channel[at(c)].escaped_power;
-  return sums;
 }
 
 }  // namespace halfshade

@@ -18,7 +18,7 @@ void add_grid(const Surface& surface, double spacing, std::vector<SurfacePoint>&
   for (const Vec2& p : surface.rings.front()) box.extend(p);
   const Eigen::Array2d cells = (box.sizes().array() / spacing).floor().max(1);
   if (static_cast<double>(points.size()) + cells.prod() > max_points)
-    throw Error(ErrorCode::too_large, "grid",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("a spacing of {} makes more than {} points", spacing, max_points));
   const Vec2 first = box.center() - 0.5 * spacing * (cells - 1).matrix();
   for (int j = 0; j < static_cast<int>(cells.y()); ++j)

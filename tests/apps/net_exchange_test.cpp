@@ -1,91 +1,23 @@
 // Heat that surfaces exchange, against the small linear systems of data/thermal_furnace.md.
 
-#include "solver/heat/heat.h"
-#include "tests/support/analytic.h"
-#include "tests/support/files.h"
-#include "tests/support/process.h"
+#include "tests/support/furnace.h"
 
-#include <Eigen/Dense>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <algorithm>
 
 namespace halfshade {
 namespace {
 
-using Json = nlohmann::json;
-using Vector5 = Eigen::Matrix<double, 5, 1>;
+using test::Balance;
+using test::banded_furnace;
+using test::black;
+using test::Furnace;
+using test::furnace;
+using test::Json;
+using test::make_furnace;
+using test::solved;
+using test::Vector5;
 
-const std::string furnace = test::data_file("thermal_furnace.obj").string();
-
-/// Of the furnace's surfaces in the order of its groups, with the opening behind them, and areas.
-struct Furnace {
-  Eigen::Matrix<double, 6, 6> factors = Eigen::Matrix<double, 6, 6>::Zero();
-  Vector5 area{2, 1.5, 1.5, 3, 3};
-};
-
-Furnace make_furnace() {
-  const double a = 2, b = 1, c = 1.5;
-  Furnace result;
-  auto& F = result.factors;
-  F(0, 5) = F(5, 0) = test::opposed_rectangles(a, b, c);
-  F(1, 2) = F(2, 1) = test::opposed_rectangles(b, c, a);
-  F(3, 4) = F(4, 3) = test::opposed_rectangles(a, c, b);
-  for (const int i : {0, 5}) {
-    for (const int j : {1, 2}) F(i, j) = test::perpendicular_rectangles(b, a, c);
-    for (const int j : {1, 2}) F(j, i) = test::perpendicular_rectangles(b, c, a);
-    for (const int j : {3, 4}) F(i, j) = test::perpendicular_rectangles(a, b, c);
-    for (const int j : {3, 4}) F(j, i) = test::perpendicular_rectangles(a, c, b);
-  }
-  for (const int i : {1, 2})
-    for (const int j : {3, 4}) {
-      F(i, j) = test::perpendicular_rectangles(c, b, a);
-      F(j, i) = test::perpendicular_rectangles(c, a, b);
-    }
-  return result;
-}
-
-struct Balance {
-  Vector5 net_power, irradiance;
-};
-
-/// What surfaces of these emissivities that emit so much give net, below an opening that sends
-/// `space`.
-Balance solved(const Furnace& in, const Vector5& emissivity, const Vector5& exitance,
-               double space) {
-  const Eigen::Matrix<double, 5, 5> F = in.factors.topLeftCorner<5, 5>();
-  const Vector5 rho = Vector5::Ones() - emissivity, through = in.factors.col(5).head<5>() * space;
-  const Eigen::Matrix<double, 5, 5> equations =
-      Eigen::Matrix<double, 5, 5>::Identity() - rho.asDiagonal() * F;
-  const Vector5 radiosity = equations.partialPivLu().solve(exitance + rho.cwiseProduct(through));
-  const Vector5 irradiance = F * radiosity + through;
-  return {in.area.cwiseProduct(radiosity - irradiance), irradiance};
-}
-
-double black(double kelvin) { return stefan_boltzmann * std::pow(kelvin, 4); }
-
-class NetExchange : public testing::Test {
- protected:
-  test::Outcome run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
-    return test::run_program(std::move(arguments), folder_.path());
-  }
-
-  void save_factors(const std::string& scene, const std::string& tolerance = "1e-8") {
-    const test::Outcome outcome =
-        run({"factors", scene, "-q", "--by", "face", "--tolerance", tolerance, "-o", "f.mtx"});
-    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  }
-
-  Json exchange(const std::vector<std::string>& options, const std::string& scene = furnace) {
-    std::vector<std::string> arguments = {"solve", scene, "-q", "-o", "r.vtu", "--json", "r.json"};
-    arguments.insert(arguments.end(), options.begin(), options.end());
-    const test::Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    return Json::parse(test::contents(folder_.path() / "r.json"));
-  }
-
-  test::TempDir folder_;
-};
+using NetExchange = test::FurnaceRuns;
 
 TEST_F(NetExchange, OfAFurnaceIsTheSolutionOfItsLinearSystem) {
   save_factors(furnace);
@@ -231,6 +163,8 @@ TEST_F(NetExchange, SaysInOneSentenceWhatIsWrong) {
   folder_.write("odd.json", R"({"unit": "furlong"})");
   folder_.write("odd.obj", "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n");
   folder_.write("odd.mtl", "newmtl m\nemissivity 1\ntemperature 300\n");
+  folder_.write("four.json", banded_furnace(4).materials(R"({"temperature": 600})"));
+  folder_.write("two.json", banded_furnace(2).materials(R"({"net_flux": 0})"));
   struct Wrong {
     std::vector<std::string> arguments;
     int exit_code;
@@ -255,6 +189,12 @@ TEST_F(NetExchange, SaysInOneSentenceWhatIsWrong) {
        3,
        "differs between red, green and blue"},
       {{"solve", "odd.obj", "--json", "r.json"}, 3, "'furlong'"},
+      {{"probe", furnace, "--grid", "floor", "--spacing", "500", "-o", "o.csv", "--materials",
+        "four.json"},
+       3,
+       "4 bands, and probe knows at most 3"},
+      {{"study", furnace, "-o", "s", "--materials", "two.json"}, 3, "net flux of 0 in 2 bands"},
+      {{"solve", furnace, "--materials", "four.json", "--goal", "floor"}, 2, "three channels"},
   };
   for (const Wrong& wrong : all) {
     const test::Outcome outcome = run(wrong.arguments);

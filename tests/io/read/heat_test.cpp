@@ -92,10 +92,21 @@ TEST(HeatValues, WithoutAKnownPartOfTheSpectrumAreRefused) {
   expect_refused(coloured, R"({"bands": ["a", "b"]})", {"'n'", "[0.25, 0.5, 0.5]", "2 bands"});
   expect_refused(grey, R"({"bands": ["a", "b"], "m": {"temperature": 5}})",
                  {"'m'", "'a'", "wavelengths_um"});
-  expect_refused(grey,
+  expect_refused("newmtl m\nnewmtl n\nKd 0.25\n",
                  R"({"bands": [{"name": "a", "wavelengths_um": [0, 2]}, {"name": "b",
                  "wavelengths_um": [2, null]}], "m": {"net_flux": 0}})",
-                 {"'m'", "2 bands"});
+                 {"'m'", "net flux", "no emissivity", "2 bands"});
+}
+
+TEST(HeatValues, MoreBandsThanChannelsStandBesideTheScene) {
+  const SceneFile file = read(grey, R"({"bands": ["a", "b", "c", "d"],
+    "m": {"emissivity": [0.1, 0.2, 0.3, 0.4], "exitance": [1, 2, 3, 4]}})");
+  const HeatMaterial &m = file.heat.materials.at(0), &n = file.heat.materials.at(1);
+  EXPECT_TRUE(m.exitance.isApprox(Eigen::Array4d(1, 2, 3, 4)));
+  EXPECT_TRUE(m.rho.isApprox(Eigen::Array4d(.9, .8, .7, .6)));
+  EXPECT_TRUE(n.rho.isApprox(Eigen::Array4d::Constant(0.25)));
+  EXPECT_TRUE((file.scene.materials.at(0).exitance == 10).all()) << "their sum";
+  EXPECT_NEAR(file.scene.materials[0].rho[2], 0.75, 1e-12) << "their mean";
 }
 
 TEST(HeatValues, BandsThatMakeNoSenseAreRefused) {
@@ -103,7 +114,9 @@ TEST(HeatValues, BandsThatMakeNoSenseAreRefused) {
     expect_refused(grey, "{\"bands\": " + bands + "}", parts);
   };
   refuse("[]", {"'bands'", "0 entries"});
-  refuse(R"(["a", "b", "c", "d"])", {"4 entries", "1 to 3"});
+  std::string many = "[0";
+  for (int k = 1; k < 1001; ++k) many += ", " + std::to_string(k);
+  refuse(many + "]", {"1001 entries", "1 to 1000"});
   refuse(R"(["a", "a"])", {"'a' twice"});
   refuse(R"([7])", {"band 1", "name"});
   refuse(R"([{"name": "a", "wavelengths_um": [3, 2]}])", {"two rising numbers"});

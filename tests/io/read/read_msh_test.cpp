@@ -1,3 +1,4 @@
+#include "tests/support/msh_bytes.h"
 #include "tests/support/scene_texts.h"
 
 #include <gmock/gmock.h>
@@ -67,7 +68,7 @@ TEST(ReadMsh, RefusesWhatItWouldGetWrong) {
   };
   refuse("$NOD\n1\n", {"scene.msh:1", "$MeshFormat"});
   refuse(section("MeshFormat", "4 0 8\n"), {"format '4'", "4.1 or 2.2"});
-  refuse(section("MeshFormat", "4.1 1 8\n"), {"scene.msh:2", "binary", "Mesh.Binary"});
+  refuse(section("MeshFormat", "4.1 2 8\n"), {"scene.msh:2", "'2'", "0 (text) or 1 (binary)"});
   refuse(old_format + nodes + section("Elements", "1\n1 9 2 1 1 1 2 30 4 1 2\n"),
          {"higher order", "Mesh.ElementOrder"});
   refuse(old_format + nodes + section("Elements", "1\n1 77 2 1 1 1 2\n"), {"type 77"});
@@ -81,6 +82,59 @@ TEST(ReadMsh, RefusesWhatItWouldGetWrong) {
   refuse(old_format + "stray\n", {"'stray'"});
   refuse(old_format + "$Fields\n", {"ends before $EndFields"});
   refuse(old_format + nodes, {"no faces"});
+}
+
+void expect_same(const SceneFile& a, const SceneFile& b) {
+  EXPECT_EQ(a.scene.vertices, b.scene.vertices);
+  EXPECT_EQ(a.scene.groups, b.scene.groups);
+  EXPECT_EQ(a.warnings.size(), b.warnings.size());
+  ASSERT_EQ(a.scene.faces.size(), b.scene.faces.size());
+  for (std::size_t f = 0; f < a.scene.faces.size(); ++f) {
+    EXPECT_EQ(a.scene.faces[f].vertices, b.scene.faces[f].vertices);
+    EXPECT_EQ(a.scene.faces[f].group, b.scene.faces[f].group);
+  }
+}
+
+TEST(ReadMsh, ReadsBinaryFilesAsTheirTextTwins) {
+  for (const bool swapped : {false, true}) {
+    const SceneFile two = read(test::msh_binary_2(swapped));
+    expect_same(two, read(test::msh_text_2()));
+    EXPECT_THAT(two.scene.groups, ElementsAre("the floor", "lid", "physical 9"));
+    EXPECT_THAT(two.warnings, ElementsAre(HasSubstr("1 volume elements are not used")));
+    const SceneFile four = read(test::msh_binary_4(swapped));
+    expect_same(four, read(test::msh_text_4()));
+    EXPECT_THAT(four.scene.groups, ElementsAre("the floor", "lid"));
+    EXPECT_EQ(four.scene.vertices.at(0), Vec3(0.1, 0, 0));
+  }
+}
+
+TEST(ReadMsh, RefusesBinaryFilesThatAreCutShort) {
+  for (const std::string& whole : {test::msh_binary_2(false), test::msh_binary_4(true)})
+    for (std::size_t size = 24; size < whole.find("$EndElements"); size += 7)
+      expect_refused("scene.msh", whole.substr(0, size), {"scene.msh"});
+}
+
+TEST(ReadMsh, RefusesBinaryFilesThatItWouldGetWrong) {
+  const auto refuse = [](const std::string& text, const std::vector<std::string>& parts) {
+    expect_refused("scene.msh", text, parts);
+  };
+  const auto head = [] {
+    test::MshBytes out(false);
+    out.text("$MeshFormat\n2.2 1 8\n").ints(1).text("\n$EndMeshFormat\n");
+    return out.text("$Nodes\n1\n").ints(1).reals(0, 0, 0).text("\n$EndNodes\n");
+  };
+  refuse("$MeshFormat\n4.1 1 4\n", {"4.1 1 4", "8 bytes"});
+  refuse(test::MshBytes(false).text("$MeshFormat\n4.1 1 8\n").ints(2).bytes(),
+         {"order of bytes is 2"});
+  refuse(head().text("$Elements\n1\n").ints(2, 1, 0, 1, 1, 1, 9).text("\n$EndElements\n").bytes(),
+         {"element 1 names node 9"});
+  refuse(head().text("$Elements\n1\n").ints(9, 1, 0, 1, 1, 1, 1, 1, 1, 1).bytes(),
+         {"Mesh.ElementOrder"});
+  refuse(head().text("$Elements\n1\n").ints(2, 5, 0, 1, 1, 1, 1).bytes(),
+         {"5 elements", "1 are left"});
+  refuse(head().text("$Nodes\n-7\n").bytes(), {"-7"});
+  refuse(head().text("$Nodes\n900000000000\n").bytes(), {"cut short"});
+  refuse(head().text("stray\n").bytes(), {"'stray'"});
 }
 
 TEST(ReadMsh, SaysThatANamedGroupHasNoFaces) {

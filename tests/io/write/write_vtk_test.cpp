@@ -139,6 +139,23 @@ TEST_P(WriteVtk, NetFluxesAndTemperaturesAreThereWhereHeatIsGiven) {
   EXPECT_TRUE(std::isnan(kelvin->GetTuple1(1))) << "of a material without one";
 }
 
+TEST_P(WriteVtk, MoreBandsThanChannelsStandBesideTheirSums) {
+  SolveResult result = test::sample_result(1);
+  const auto rows = result.solution.irradiance.rows();
+  result.heat.is_given = true;
+  result.heat.bands.resize(4);
+  EXPECT_EQ(read(write(result))->GetCellData()->GetArray("net_flux_by_band"), nullptr);
+  result.solution.band_radiosity = Eigen::ArrayXXd::Random(rows, 4);
+  result.solution.band_irradiance = Eigen::ArrayXXd::Random(rows, 4);
+  const auto grid = read(write(result));
+  for (int k = 0; k < 4; ++k) {
+    const double net = result.solution.band_radiosity(1, k) - result.solution.band_irradiance(1, k);
+    EXPECT_EQ(grid->GetCellData()->GetArray("net_flux_by_band")->GetComponent(1, k), net);
+    EXPECT_EQ(grid->GetCellData()->GetArray("radiosity_by_band")->GetComponent(1, k),
+              result.solution.band_radiosity(1, k));
+  }
+}
+
 TEST_P(WriteVtk, TheFileSaysHowItCameAbout) {
   SolveResult result = test::sample_result(1);
   result.interrupted = true;

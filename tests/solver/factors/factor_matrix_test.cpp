@@ -2,6 +2,8 @@
 
 #include "solver/factors/mutual_sight.h"
 #include "tests/support/analytic.h"
+#include "tests/support/random.h"
+#include "tests/support/scene_maker.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -138,6 +140,38 @@ TEST(FactorMatrix, RowsOfAConcaveRoomWithAThingInIt) {
   EXPECT_LT((mutual - mutual.transpose()).cwiseAbs().maxCoeff(), 1e-15);
   const FactorMatrix empty = factors(test::l_room(false), 1e-8);
   EXPECT_LT((empty.row_sum - 1).abs().maxCoeff(), 1e-8);
+}
+
+/// A room of 2 × 2 × 1.2 with boxes, some turned, some standing on the floor.
+Scene room_with_boxes(int count, std::uint64_t seed) {
+  test::Random random(seed);
+  test::SceneMaker maker;
+  const Vec3 x(2, 0, 0), y(0, 2, 0), z(0, 0, 1.2), o = Vec3::Zero();
+  for (const Polygon& side : {rectangle(o, x, y), rectangle(o, z, x), rectangle(o, y, z),
+                              rectangle(z, y, x), rectangle(y, x, z), rectangle(x, z, y)})
+    maker.polygon(side);
+  for (int b = 0; b < count; ++b) {
+    const Vec3 low(.25 + b % 2 + random(0, .1), .25 + b / 2 + random(0, .1),
+                   b % 2 == 0 ? random(.1, .3) : 0);
+    const Vec3 high = low + Vec3(random(.2, .4), random(.2, .4), random(.2, .6));
+    if (b % 2 == 1)
+      maker.standing_box(low, high);
+    else
+      maker.turned_box(low, high, random(0, 1));
+  }
+  return maker.scene;
+}
+
+TEST(FactorMatrix, RowsOfRoomsWithBoxesSumToOne) {
+  for (int count = 1; count <= 3; ++count) {
+    const double tolerance = count == 1 ? 1e-4 : 1e-3;
+    const FactorMatrix matrix =
+        factors(room_with_boxes(count, static_cast<std::uint64_t>(count)), tolerance);
+    EXPECT_LT((matrix.row_sum - 1).abs().maxCoeff(), tolerance) << count;
+    // The floor below boxes that stand sees their backs from inside, and nothing else is lost.
+    EXPECT_LT((matrix.space - matrix.backs).abs().maxCoeff(), tolerance) << count;
+    EXPECT_EQ(matrix.report.rows_not_reached, 0) << count;
+  }
 }
 
 TEST(FactorMatrix, RowsOfAnOpenSceneSumToOneWithSpaceFoundOnItsOwn) {

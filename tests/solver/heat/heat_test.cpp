@@ -31,16 +31,35 @@ TEST(Heat, SharesOfBlackBodiesAreThoseOfPlancksLaw) {
 
 TEST(Heat, BandsShareWhatABlackBodySends) {
   const double all = stefan_boltzmann * 1e12;
-  EXPECT_EQ(blackbody_exitance(1000, {})[2], all);
+  EXPECT_EQ(blackbody_exitance(1000, {})[0], all);
   const Band near{"near", true, 0, 3}, far{"far", true, 3, HUGE_VAL}, unknown{"one"};
-  EXPECT_EQ(blackbody_exitance(1000, {unknown})[1], all);
-  const Rgb two = blackbody_exitance(1000, {near, far});
+  EXPECT_EQ(blackbody_exitance(1000, {unknown})[0], all);
+  const Eigen::ArrayXd two = blackbody_exitance(1000, {near, far});
   EXPECT_NEAR(two[0] + two[1], all, 1e-14 * all);
   EXPECT_NEAR(two[0], all * blackbody_share_below(3, 1000), 1e-14 * all);
-  EXPECT_EQ(two[2], 0);
-  const Rgb one = blackbody_exitance(1000, {near});
-  EXPECT_EQ(one[0], one[2]) << "a single band is solved as a grey scene";
+  EXPECT_EQ(blackbody_exitance(1000, {near}).size(), 1);
   EXPECT_NEAR(blackbody_temperature(all), 1000, 1e-12);
+}
+
+TEST(Heat, SlopesOfBandsAreTheirDerivatives) {
+  const std::vector<Band> bands = {
+      {"a", true, 0, 2}, {"b", true, 2, 5}, {"c", true, 7, 50}, {"d", true, 50, HUGE_VAL}};
+  for (const double kelvin : {40., 300., 1500., 6000.}) {
+    const double h = 1e-4 * kelvin;
+    const Eigen::ArrayXd expected =
+        (blackbody_exitance(kelvin + h, bands) - blackbody_exitance(kelvin - h, bands)) / (2 * h);
+    const Eigen::ArrayXd slope = blackbody_slope(kelvin, bands);
+    for (int k = 0; k < 4; ++k)
+      EXPECT_NEAR(slope[k], expected[k], 1e-6 * slope.sum()) << kelvin << " " << k;
+    EXPECT_DOUBLE_EQ(blackbody_slope(kelvin, {})[0], 4 * stefan_boltzmann * std::pow(kelvin, 3));
+  }
+}
+
+TEST(Heat, BandsAreChannelsAsFarAsTheyGo) {
+  EXPECT_TRUE((to_channels(Eigen::ArrayXd::Constant(1, 4), 9) == Rgb(4, 4, 4)).all());
+  EXPECT_TRUE((to_channels(Eigen::Array2d(4, 5), 9) == Rgb(4, 5, 0)).all());
+  EXPECT_TRUE((to_channels(Eigen::Array3d(4, 5, 6), 9) == Rgb(4, 5, 6)).all());
+  EXPECT_TRUE((to_channels(Eigen::Array4d(4, 5, 6, 7), 9) == Rgb(9, 9, 9)).all());
 }
 
 TEST(Heat, UnitsOfLengthAreKnownByNameAndSign) {

@@ -104,4 +104,18 @@ SceneFile read_scene(const fs::path& scene, const fs::path& materials,
   return file;
 }
 
+void require_three_channels(const SceneFile& file, const char* command) {
+  const int bands = bands_of(file.heat);
+  if (bands > most_channels)
+    throw Error(ErrorCode::invalid_input, file.scene.source,
+                fmt::format("the materials have {} bands, and {} knows at most {}; solve knows any "
+                            "number",
+                            bands, command, most_channels));
+  if (balances_bands(file.heat))
+    throw Error(ErrorCode::invalid_input, file.scene.source,
+                fmt::format("a material has a net flux of 0 in {} bands, so that its temperature "
+                            "has to be found; solve does that, {} does not",
+                            bands, command));
+}
+
 }  // namespace halfshade

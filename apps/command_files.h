@@ -51,4 +51,8 @@ void require_folder(const std::filesystem::path& folder);
 SceneFile read_scene(const std::filesystem::path& scene, const std::filesystem::path& materials,
                      const SceneOptions& orientation, CommandFiles files);
 
+/// For commands that know three channels and no balance of heat: throws Error(invalid_input) if
+/// there are more bands, or temperatures to be found from several together.
+void require_three_channels(const SceneFile& file, const char* command);
+
 }  // namespace halfshade

@@ -61,6 +61,7 @@ struct SolveCommand {
   std::filesystem::path factors;      ///< by face, that were saved; empty: they are computed
   double surroundings = 0;            ///< temperature of space, K
   std::filesystem::path progressive;  ///< folder for the stages of shooting; empty: none
+  bool needs_tolerance = false;       ///< of elements that were asked for, too
   SolveOptions options;
   ResultOptions result_options;
 };
@@ -103,7 +104,8 @@ struct RenderCommand {
   std::vector<std::string> mirrors;  ///< groups and materials
   double lens = 0;                   ///< radius, in scene units; 0: all is sharp
   double focus = 0;                  ///< distance of what is sharp
-  double gloss = 0;  ///< share that all surfaces reflect in a lobe of the classic exponent
+  std::optional<Vec3> move;  ///< of the camera while the shutter is open; nothing: it stands still
+  double gloss = 0;          ///< share that all surfaces reflect in a lobe of the classic exponent
 };
 
 struct ProbeCommand {

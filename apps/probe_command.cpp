@@ -177,6 +177,7 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   const CommandFiles files = checked_files(command, context.common);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
+  require_three_channels(file, "probe");
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
   // Contact lines are for elements; exact light needs none.

@@ -89,6 +89,7 @@ TracedRendering traced_scene(const RenderCommand& command, const CommandFiles& f
                              const Context& context) {
   const SceneFile file =
       read_scene(command.input, command.materials, context.common.orientation, files);
+  require_three_channels(file, "render");
   TracedRendering traced =
       render_traced(sound_for_picture(file.scene), file.scene.cameras, command, context.progress);
   context.progress_ends();

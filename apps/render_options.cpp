@@ -84,6 +84,10 @@ void add_methods(CLI::App& app, RenderCommand& command) {
   add_positive(app, "--lens", command.lens,
                "Radius of a lens, in scene units: what is not at --focus is blurred");
   add_positive(app, "--focus", command.focus, "Distance of what is sharp, with --lens");
+  add_vector(
+      app, "--move", command.move,
+      "Blur by motion: the camera moves so far while the shutter is open, at an even speed,\n"
+      "and keeps its direction");
   add_positive(app, "--gloss", command.gloss,
                "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
 }

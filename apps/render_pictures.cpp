@@ -56,12 +56,15 @@ void require_meaning_of_method(const RenderCommand& command) {
     refuse("--method traces rays through a scene; give the scene, not its result");
   if (is_traced && (!command.curves.empty() || command.options.mesh_lines))
     refuse("--mesh and --curves are drawn over results, not over traced rays");
-  const bool is_distributed = command.lens > 0 || command.gloss > 0;
-  if (is_distributed && !is_traced && !has_format(command.input, shaded_formats))
-    refuse("--lens and --gloss are of light: give a result, or --method reference or classic");
-  if (is_distributed && (!command.quantity.empty() || !command.compare.empty() ||
-                         !command.curves.empty() || command.options.mesh_lines))
-    refuse("--lens and --gloss are of the light itself, without --quantity, --compare or lines");
+  const bool distributed = is_distributed(command);
+  if (distributed && !is_traced && !has_format(command.input, shaded_formats))
+    refuse(
+        "--lens, --move and --gloss are of light: give a result, or --method reference or classic");
+  if (distributed && (!command.quantity.empty() || !command.compare.empty() ||
+                      !command.curves.empty() || command.options.mesh_lines))
+    refuse(
+        "--lens, --move and --gloss are of the light itself, without --quantity, --compare or "
+        "lines");
   if ((command.lens > 0) != (command.focus > 0))
     refuse("--lens, its radius, and --focus, the distance of what is sharp, go together");
   if (command.gloss > 0 && is_traced)
@@ -108,6 +111,10 @@ PictureOptions with_curves(const RenderCommand& command) {
 }
 
 }  // namespace
+
+bool is_distributed(const RenderCommand& command) {
+  return command.lens > 0 || command.move || command.gloss > 0;
+}
 
 void require_meaning(const RenderCommand& command) {
   require_meaning_of_method(command);

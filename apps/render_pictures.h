@@ -15,6 +15,9 @@ struct Rendering {
 /// have no meaning together.
 void require_meaning(const RenderCommand& command);
 
+/// Whether the light is seen by distributed rays.
+bool is_distributed(const RenderCommand& command);
+
 /// The camera that the options choose, for a mesh from the input. Throws Error(usage) if there is
 /// none of that name or it cannot be used.
 Camera chosen_camera(const ShadedMesh& mesh, const RenderCommand& command);

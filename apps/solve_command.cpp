@@ -9,6 +9,7 @@
 #include "meshing/core/error.h"
 #include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/face_radiosity.h"
+#include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/net_exchange.h"
 
 #include <fmt/format.h>
@@ -110,6 +111,15 @@ bool is_worth_writing(const SolveResult& result) {
   return !result.interrupted || (result.solution.irradiance > 0).any();
 }
 
+/// Says so where elements that were asked for are too few for a tolerance that was asked for, too.
+void require_tolerance(const SolveCommand& command, SolveResult& result) {
+  const double tolerance = command.options.tolerance;
+  if (command.needs_tolerance && result.not_reached.empty() && result.relative_error > tolerance)
+    result.not_reached = fmt::format(
+        "with these elements the error is about {:.2g} of the irradiance instead of {:.2g}",
+        result.relative_error, tolerance);
+}
+
 ExitCode exit_code(const SolveResult& result) {
   if (result.interrupted) return exit_interrupted;
   return result.radiosity.converged && result.not_reached.empty() ? exit_done : exit_not_accurate;
@@ -178,7 +188,9 @@ SolveResult solved(const SceneFile& file, const SolveCommand& command, const Con
     if (command.factors.empty()) return solve(scene, command.options, context.progress);
     return solve_by_faces(scene, read_factors(command.factors), command.options, context.progress);
   };
-  if (!command.factors.empty() && !heat.surroundings) require_emitter(file.scene);
+  // Adiabatic faces are tried alone, and others may be as warm as the surroundings.
+  const bool may_be_dark = heat.surroundings || balances_bands(heat);
+  if (!command.factors.empty() && !may_be_dark) require_emitter(file.scene);
   return solve_net_exchange(file.scene, heat, solve_scene);
 }
 
@@ -195,7 +207,8 @@ ExitCode run(const SolveCommand& command, const Context& context) {
   if (!command.points.empty()) table = read_points(command.points);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const SolveResult result = solved(file, command, context);
+  SolveResult result = solved(file, command, context);
+  require_tolerance(command, result);
   context.progress_ends();
   print_warnings(file, result.warnings, context);
   if (!is_worth_writing(result)) return end_without_results();

@@ -82,6 +82,7 @@ ExitCode run(const StudyCommand& command, const Context& context) {
   require_place(context.common.json);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
+  require_three_channels(file, "study");
   const PreparedScene prepared(file.scene, context.progress);
   StudyOptions options = command.options;
   options.solve = solve_words(command, context.common);

@@ -13,7 +13,7 @@ std::vector<std::string> method_names() {
 }
 
 std::string method_help() {
-  std::string help = "Methods, separated by commas (default: the first four):";
+  std::string help = "Methods, separated by commas (default: the first six):";
   for (const StudyMethod& method : study_methods())
     (((help += "\n") += method.name) += ": ") += method.what;
   return help;
@@ -59,7 +59,7 @@ void add_study(CLI::App& program, StudyCommand& command, CommonOptions& common) 
       "Cases are runs of their own, so that their memory and time are measured, and can be cut\n"
       "short. Interrupted, the study goes on where it was when it is started again.\n\n"
       "Examples:\n"
-      "  halfshade study data/s1.obj -o s1_study --direct --tolerances 0.1,0.01\n"
+      "  halfshade study data/s1.obj -o s1_study --direct --tolerances 0.1,0.03\n"
       "  halfshade study data/bars.obj -o bars_study --methods fields,matrix --tolerances 0.1 "
       "--points 100 "
       "--time-limit 30\n\n"));

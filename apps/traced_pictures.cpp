@@ -35,6 +35,7 @@ CameraRays camera_rays(const detail::View& view, const RenderCommand& command) {
     rays.lens = command.lens;
     rays.focus = command.focus;
   }
+  if (command.move) rays.move = *command.move;
   return rays;
 }
 
@@ -69,8 +70,6 @@ TracedRendering render_traced(const SoundScene& scene, const std::vector<Camera>
   classic.mirrors = mirrors(scene, command.mirrors);
   return finished(classic_picture(scene, rays, classic, pixels, progress), camera);
 }
-
-bool is_distributed(const RenderCommand& command) { return command.lens > 0 || command.gloss > 0; }
 
 TracedRendering render_distributed(const ShadedMesh& mesh, const RenderCommand& command,
                                    const Progress& progress) {

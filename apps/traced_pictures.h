@@ -17,11 +17,8 @@ struct TracedRendering {
 TracedRendering render_traced(const SoundScene& scene, const std::vector<Camera>& cameras,
                               const RenderCommand& command, const Progress& progress);
 
-/// Whether a picture of a result takes distributed rays.
-bool is_distributed(const RenderCommand& command);
-
-/// The light of a solution by distributed rays (Cook, Porter and Carpenter 1984): a lens, glossy
-/// reflections of the solution in all surfaces, once. Throws as chosen_camera.
+/// The light of a solution by distributed rays (Cook, Porter and Carpenter 1984): a lens, a camera
+/// that moves, glossy reflections of the solution in all surfaces, once. Throws as chosen_camera.
 TracedRendering render_distributed(const ShadedMesh& mesh, const RenderCommand& command,
                                    const Progress& progress);
 

@@ -115,7 +115,7 @@ double area_of(const ShadedMesh& mesh) {
 }
 
 [[noreturn]] void refuse_geometry(const std::string& why) {
-  throw Error(ErrorCode::invalid_input, "render",
+  throw Error(ErrorCode::invalid_input, {},
               "only results of the same scene can be compared: " + why);
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t usual_methods = 4;
+constexpr std::size_t usual_methods = 6;
 constexpr double usual_tolerances[] = {0.1, 0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4};
 /// A case takes about so many times as long as the one before it.
 constexpr double usual_growth = 3;

@@ -11,7 +11,7 @@ struct StudyOptions {
   std::vector<std::string> solve;    ///< the program, "solve", the scene and what else is the
                                      ///< same in all cases
   std::string key;                   ///< says what is studied: a study goes on if it is the same
-  std::vector<std::string> methods;  ///< names; empty: the first four
+  std::vector<std::string> methods;  ///< names; empty: the first six
   std::vector<double> tolerances;    ///< > 0; empty: 0.1, 0.03, … 1e-4
   double time_limit = 60;            ///< seconds for each case, > 0
   StudyReferenceOptions reference;

@@ -1,3 +1,4 @@
+#include "io/study/study_gains.h"
 #include "io/study/study_page.h"
 
 #include <algorithm>
@@ -58,12 +59,8 @@ std::vector<StudyChart> study_charts(const Study& study, const std::string& scen
 }
 
 double seconds_to_reach(const Study& study, const std::string& method, double error) {
-  double least = 0;
-  for (const StudyRow& row : study.rows)
-    if (row.one.method == method && has_result(row) && row.total.l2 <= error &&
-        (least == 0 || row.seconds < least))
-      least = row.seconds;
-  return least;
+  const StudyRow* fastest = fastest_case(study, method, error);
+  return fastest ? fastest->seconds : 0;
 }
 
 }  // namespace halfshade

@@ -64,6 +64,11 @@ Words constant_elements(double tolerance, const Words& more) {
 
 Words matrix(double tolerance) { return constant_elements(tolerance, {}); }
 
+/// The time of the solver alone is that of the stage "radiosity".
+Words solved_by(const char* solver, double tolerance) {
+  return constant_elements(tolerance, {"--solver", solver});
+}
+
 Words interpolated(double tolerance) { return constant_elements(tolerance, {"--interpolate"}); }
 
 /// A tenth of the elements as patches; the steps between elements are some times the error.
@@ -92,19 +97,27 @@ const std::vector<StudyMethod>& study_methods() {
        without_curves},
       {"uniform", "elements of order 2, all of one size, 4 / tolerance of them", uniform},
       {"matrix", "constant elements, 1 / tolerance squared of them, and a matrix of form factors",
-       matrix},
+       matrix, true},
+      {"hemicube", "as matrix, all light by hemicubes of 64 pixels along an edge: how it began",
+       hemicube, true},
+      {"exact-factors", "as matrix, all light by factors to exactly visible parts of elements",
+       exact_factors, true},
       {"adaptive-linear", "elements of order 1, halved where the error is, without curves",
        adaptive_linear},
       {"adaptive-constant", "constant elements, halved where the error is, without curves",
        adaptive_constant},
-      {"interpolated", "as matrix, then linear between values at corners of elements",
-       interpolated},
+      {"interpolated", "as matrix, then linear between values at corners of elements", interpolated,
+       true},
       {"subdivided", "a tenth of them as patches, split in four twice where the light is steep",
-       subdivided},
-      {"hemicube", "as matrix, all light by hemicubes of 64 pixels along an edge: how it began",
-       hemicube},
-      {"exact-factors", "as matrix, all light by factors to exactly visible parts of elements",
-       exact_factors}};
+       subdivided, true},
+      {"jacobi", "as matrix, solved by gathering: all elements from those of the sweep before",
+       [](double tolerance) { return solved_by("jacobi", tolerance); }, true},
+      {"gauss-seidel", "as matrix, solved by gathering with the newest values",
+       [](double tolerance) { return solved_by("gauss-seidel", tolerance); }, true},
+      {"southwell", "as matrix, solved by shooting: the element with most power left to send first",
+       [](double tolerance) { return solved_by("southwell", tolerance); }, true},
+      {"southwell-ambient", "the same, with an ambient term for what is left to send",
+       [](double tolerance) { return solved_by("southwell-ambient", tolerance); }, true}};
   return methods;
 }
 

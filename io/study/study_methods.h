@@ -12,6 +12,7 @@ struct StudyMethod {
   std::string_view what;  ///< a phrase for those who read the study
   /// Options of `solve` for a tolerance; empty if the method cannot do it.
   std::vector<std::string> (*options)(double tolerance);
+  bool classic = false;  ///< constant elements and a matrix of form factors
 };
 
 /// All there are, the default one first.

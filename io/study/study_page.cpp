@@ -1,27 +1,20 @@
 #include "io/study/study_page.h"
 
-#include "io/picture/picture.h"
-#include "io/read/read_text.h"
 #include "io/study/html_text.h"
+#include "io/study/study_gains.h"
+#include "io/study/study_pictures.h"
 #include "io/study/study_run.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace halfshade {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace detail;
 
-constexpr double targets[] = {0.1, 0.03, 0.01, 0.003, 0.001, 3e-4, 1e-4, 1e-5, 1e-6};
-constexpr int picture_pixels = 420, picture_samples = 9;
-/// Times that differ by less may as well be the same: other programs run, too.
-constexpr double like_times = 1.2;
 constexpr const char* end_words[] = {"done", "short of the tolerance", "took too long", "failed"};
 
 constexpr const char* style = R"(
@@ -36,15 +29,6 @@ figure{display:inline-block;width:46%;margin:.5em 1%;vertical-align:top}
 figcaption{font-size:13px;color:#555}.scroll{overflow-x:auto}.quiet{color:#666}
 )";
 
-std::vector<std::string> methods_in(const Study& study) {
-  std::vector<std::string> names;
-  for (const StudyMethod& method : study_methods())
-    if (std::any_of(study.rows.begin(), study.rows.end(),
-                    [&](const StudyRow& row) { return row.one.method == method.name; }))
-      names.emplace_back(method.name);
-  return names;
-}
-
 std::string methods_list(const Study& study) {
   std::string html = "<ul>\n";
   for (const std::string& name : methods_in(study))
@@ -52,24 +36,12 @@ std::string methods_list(const Study& study) {
   return html + "</ul>\n";
 }
 
-/// Errors that some method reached and not all did better than at once.
-std::vector<double> reached_targets(const Study& study, const std::vector<std::string>& methods) {
-  std::vector<double> result;
-  for (const double target : targets)
-    if (target >= study.reference.resolution() &&
-        std::any_of(methods.begin(), methods.end(), [&](const std::string& name) {
-          return seconds_to_reach(study, name, target) > 0;
-        }))
-      result.push_back(target);
-  return result;
-}
-
 std::string reach_table(const Study& study) {
   const std::vector<std::string> methods = methods_in(study);
   std::string html = "<table><tr><th>error at most</th>";
   for (const std::string& name : methods) html += fmt::format("<th>{}</th>", name);
   html += "</tr>\n";
-  for (const double target : reached_targets(study, methods)) {
+  for (const double target : reached_errors(study)) {
     double best = 0;
     for (const std::string& name : methods)
       if (const double s = seconds_to_reach(study, name, target); s > 0 && (best == 0 || s < best))
@@ -83,35 +55,6 @@ std::string reach_table(const Study& study) {
     html += "</tr>\n";
   }
   return html + "</table>\n";
-}
-
-/// Where another method is faster than the default, in words.
-std::string where_the_default_loses(const Study& study) {
-  const std::vector<std::string> methods = methods_in(study);
-  const std::string usual(study_methods().front().name);
-  if (methods.size() < 2 || methods.front() != usual) return {};
-  std::string html;
-  for (const double target : reached_targets(study, methods)) {
-    const double own = seconds_to_reach(study, usual, target);
-    for (std::size_t k = 1; k < methods.size(); ++k) {
-      const double other = seconds_to_reach(study, methods[k], target);
-      if (other <= 0 || (own > 0 && like_times * other >= own)) continue;
-      html += own > 0 ? fmt::format(
-                            "<li>At {:g}, <code>{}</code> is {:.2g} times as fast as "
-                            "<code>{}</code>.</li>\n",
-                            target, methods[k], own / other, usual)
-                      : fmt::format(
-                            "<li><code>{}</code> reaches {:g}, <code>{}</code> does not."
-                            "</li>\n",
-                            methods[k], target, usual);
-    }
-  }
-  if (html.empty())
-    return fmt::format(
-        "<p>The default, <code>{}</code>, is the fastest at each of these, or as good as "
-        "that.</p>\n",
-        usual);
-  return "<p>The default is not the fastest everywhere:</p>\n<ul>\n" + html + "</ul>\n";
 }
 
 std::string number(double value, const char* format = "{:.2g}") {
@@ -139,7 +82,7 @@ std::string case_table(const Study& study) {
     if (reflects)
       html +=
           fmt::format("<td>{}</td><td>{}</td>", number(row.direct.l2), number(row.reflected.l2));
-    html += fmt::format("<td>{}</td><td>{}</td><td class=\"text quiet\">{}</td></tr>\n",
+    html += fmt::format("<td>{}</td><td>{}</td><td class=\"text name quiet\">{}</td></tr>\n",
                         number(row.estimated), number(row.effectivity()),
                         row.end == CaseEnd::done ? "" : end_words[static_cast<int>(row.end)]);
   }
@@ -176,35 +119,6 @@ std::string reference_text(const Study& study, const StudyOptions& options) {
   return html;
 }
 
-/// One of each method, in its finest case; all as bright as the first.
-std::string pictures(const Study& study, const StudyOptions& options) {
-  std::string html;
-  PictureOptions look;
-  look.width = look.height = picture_pixels;
-  look.samples = picture_samples;
-  for (const std::string& name : methods_in(study)) {
-    const StudyRow* finest = nullptr;
-    for (const StudyRow& row : study.rows)
-      if (row.one.method == name && has_result(row) && fs::exists(result_of(row.one, options)))
-        finest = &row;
-    if (!finest) continue;
-    const ShadedMesh mesh = read_shaded(result_of(finest->one, options));
-    const Picture picture = draw(mesh, default_camera(mesh), look);
-    look.exposure = picture.exposure;
-    const fs::path file = study_file(options, name + ".png");
-    write_png(picture, file);
-    html += fmt::format(
-        "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption><code>{0}</code> "
-        "at tolerance {2:g}: error {3:.2g}, {4:.3g} s</figcaption></figure>\n",
-        name, base64(reading::read_bytes(file)), finest->one.tolerance, finest->total.l2,
-        finest->seconds);
-  }
-  return html.empty() ? html
-                      : "<h2>Pictures</h2>\n<p>Each method's finest result; all as bright as the "
-                        "first.</p>\n" +
-                            html;
-}
-
 std::string commands(const Study& study, const StudyOptions& options, const StudyPageInfo& info) {
   std::string html =
       fmt::format("<h2>To repeat it</h2>\n<pre>{}</pre>\n<p>Each case by itself:</p>\n<pre>",
@@ -233,7 +147,7 @@ std::string study_page(const Study& study, const StudyOptions& options, const St
       "<h2>Time for an error</h2>\n<p>Of each method's fastest case that is at most so far "
       "off. Run times are those of the stages of <code>solve</code>, from polygons in memory "
       "to light on elements.</p>\n";
-  html += reach_table(study) + where_the_default_loses(study);
+  html += reach_table(study) + where_the_default_loses(study) + what_the_default_gains(study);
   html += "<h2>Methods</h2>\n" + methods_list(study);
   html += "<h2>What is right, and how sure that is</h2>\n" + reference_text(study, options);
   html += "<h2>More charts</h2>\n";
@@ -244,7 +158,7 @@ std::string study_page(const Study& study, const StudyOptions& options, const St
       "longer, the finer ones of its method were left out. Unknowns are coefficients for each "
       "channel of direct light, or constant elements.</p>\n",
       case_table(study), options.time_limit);
-  html += pictures(study, options) + commands(study, options, info);
+  html += study_pictures(study, options) + commands(study, options, info);
   return html + "</body></html>\n";
 }
 

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 double random_number(std::size_t point, std::uint64_t use) {
-  return static_cast<double>(mix_bits(mix_bits(point) + use) >> 11) * 0x1p-53;
+  return unit_share(mix_bits(mix_bits(point) + use));
 }
 
 std::vector<SurfacePoint> spread_points(const SoundScene& scene, int count) {

@@ -121,6 +121,14 @@ std::size_t place_of_method(const std::string& name) {
   return static_cast<std::size_t>(found - all.begin());
 }
 
+constexpr const char* what_columns_mean =
+    "# seconds and cpu_seconds: of the stages of solve, each in `stages` as name wall/cpu;\n"
+    "# process_seconds and peak_memory_bytes: of the whole run, with reading and writing\n"
+    "# elements: of the result and of reflected light's own mesh; unknowns: of a channel\n"
+    "# error: L2 of the irradiance, max_error: the largest, both relative to the root of the mean\n"
+    "# square of all irradiance at the points; the same of direct and reflected light alone\n"
+    "# effectivity: estimated_error / error\n";
+
 }  // namespace
 
 bool has_result(const StudyRow& row) { return std::isfinite(row.total.l2); }
@@ -162,7 +170,8 @@ void write_study(const std::vector<StudyRow>& rows, const std::string& key, cons
     return std::pair(place_of_method(a.one.method), -a.one.tolerance) <
            std::pair(place_of_method(b.one.method), -b.one.tolerance);
   });
-  std::string bytes = fmt::format("# {}\n{}\n", key, fmt::join(columns(), ","));
+  std::string bytes =
+      fmt::format("# {}\n{}{}\n", key, what_columns_mean, fmt::join(columns(), ","));
   for (const StudyRow& row : sorted) bytes += fmt::format("{}\n", fmt::join(cells_of(row), ","));
   write_atomically(path, bytes);
 }

@@ -53,9 +53,10 @@ struct TextTable {
 /// Throws Error(invalid_input) with file and line for rows of another length.
 TextTable read_table(const std::filesystem::path& path);
 
-/// Writes rows, sorted by method and tolerance, as a table; `key` stands in its first line. Columns
-/// are those of StudyRow with "error", "max_error" for the total, then the same of direct and
-/// reflected light, and effectivity. Cells are empty where nothing is known.
+/// Writes rows, sorted by method and tolerance, as a table; `key` stands in its first line, what
+/// columns mean in those after it. Columns are those of StudyRow with "error", "max_error" for the
+/// total, then the same of direct and reflected light, and effectivity. Cells are empty where
+/// nothing is known.
 void write_study(const std::vector<StudyRow>& rows, const std::string& key,
                  const std::filesystem::path& path);
 

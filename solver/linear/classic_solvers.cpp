@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace halfshade {
@@ -79,7 +80,7 @@ class Southwell {
  private:
   /// Share of the light beyond which stages look alike.
   static constexpr double nothing_left = 1e-4;
-  static constexpr double stage_step = 1.4142135623730951;
+  static constexpr double stage_step = std::numbers::sqrt2;
 
   double ambient() const { return ambient_ ? shooting_.ambient_irradiance() : 0; }
 

@@ -169,7 +169,7 @@ Solution solve_radiosity(const LightExchange& exchange, const ChannelArray& rho,
   report = {};
   report.channels = is_grey(rho) && is_grey(exitance) && !options.all_channels ? 1 : 3;
   const ChannelArray dark = ChannelArray::Zero(rho.rows(), 3);
-  Solution solution{rho, exitance, dark, dark, dark, {}, {}};
+  Solution solution{rho, exitance, dark, dark, dark, {}, {}, {}, {}};
   std::array<std::vector<ShotStage>, 3> stages;
   for (int c = 0; c < report.channels; ++c) {
     progress("radiosity", c / static_cast<double>(report.channels));

@@ -50,7 +50,12 @@ Eigen::VectorXd solved(const PatchSystem& system, const RadiosityOptions& option
   report.iterations = static_cast<int>(solver.iterations());
   report.residual = solver.error();
   report.history = {report.residual};
-  report.error = report.residual / (1 - std::min(system.rho.maxCoeff(), 0.999999));
+  // Nothing in the inverse is negative, so that its norm is what it makes of ones.
+  const Eigen::VectorXd left = system.first - matrix * R;
+  const Eigen::VectorXd of_ones = solver.solve(Eigen::VectorXd::Ones(R.size()));
+  const double largest = R.cwiseAbs().maxCoeff();
+  if (largest > 0)
+    report.error = of_ones.cwiseAbs().maxCoeff() * left.cwiseAbs().maxCoeff() / largest;
   return R;
 }
 
@@ -61,7 +66,7 @@ Solution solve_two_levels(const TwoLevels& levels, const ChannelArray& rho,
                           const RadiosityOptions& options, RadiosityReport& report) {
   const Sparse mean = averaging(levels), C = mean * levels.factors;
   const Sparse& F = levels.factors;
-  Solution solution{rho, exitance, {}, {}, direct_irradiance, {}, {}};
+  Solution solution{rho, exitance, {}, {}, direct_irradiance, {}, {}, {}, {}};
   if (direct_irradiance.rows() == 0)
     solution.direct_irradiance = (F * (mean * exitance.matrix()).eval()).array();
   solution.irradiance = solution.direct_irradiance;

@@ -19,7 +19,8 @@ struct TwoLevels {
 /// elements of each. `rho`, `exitance` and `direct_irradiance` have one row an element; the last
 /// has none if it is F E. Elements of a patch have one ρ and E. With `bounces` the Neumann series
 /// is summed instead. Of the report it sets iterations, history, residual and error of the
-/// channels, and converged. Its error estimate is left empty.
+/// channels, and converged. The error bounds that of the reflected radiosity, relative, both in the
+/// maximum norm. The solution's error estimate is left empty.
 Solution solve_two_levels(const TwoLevels& levels, const ChannelArray& rho,
                           const ChannelArray& exitance, const ChannelArray& direct_irradiance,
                           const RadiosityOptions& options, RadiosityReport& report);

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 namespace halfshade {
 namespace {
@@ -55,8 +56,11 @@ struct BatchStatistics {
   }
 };
 
+/// Where a path begins, by numbers of its own.
+using Place = std::function<ReferencePoint(const SampleNumbers& numbers)>;
+
 /// Stopped: nothing.
-BatchStatistics light_at(const LightPaths& paths, const ReferencePoint& point, std::uint64_t seed,
+BatchStatistics light_at(const LightPaths& paths, const Place& place, std::uint64_t seed,
                          const ReferenceOptions& options, const Progress& progress) {
   const int samples = samples_of_batch(options);
   BatchStatistics statistics;
@@ -65,8 +69,10 @@ BatchStatistics light_at(const LightPaths& paths, const ReferencePoint& point, s
     ArrivingLight mean;
     const std::uint64_t batch_seed = mix_bits(seed + static_cast<std::uint64_t>(b));
     for (int s = 0; s < samples; ++s) {
-      const SampleNumbers numbers(batch_seed, static_cast<std::uint32_t>(s));
-      const ArrivingLight one = paths.trace(point, options.bounces, numbers);
+      const auto sample = static_cast<std::uint32_t>(s);
+      const ReferencePoint point = place(SampleNumbers(mix_bits(batch_seed + 1), sample));
+      const ArrivingLight one =
+          paths.trace(point, options.bounces, SampleNumbers(batch_seed, sample));
       for_parts([&](auto part) { mean.*part += one.*part / samples; });
     }
     statistics.add(mean);
@@ -74,23 +80,23 @@ BatchStatistics light_at(const LightPaths& paths, const ReferencePoint& point, s
   return statistics;
 }
 
-}  // namespace
-
-ReferenceLight reference_light(const SoundScene& scene, std::span<const ReferencePoint> points,
-                               const ReferenceOptions& options, const Progress& progress) {
+/// `place_of(k)`: where paths of the k-th value begin.
+ReferenceLight light_at_all(const SoundScene& scene, std::size_t count,
+                            const std::function<Place(std::size_t)>& place_of,
+                            const ReferenceOptions& options, const Progress& progress) {
   check(options);
   const LightPaths paths(scene);
   ReferenceLight light;
-  light.values.resize(points.size());
-  light.standard_errors.resize(points.size());
+  light.values.resize(count);
+  light.standard_errors.resize(count);
   light.batches = options.batches;
   light.samples = options.batches * samples_of_batch(options);
   std::atomic<bool> each{true};
   const bool all = parallel_for(
-      points.size(),
+      count,
       [&](std::size_t k) {
         const std::uint64_t seed = mix_bits(mix_bits(options.seed) + options.first + k);
-        const BatchStatistics found = light_at(paths, points[k], seed, options, progress);
+        const BatchStatistics found = light_at(paths, place_of(k), seed, options, progress);
         if (found.count == 0) {
           each = false;
           return;
@@ -101,6 +107,40 @@ ReferenceLight reference_light(const SoundScene& scene, std::span<const Referenc
       progress, "reference light");
   light.complete = all && each;
   return light;
+}
+
+Vec3 doubled_area(const ReferenceTriangle& t) { return (t[1] - t[0]).cross(t[2] - t[0]); }
+
+/// Evenly over a triangle: the half of the unit square beyond its diagonal is turned back.
+ReferencePoint point_of(const ReferenceTriangle& t, const Vec2& numbers) {
+  Vec2 p = numbers;
+  if (p.sum() > 1) p = Vec2::Ones() - p;
+  return {t[0] + p.x() * (t[1] - t[0]) + p.y() * (t[2] - t[0]), doubled_area(t).normalized()};
+}
+
+}  // namespace
+
+ReferenceLight reference_light(const SoundScene& scene, std::span<const ReferencePoint> points,
+                               const ReferenceOptions& options, const Progress& progress) {
+  const auto place_of = [&](std::size_t k) -> Place {
+    return [&point = points[k]](const SampleNumbers&) { return point; };
+  };
+  return light_at_all(scene, points.size(), place_of, options, progress);
+}
+
+ReferenceLight reference_means(const SoundScene& scene,
+                               std::span<const ReferenceTriangle> triangles,
+                               const ReferenceOptions& options, const Progress& progress) {
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (!(doubled_area(triangles[k]).norm() > 0))
+      throw Error(ErrorCode::contract, "reference_means",
+                  fmt::format("triangle {} has no area", k));
+  const auto place_of = [&](std::size_t k) -> Place {
+    return [&triangle = triangles[k]](const SampleNumbers& numbers) {
+      return point_of(triangle, numbers.pair(0));
+    };
+  };
+  return light_at_all(scene, triangles.size(), place_of, options, progress);
 }
 
 }  // namespace halfshade

@@ -3,6 +3,7 @@
 #include "meshing/core/progress.h"
 #include "meshing/core/sound_scene.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -22,20 +23,24 @@ struct ArrivingLight {
   Rgb total = Rgb::Zero();      ///< both
 };
 
+/// A triangle that light arrives at; its front sees its corners counter-clockwise.
+using ReferenceTriangle = std::array<Vec3, 3>;
+
 struct ReferenceOptions {
-  int samples = 1024;  ///< paths from a point, ≥ 1; rounded up to `batches` times a power of two
-  int batches = 32;    ///< ≥ 2, independent of each other: they tell the standard error
-  int bounces = -1;    ///< −1: all; n ≥ 0: light that arrives after at most n reflections
+  int samples =
+      1024;  ///< paths from a point or triangle, ≥ 1; rounded up to `batches` times a power of two
+  int batches = 32;         ///< ≥ 2, independent of each other: they tell the standard error
+  int bounces = -1;         ///< −1: all; n ≥ 0: light that arrives after at most n reflections
   std::uint64_t seed = 0;   ///< others give independent results
-  std::uint64_t first = 0;  ///< number of the first point, for lists that are worked on in parts
+  std::uint64_t first = 0;  ///< number of the first one, for lists that are worked on in parts
 };
 
 struct ReferenceLight {
-  std::vector<ArrivingLight> values;           ///< one a point
+  std::vector<ArrivingLight> values;           ///< one a point or triangle
   std::vector<ArrivingLight> standard_errors;  ///< of `values`
-  int samples = 0;                             ///< from each point
+  int samples = 0;                             ///< from each
   int batches = 0;
-  /// False if stopped: values of points that were not reached are 0, with a standard error of 0.
+  /// False if stopped: values of those that were not reached are 0, with a standard error of 0.
   bool complete = true;
 };
 
@@ -51,6 +56,12 @@ struct ReferenceLight {
 /// About 1 µs a ray, two a bounce. Throws Error(contract) for options out of range, and
 /// Error(invalid_input) where light is never absorbed.
 ReferenceLight reference_light(const SoundScene& scene, std::span<const ReferencePoint> points,
+                               const ReferenceOptions& options, const Progress& progress = {});
+
+/// Mean irradiance over triangles, as elements have it: the same from random points of each, spread
+/// evenly over it. Throws Error(contract), for triangles without an area, too.
+ReferenceLight reference_means(const SoundScene& scene,
+                               std::span<const ReferenceTriangle> triangles,
                                const ReferenceOptions& options, const Progress& progress = {});
 
 }  // namespace halfshade

@@ -19,6 +19,8 @@ void check_pixels(const CameraRays& camera, const PixelOptions& options) {
     throw Error(
         ErrorCode::contract, "trace_pixels",
         fmt::format("a lens of radius {} with its focus at {} is none", camera.lens, camera.focus));
+  if (!camera.move.allFinite())
+    throw Error(ErrorCode::contract, "trace_pixels", "the camera's move is not finite");
   if (camera.width < 1 || camera.height < 1 || options.samples < 1 || options.batches < 2)
     throw Error(ErrorCode::contract, "trace_pixels",
                 fmt::format("{} samples in {} batches of {} x {} pixels are out of range",
@@ -29,13 +31,14 @@ struct LensRay {
   Vec3 origin, direction;  ///< of unit length
 };
 
-LensRay lens_ray(const CameraRays& camera, const Vec2& pixel, const Vec2& on_lens) {
-  const Vec3 ray = camera.ray(pixel);
-  if (!(camera.lens > 0)) return {camera.origin, ray.normalized()};
+/// `time`: 0 when the shutter opens, 1 when it closes.
+LensRay lens_ray(const CameraRays& camera, const Vec2& pixel, const Vec2& on_lens, double time) {
+  const Vec3 ray = camera.ray(pixel), origin = camera.origin + time * camera.move;
+  if (!(camera.lens > 0)) return {origin, ray.normalized()};
   const double r = camera.lens * std::sqrt(on_lens.x()), angle = 2 * std::numbers::pi * on_lens.y();
   const Vec3 aside = r * (std::cos(angle) * camera.right.normalized() +
                           std::sin(angle) * camera.down.normalized());
-  return {camera.origin + aside, (camera.focus * ray - aside).normalized()};
+  return {origin + aside, (camera.focus * ray - aside).normalized()};
 }
 
 /// One pixel's rays, a batch at a time.
@@ -50,7 +53,8 @@ struct PixelLook {
     for (int s = 0; s < samples; ++s) {
       const auto sample = static_cast<std::uint32_t>(s);
       const SampleNumbers of_camera(mix_bits(seed + 1), sample);
-      const LensRay ray = lens_ray(camera, pixel + of_camera.pair(0), of_camera.pair(1));
+      const LensRay ray =
+          lens_ray(camera, pixel + of_camera.pair(0), of_camera.pair(1), of_camera.number(2));
       const SeenLight one = look(ray.origin, ray.direction, SampleNumbers(seed, sample));
       mean.radiance += one.radiance / samples;
       mean.emits = mean.emits || one.emits;

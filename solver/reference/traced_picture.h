@@ -16,6 +16,7 @@ struct CameraRays {
   int width = 0, height = 0;  ///< pixels, ≥ 1
   double lens = 0;            ///< radius, ≥ 0: what is nearer or farther than `focus` is blurred
   double focus = 1;           ///< distance along the axis, > 0
+  Vec3 move = Vec3::Zero();   ///< way of the origin while the shutter is open, at an even speed
 
   Vec3 ray(const Vec2& pixel) const { return corner + pixel.x() * right + pixel.y() * down; }
 };
@@ -51,8 +52,8 @@ struct TracedPicture {
 using Look = std::function<SeenLight(const Vec3& origin, const Vec3& direction,
                                      const SampleNumbers& numbers)>;
 
-/// Looks through every pixel at random places, spread evenly: edges are smooth; and from random
-/// places of the lens (Cook, Porter and Carpenter 1984). On all threads;
+/// Looks through every pixel at random places, spread evenly: edges are smooth; from random places
+/// of the lens, and at random times of its move (Cook, Porter and Carpenter 1984). On all threads;
 /// what a pixel gets does not depend on their number. Throws Error(contract) for options out of
 /// range.
 TracedPicture trace_pixels(const CameraRays& camera, const PixelOptions& options, const Look& look,

@@ -188,6 +188,21 @@ TEST_F(Render, RaysAreDistributedOverASolution) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_GT(report().at("relative_standard_error").get<double>(), 0);
   EXPECT_TRUE(exists("l.png"));
+  const auto moved = [&](const char* name, const char* way) {
+    EXPECT_EQ(render({"a.vtu", "-o", name, "--move", "0", way, "0", "--exposure", "1"}).exit_code,
+              0);
+    return test::contents(folder_.path() / name);
+  };
+  const std::string still = moved("still.png", "0"), blurred = moved("blurred.png", "0.5");
+  EXPECT_NE(blurred, still);
+  EXPECT_EQ(moved("again.png", "0.5"), blurred) << "the same bytes";
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--move", "1", "0"}), 2, "--move");
+  test::expect_sentence(render({"a.vtu", "-o", "x.png", "--move", "1", "0", "inf"}), 2, "finite");
+  test::expect_sentence(
+      render({"a.vtu", "-o", "x.png", "--move", "1", "0", "0", "--curves", "c.vtp"}), 2, "--move");
+  test::expect_sentence(
+      render({test::data_file("s1.obj").string(), "-o", "x.png", "--move", "1", "0", "0"}), 2,
+      "a result");
   test::expect_sentence(render({"a.vtu", "-o", "x.png", "--lens", "0.1"}), 2, "--focus");
   test::expect_sentence(render({"a.vtu", "-o", "x.png", "--gloss", "0.1", "--mesh"}), 2, "--gloss");
   test::expect_sentence(render({test::data_file("s1.obj").string(), "-o", "x.png", "--gloss", "1"}),

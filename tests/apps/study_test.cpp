@@ -19,10 +19,9 @@ using Row = std::map<std::string, std::string>;
 
 class StudyCommandTest : public testing::Test {
  protected:
-  test::Outcome study(std::vector<std::string> arguments,
-                      std::chrono::milliseconds interrupt_after = {}) {
+  test::Outcome study(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "study"});
-    return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
+    return test::run_program(std::move(arguments), folder_.path());
   }
   std::string file(const std::string& name) { return test::contents(folder_.path() / name); }
   bool exists(const std::string& name) { return fs::exists(folder_.path() / name); }
@@ -48,14 +47,35 @@ class StudyCommandTest : public testing::Test {
     return result;
   }
 
+  /// Starts a study and ends it by a signal as soon as so many cases are done.
+  test::Outcome ended(std::vector<std::string> arguments, int cases, int signal) {
+    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "study"});
+    const pid_t child = test::start_program(std::move(arguments), folder_.path());
+    const auto wanted = static_cast<std::size_t>(cases);
+    for (int k = 0; k < 2000 && is_running(child); ++k) {
+      if (wanted == 0 || (exists("out/study.csv") && rows("out/study.csv").size() >= wanted)) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(7 * cases));
+    kill(child, signal);
+    return test::wait_for(child, folder_.path());
+  }
+
+  static bool is_running(pid_t child) {
+    siginfo_t info{};
+    return waitid(P_PID, static_cast<id_t>(child), &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == 0;
+  }
+
   test::TempDir folder_;
   const std::string s1_ = test::data_file("s1.obj").string();
   const std::string cornell_ = test::data_file("cornell_box.obj").string();
 };
 
 TEST_F(StudyCommandTest, MeasuresErrorsAndGoesOnWhereItWas) {
-  const std::vector<std::string> all = {s1_,        "-o",     "out",   "--direct", "--tolerances",
-                                        "0.1,0.01", "--json", "r.json"};
+  const std::vector<std::string> all = {
+      s1_,        "-o",     "out",    "--direct",  "--tolerances",
+      "0.1,0.01", "--json", "r.json", "--methods", "fields,fields-no-curves,uniform,matrix"};
   const test::Outcome outcome = study(all);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -79,7 +99,8 @@ TEST_F(StudyCommandTest, MeasuresErrorsAndGoesOnWhereItWas) {
                 1e-12);
   }
   EXPECT_LT(std::stod(table[1].at("error")), std::stod(table[0].at("error")));
-  for (const char* name : {"error_time.svg", "error_time.png", "estimated_true.png", "fields.png"})
+  for (const char* name : {"error_time.svg", "error_time.png", "estimated_true.png", "fields.png",
+                           "matrix.png", "matrix_difference.png"})
     EXPECT_TRUE(exists(std::string("out/") + name)) << name;
   const std::string page = file("out/study.html");
   EXPECT_THAT(page, testing::HasSubstr("data:image/png;base64,iVBOR"));
@@ -100,25 +121,39 @@ TEST_F(StudyCommandTest, MeasuresErrorsAndGoesOnWhereItWas) {
   EXPECT_EQ(rows("out/study.csv").size(), 9u);
 }
 
-TEST_F(StudyCommandTest, LosesAndRepeatsNothingWhenInterrupted) {
-  const std::vector<std::string> all = {s1_,  "-o",       "out",          "--points",
-                                        "50", "--direct", "--tolerances", "0.1,0.03,0.01"};
-  int interrupted = 0;
+TEST_F(StudyCommandTest, LosesAndRepeatsNothingWhenInterruptedOrKilledAtTenMoments) {
+  const std::vector<std::string> cases = {"--methods", "fields,uniform", "--tolerances",
+                                          "0.3,0.1,0.05,0.03,0.02,0.01"};
+  std::vector<std::string> arguments = {s1_, "-o", "whole", "--points", "50", "--direct", "-q"};
+  arguments.insert(arguments.end(), cases.begin(), cases.end());
+  ASSERT_EQ(study(arguments).exit_code, 0);
+  arguments[2] = "out";
   std::string known;
-  for (int ms = 150; ms < 30000; ms = ms * 5 / 4) {
-    const test::Outcome outcome = study(all, std::chrono::milliseconds(ms));
+  constexpr int moments = 10;
+  for (int k = 0; k < moments; ++k) {
+    // When k cases are done, and a little later each time: reading, the reference, in a case.
+    const bool is_kill = k % 4 != 0;  // faster: without a page
+    const test::Outcome outcome = ended(arguments, k, is_kill ? SIGKILL : SIGINT);
+    if (!is_kill && k > 0) {  // at first it may not listen yet
+      EXPECT_TRUE(outcome.exit_code == 130 || outcome.exit_code == 0) << outcome.err;
+      if (outcome.exit_code == 130) {
+        EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
+      }
+    }
     const std::string now = exists("out/study.csv") ? file("out/study.csv") : std::string();
     std::istringstream lines(known);
     for (std::string line; std::getline(lines, line);)
-      EXPECT_NE(now.find(line), std::string::npos) << line;
+      EXPECT_NE(now.find(line), std::string::npos) << "lost or run again: " << line;
     known = now;
-    if (outcome.exit_code == 0) break;
-    ASSERT_EQ(outcome.exit_code, 130) << outcome.err;
-    EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
-    ++interrupted;
   }
-  EXPECT_GE(interrupted, 1);
-  EXPECT_EQ(rows("out/study.csv").size(), 12u);
+  ASSERT_EQ(study(arguments).exit_code, 0);
+  const auto whole = rows("whole/study.csv"), parts = rows("out/study.csv");
+  ASSERT_EQ(whole.size(), 12u);
+  ASSERT_EQ(parts.size(), whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k)
+    for (const char* column : {"method", "tolerance", "status", "elements", "unknowns", "error",
+                               "max_error", "estimated_error"})
+      EXPECT_EQ(parts[k].at(column), whole[k].at(column)) << k << ' ' << column;
   EXPECT_TRUE(exists("out/study.html"));
 }
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace halfshade {
@@ -103,6 +104,41 @@ TEST(TracedPicture, ALensBlursWhatIsNotInFocusByItsDisc) {
   }
 }
 
+/// How much of [0, 1] + `late` · [0, 1] lies below a number: the share of a pixel's width and the
+/// shutter's time together.
+double trapezoid(double x, double late) {
+  const auto ramp = [](double t) { return 0.5 * std::pow(std::max(0., t), 2); };
+  return (ramp(x) - ramp(x - 1) - ramp(x - late) + ramp(x - 1 - late)) / late;
+}
+
+TEST(TracedPicture, AMoveBlursEdgesByTheTimeTheyAreSeen) {
+  Scene raw;
+  test::add_polygon(raw, {{0, -50, 0}, {50, -50, 0}, {50, 50, 0}, {0, 50, 0}},
+                    test::add_material(raw, 0, 1));
+  const SoundScene scene = make_sound(raw);
+  const auto share = [&](CameraRays camera, const Vec3& move) {
+    camera.move = move;
+    const TracedPicture picture = reference_picture(scene, camera, {.samples = 8192});
+    return picture.radiance.front()[0] * pi;
+  };
+  // One thin ray: it is over the light from 0.3 / 0.8 of the time on.
+  const CameraRays thin = looking({-0.3, 0, 10}, {-0.3, 0, 9}, 1e-9, 1);
+  EXPECT_NEAR(share(thin, {0.8, 0, 0}), 1 - 0.3 / 0.8, 1e-3);
+  EXPECT_EQ(share(thin, {0, 5, 5}), 0) << "along the edge, and back";
+  // Aslant: forwards by z it meets the plane nearer, x = 0.7 − 0.1 z t.
+  const CameraRays aslant = looking({-0.3, 0, 10}, {0.7, 0, 0}, 1e-9, 1);
+  EXPECT_NEAR(share(aslant, {0, 0, -6.9}), 1, 1e-12);
+  EXPECT_NEAR(share(aslant, {0, 0, -9.5}), 7 / 9.5, 1e-3);
+  // A pixel 0.5 wide on the plane, from -0.6 to -0.1, and a move by 0.4: both blur.
+  const CameraRays wide = looking({-0.35, 0, 10}, {-0.35, 0, 0}, 0.5, 1);
+  EXPECT_NEAR(share(wide, {0.4, 0, 0}), 1 - trapezoid(0.6 / 0.5, 0.4 / 0.5), 2e-3);
+  // A lens is carried along, and its focus.
+  CameraRays lens = thin;
+  lens.lens = 0.5;
+  lens.focus = 10;
+  EXPECT_NEAR(share(lens, {0.8, 0, 0}), 1 - 0.3 / 0.8, 2e-3);
+}
+
 TEST(ClassicPicture, SoftShadowsAreTheDirectLight) {
   const SoundScene scene = make_sound(test::table_scene());
   const DirectLightIndex exact(scene);
@@ -160,6 +196,9 @@ TEST(TracedPicture, WrongOptionsAreRefused) {
   const CameraRays camera = looking({3, 3, 1}, {0, 0, 0}, 1, 2);
   test::expect_error([&] { reference_picture(scene, camera, {.samples = 0}); }, ErrorCode::contract,
                      {"0 samples"});
+  CameraRays lost = camera;
+  lost.move.x() = std::numeric_limits<double>::infinity();
+  test::expect_error([&] { reference_picture(scene, lost, {}); }, ErrorCode::contract, {"move"});
   ClassicOptions options;
   options.exponent = 0;
   test::expect_error([&] { classic_picture(scene, camera, options, {}); }, ErrorCode::contract,

@@ -210,6 +210,63 @@ TEST(ReferenceLight, BalancesThePowerOfAnEmptyCube) {
   EXPECT_LT(std::sqrt(variance), 1e-3 * want);
 }
 
+/// The two triangles of a rectangle.
+std::array<ReferenceTriangle, 2> halves(const std::vector<Vec3>& c) {
+  return {ReferenceTriangle{c[0], c[1], c[2]}, {c[0], c[2], c[3]}};
+}
+
+TEST(ReferenceMeans, OfBareRectanglesAreTheirFormFactors) {
+  // The floor of a black box of 1 × 2 × 3 is lit: others get their factors to it.
+  const Scene scene = test::room({1, 2, 3}, {{{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 1}, {0, 0}}});
+  const SoundScene sound = make_sound(scene);
+  std::vector<ReferenceTriangle> triangles;
+  std::vector<double> want;
+  const auto add = [&](const std::vector<Vec3>& corners, double factor) {
+    for (const ReferenceTriangle& half : halves(corners)) triangles.push_back(half);
+    want.push_back(factor);
+  };
+  add({Vec3(0, 0, 3), {0, 2, 3}, {1, 2, 3}, {1, 0, 3}}, test::opposed_rectangles(1, 2, 3));
+  add({Vec3(0, 0, 0), {0, 2, 0}, {0, 2, 3}, {0, 0, 3}},
+      test::offset_perpendicular_rectangles({0, 3}, {0, 2}, {0, 1}, {0, 2}));
+  // An element in the middle of that wall.
+  add({Vec3(0, 0.5, 0.25), {0, 0.75, 0.25}, {0, 0.75, 1}, {0, 0.5, 1}},
+      test::offset_perpendicular_rectangles({0.25, 1}, {0.5, 0.75}, {0, 1}, {0, 2}));
+  const ReferenceLight light = reference_means(sound, triangles, {.samples = 8192});
+  for (std::size_t k = 0; k < want.size(); ++k) {
+    double mean = 0, variance = 0;
+    for (const std::size_t half : {2 * k, 2 * k + 1}) {
+      mean += 0.5 * light.values[half].total[0];
+      variance += 0.25 * std::pow(light.standard_errors[half].total[0], 2);
+      EXPECT_EQ(light.values[half].reflected[0], 0);
+    }
+    EXPECT_LE(std::abs(mean - want[k]), 3.5 * std::sqrt(variance)) << k;
+    EXPECT_LE(std::sqrt(variance), 1e-2 * want[k]) << k;
+  }
+}
+
+TEST(ReferenceMeans, BalanceThePowerOfAnEmptyCube) {
+  // As above, without the error of where points lie: Φ / (A (1 − ρ)).
+  const Scene scene = test::lit_cube({0.7, 0.7, 0.7, 0.7, 0.7, 0.7});
+  std::vector<ReferenceTriangle> triangles;
+  for (int f = 0; f < 6; ++f)
+    for (const ReferenceTriangle& half : halves(face_corners(scene, f))) triangles.push_back(half);
+  const ReferenceLight light = reference_means(make_sound(scene), triangles, {.samples = 16384});
+  double mean = 0, variance = 0;
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    mean += light.values[k].total[0] / 12;
+    variance += std::pow(light.standard_errors[k].total[0] / 12, 2);
+  }
+  constexpr double want = 1. / (6 * 0.3);
+  EXPECT_NEAR(mean, want, 3.5 * std::sqrt(variance));
+  EXPECT_LT(std::sqrt(variance), 2e-3 * want);
+}
+
+TEST(ReferenceMeans, OfATriangleWithoutAnAreaAreRefused) {
+  const std::vector<ReferenceTriangle> line = {{Vec3(0, 0, 0), {1, 0, 0}, {2, 0, 0}}};
+  test::expect_error([&] { reference_means(test::s1(), line, {}); }, ErrorCode::contract,
+                     {"triangle 0"});
+}
+
 TEST(ReferenceLight, MeetsTheSideThatFacesIt) {
   // A furnace with a two-sided sheet, and two sheets back to back of different reflectance.
   Scene scene = test::lit_cube({});

@@ -57,7 +57,14 @@ std::string read_all(std::istream& stream, const std::filesystem::path& path) {
 }  // namespace
 
 std::string place(const std::filesystem::path& path, int line) {
-  return line > 0 ? fmt::format("{}:{}", path.string(), line) : path.string();
+  // A file may name another at any length.
+  constexpr std::size_t longest = 400;
+  const std::string whole = path.string();
+  std::size_t first = whole.size() > longest ? whole.size() - longest : 0;
+  // Not in the middle of a character of UTF-8.
+  while (first > 0 && first < whole.size() && (whole[first] & 0xC0) == 0x80) ++first;
+  const std::string name = first > 0 ? "…" + whole.substr(first) : whole;
+  return line > 0 ? fmt::format("{}:{}", name, line) : name;
 }
 
 void fail(const std::filesystem::path& path, int line, const std::string& sentence) {

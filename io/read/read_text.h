@@ -22,7 +22,7 @@ void require_readable(const std::filesystem::path& path);
 /// Throws Error(invalid_input) at "file:line", or at "file" if `line` is 0.
 [[noreturn]] void fail(const std::filesystem::path& path, int line, const std::string& sentence);
 
-/// "file:line", or "file" if `line` is 0.
+/// "file:line", or "file" if `line` is 0; the end of the file's name if that is very long.
 std::string place(const std::filesystem::path& path, int line);
 
 /// Text of a file as it can stand in a message: in quotes, shortened, without control characters.

@@ -75,7 +75,7 @@ HullTriangulation constrained_delaunay(std::span<const Vec2> points,
     }
     return result;
   } catch (const std::exception& failure) {
-    throw Error(ErrorCode::invalid_input, "constrained_delaunay",
+    throw Error(ErrorCode::invalid_input, {},
                 std::string("the boundary lines could not be triangulated: ") + failure.what());
   }
 }

@@ -72,6 +72,7 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
       std::fill(marks->begin(), marks->end(), Kept{});
     query_ = 1;
   }
+  ++effort_.looks;
   corners.clear();
   next_rank_ = static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
   among_ = nullptr;
@@ -138,7 +139,11 @@ int PointView::corner_of_cut(int edge) {
 }
 
 int PointView::turn(int a, int b, int c) const {
-  return halfshade::turn(point_, corners[at(a)], corners[at(b)], corners[at(c)]);
+  ++effort_.turns;
+  const Corner &first = corners[at(a)], &second = corners[at(b)], &third = corners[at(c)];
+  if (const int sign = clear_turn(first, second, third)) return sign;
+  ++effort_.exact_turns;
+  return turn_exactly(point_, first, second, third);
 }
 
 bool PointView::is_edge_on(int surface) {

@@ -2,6 +2,7 @@
 
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/sight_effort.h"
 #include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/geometry/exact_signs.h"
 
@@ -87,6 +88,8 @@ class PointView {
   const std::vector<int>* among() const { return among_; }
 
   int turn(int a, int b, int c) const;
+  /// All that it took since this was made; starts are looks.
+  const SightEffort& effort() const { return effort_; }
 
   /// +1 or −1 as a face's corners run counter-clockwise or clockwise seen from the point; 0 if it
   /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane.
@@ -123,6 +126,7 @@ class PointView {
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
   const PlaneFrame* emitter_ = nullptr;
   double distance_ = 0, magnitude_ = 0, slack_ = 0, jitter_ = 0;
+  mutable SightEffort effort_;
 };
 
 }  // namespace halfshade

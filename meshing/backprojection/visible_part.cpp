@@ -83,6 +83,8 @@ std::size_t VisiblePartFinder::find_in_cells(const Vec3& point, const Vec3& norm
   return impl_->cells.run(point, normal, surface, part, use);
 }
 
+const SightEffort& VisiblePartFinder::effort() const { return impl_->search.view.effort(); }
+
 std::vector<std::vector<Vec3>> visible_rings(const VisiblePart& part, const Vec3& point,
                                              const PlaneFrame& emitter) {
   const double distance = emitter.height(point);

@@ -2,6 +2,7 @@
 
 #include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/backprojection/sight_effort.h"
 #include "meshing/core/sound_scene.h"
 #include "meshing/core/types.h"
 
@@ -70,6 +71,9 @@ class VisiblePartFinder {
   /// count as the emitter's.
   std::size_t find_in_cells(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part,
                             const std::function<void(const VisiblePart&)>& use);
+
+  /// All that was done so far. A look that is repeated because of contradictions counts again.
+  const SightEffort& effort() const;
 
  private:
   struct Impl;

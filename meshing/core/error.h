@@ -18,7 +18,7 @@ enum class ErrorCode {
 /// values.
 class Error : public std::runtime_error {
  public:
-  /// `place` is a file, "file:line" or the name of a function.
+  /// `place` is a file, "file:line", the name of a function whose contract was broken, or empty.
   Error(ErrorCode code, std::string place, const std::string& sentence)
       : std::runtime_error(place.empty() ? sentence : place + ": " + sentence),
         code_(code),

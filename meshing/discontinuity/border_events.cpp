@@ -34,18 +34,20 @@ std::vector<std::array<double, 2>> stretches(const Surface& receiver, const Vec2
   return result;
 }
 
-/// Points of the emitter's plane that can limit what is seen along it.
-std::vector<Vec3> limits_in_plane(const OpaqueTopology& opaque, const EmitterScene& emitter_scene) {
-  std::vector<Vec3> points;
+/// Points of the emitter's plane, in its frame, that can limit what is seen along it.
+std::vector<Vec2> limits_in_plane(const OpaqueTopology& opaque, const EmitterScene& emitter_scene) {
+  const PlaneFrame& plane = emitter_scene.frame;
+  std::vector<Vec2> points;
+  const auto add = [&](const Vec3& point) { points.push_back(plane.to_plane(point)); };
   for (const auto& edge : opaque.edges) {
     const Vec3 &from = opaque.vertices[at(edge.from)], &to = opaque.vertices[at(edge.to)];
-    const double a = emitter_scene.frame.height(from), b = emitter_scene.frame.height(to);
+    const double a = plane.height(from), b = plane.height(to);
     const double slack = std::max(emitter_scene.slack, margins::slack_of({from, to}));
     if (std::max(a, b) <= slack || std::min(a, b) >= -slack) {
-      if (std::abs(a) <= slack) points.push_back(from);
-      if (std::abs(b) <= slack) points.push_back(to);
+      if (std::abs(a) <= slack) add(from);
+      if (std::abs(b) <= slack) add(to);
     } else {
-      points.push_back(from + a / (a - b) * (to - from));
+      add(from + a / (a - b) * (to - from));
     }
   }
   return points;
@@ -71,30 +73,28 @@ std::optional<CommonLine> common_line(const PlaneFrame& receiver, const PlaneFra
   return line;
 }
 
-/// Parameters along the line between which the view of the emitter's corners, along its plane, is
-/// limited by the same things.
-std::vector<double> view_limits(std::span<const Vec3> limits, const EmitterScene& emitter_scene,
-                                const CommonLine& line) {
+/// Parameters along a range of the line, with its ends and sorted, between which the view of the
+/// emitter's corners, along its plane, is limited by the same things. A limit matters if it is
+/// between a corner and the line, or beyond the line by less than the slack, a length.
+std::vector<double> view_limits(std::span<const Vec2> limits, const EmitterScene& emitter_scene,
+                                const CommonLine& line, const std::array<double, 2>& range,
+                                double slack) {
   const PlaneFrame& plane = emitter_scene.frame;
-  const Vec2 p = plane.to_plane(line.origin);
+  const Vec2 start = plane.to_plane(line.origin);
   const Vec2 u(plane.e1.dot(line.direction), plane.e2.dot(line.direction));
-  std::vector<double> cuts;
-  for (const Vec3& limit : limits)
-    for (const OutlinePoint& corner : emitter_scene.corners) {
-      const Vec2 apex = plane.to_plane(corner.position);
-      const Vec2 onwards = plane.to_plane(limit) - apex;
-      cuts.push_back(cross_2d(apex - p, onwards) / cross_2d(u, onwards));
+  std::vector<double> cuts = {range[0], range[1]};
+  for (const OutlinePoint& corner : emitter_scene.corners) {
+    const Vec2 apex = plane.to_plane(corner.position), back = apex - start;
+    for (const Vec2& limit : limits) {
+      const Vec2 onwards = limit - apex;
+      const double cut = cross_2d(back, onwards) / cross_2d(u, onwards);
+      if (!(cut > range[0] && cut < range[1])) continue;
+      const Vec2 sight = cut * u - back;
+      if (onwards.dot(sight) > 0 && onwards.norm() <= sight.norm() + slack) cuts.push_back(cut);
     }
+  }
+  std::sort(cuts.begin(), cuts.end());
   return cuts;
-}
-
-/// The ends of a range and the cuts within, sorted.
-std::vector<double> cut_range(const std::array<double, 2>& range, std::span<const double> cuts) {
-  std::vector<double> t = {range[0], range[1]};
-  for (const double cut : cuts)
-    if (cut > range[0] && cut < range[1]) t.push_back(cut);
-  std::sort(t.begin(), t.end());
-  return t;
 }
 
 /// Appends a piece of the line in which a receiver meets the emitter's plane, or makes the last
@@ -131,12 +131,11 @@ BorderSearch::BorderSearch(const SoundScene& scene, const OpaqueScene& opaque,
 
 /// Sees the emitter from a point of a receiver.
 const VisiblePart& BorderSearch::look(const Vec3& point, const Surface& receiver) {
-  ++looks_;
   finder_.find(point, receiver.frame.normal, emitter_scene_.emitter, part_);
   return part_;
 }
 
-bool BorderSearch::add_plane_curves(int receiver, std::size_t most_looks,
+bool BorderSearch::add_plane_curves(int receiver, double most_work,
                                     std::vector<DiscontinuityCurve>& curves) {
   if (receiver == emitter_scene_.emitter) return true;
   const Surface& target = scene_.surfaces[at(receiver)];
@@ -144,18 +143,17 @@ bool BorderSearch::add_plane_curves(int receiver, std::size_t most_looks,
   if (!line) return true;
   const auto inside = stretches(target, line->start, line->along);
   if (inside.empty()) return true;
-  const std::vector<double> cuts = view_limits(limits_, emitter_scene_, *line);
   // Into the half-space in front of the emitter.
   const Vec3 left = target.frame.normal.cross(line->direction);
   const double ahead = emitter_scene_.frame.normal.dot(left) > 0 ? 1 : -1;
   const double step = side_step(target);
   const auto place = [&](double t) -> Vec2 { return line->start + t * line->along; };
-  const std::size_t looks_before = looks_;
+  const SightEffort before = effort();
   for (const auto& range : inside) {
-    const std::vector<double> t = cut_range(range, cuts);
+    const std::vector<double> t = view_limits(limits_, emitter_scene_, *line, range, step);
     for (std::size_t k = 1; k < t.size(); ++k) {
       if (t[k] - t[k - 1] < margins::least_steps * step) continue;
-      if (looks_ - looks_before >= most_looks) return false;
+      if (work_of(effort() - before) > most_work) return false;
       const Vec3 point =
           target.frame.to_space(place(0.5 * (t[k - 1] + t[k]))) + ahead * step * left;
       const Region region = look(point, target).region;
@@ -166,7 +164,7 @@ bool BorderSearch::add_plane_curves(int receiver, std::size_t most_looks,
   return true;
 }
 
-bool BorderSearch::add_contact_curves(int receiver, std::size_t most_looks,
+bool BorderSearch::add_contact_curves(int receiver, double most_work,
                                       std::vector<DiscontinuityCurve>& curves) {
   const Surface& target = scene_.surfaces[at(receiver)];
   const double step = side_step(target);
@@ -174,9 +172,9 @@ bool BorderSearch::add_contact_curves(int receiver, std::size_t most_looks,
     const Vec3 point = target.frame.to_space(p);
     return enclosed_factor(point, target.frame.normal, look(point, target).pieces);
   };
-  const std::size_t looks_before = looks_;
+  const SightEffort before = effort();
   for (const Segment2& contact : target.contacts) {
-    if (looks_ - looks_before >= most_looks) return false;
+    if (work_of(effort() - before) > most_work) return false;
     const Vec2 along = contact[1] - contact[0], left = Vec2(-along.y(), along.x()).normalized();
     bool jumps = false;
     for (int k = 0; k < contact_samples && !jumps; ++k) {

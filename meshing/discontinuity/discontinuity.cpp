@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 namespace halfshade {
 namespace {
@@ -80,7 +79,6 @@ class Search {
     report_.swaths += counts.swaths;
     report_.pieces += counts.pieces;
     report_.work += budget_.used();
-    report_.look_work = std::max(report_.look_work, look_work(counts, emitter_scene_.edges.size()));
     for (std::size_t k = 0; k < report_.left_out.size(); ++k)
       report_.left_out[k] += budget_.left_out()[k];
     for (const DiscontinuityCurve& curve : curves_)
@@ -127,18 +125,14 @@ class Search {
   }
 
   Curves find_border_events() {
-    const double look = SearchBudget::of_look_along_borders *
-                        look_work(counts_so_far(), emitter_scene_.edges.size());
+    const double look = look_work(counts_so_far(), emitter_scene_.edges.size());
     // A method of BorderSearch as the job of each receiver.
     const auto find = [&](auto method) {
-      return [this, look, method](std::size_t receiver, double most, Curves& found) {
+      return [this, method](std::size_t receiver, double most, Curves& found) {
         BorderSearch& borders = borders_.local();
-        const std::size_t before = borders.looks();
-        const std::size_t most_looks = std::isfinite(most)
-                                           ? static_cast<std::size_t>(most / look)
-                                           : std::numeric_limits<std::size_t>::max();
-        const bool is_done = (borders.*method)(static_cast<int>(receiver), most_looks, found);
-        return Done{look * static_cast<double>(borders.looks() - before), is_done};
+        const SightEffort before = borders.effort();
+        const bool is_done = (borders.*method)(static_cast<int>(receiver), most, found);
+        return Done{work_of(borders.effort() - before), is_done};
       };
     };
     const std::size_t count = scene_.surfaces.size();
@@ -147,9 +141,11 @@ class Search {
     // At least one look at each surface, and one on either side of a contact line.
     const double of_contacts =
         2 * look * static_cast<double>(contacts) / static_cast<double>(count);
+    const double of_limits =
+        SearchBudget::of_test * static_cast<double>(borders_.local().limit_tests());
     Curves found;
     if (options_.face)
-      found = run_all(CurveKind::face, {count, look, "plane of the light"},
+      found = run_all(CurveKind::face, {count, look + of_limits, "plane of the light"},
                       find(&BorderSearch::add_plane_curves));
     if (options_.contact)
       append(run_all(CurveKind::contact, {count, of_contacts, "contact lines"},
@@ -207,10 +203,10 @@ class Search {
                        return budget_.work_of(tracer.counts() - before, found.size());
                      };
                      bool is_done = true;
+                     const auto may_go_on = [&] { return work() <= most; };
                      generate(static_cast<int>(i), [&](const Swath& swath) {
                        if (progress_.stopped()) return;
-                       is_done = is_done && work() <= most;
-                       if (is_done) tracer.trace(swath, found);
+                       is_done = is_done && tracer.trace(swath, found, may_go_on);
                      });
                      return Done{work(), is_done};
                    }),

@@ -60,7 +60,6 @@ struct DiscontinuityReport {
   std::array<std::size_t, 4> found{};  ///< curves by kind, before merging
   double most_work = 0;                ///< as DiscontinuityOptions has it
   double work = 0;                     ///< done
-  double look_work = 0;                ///< of seeing what a point sees of a source
   std::array<double, 4> left_out{};    ///< work that kinds would have taken, about; 0: none is
   std::size_t merged = 0;              ///< curves that lay on others
   bool interrupted = false;            ///< stopped early: curves are missing

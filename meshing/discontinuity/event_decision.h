@@ -21,6 +21,8 @@ class EventDecider {
   /// sorted. Costs two or four visible parts.
   EventEvidence decide(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
 
+  const SightEffort& effort() const { return finder_.effort(); }
+
  private:
   EventEvidence compare(const ReceivingPoint& at, double step, std::span<const EdgeId> group);
 

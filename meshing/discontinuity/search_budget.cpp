@@ -6,32 +6,38 @@
 namespace halfshade {
 namespace {
 
-// Measured, in units of 1 to 2 µs: a line that is cast, and how much it adds to the work that
-// one of its faces comes with; what is seen from a point.
-constexpr double of_swath = 0.5, of_piece = 1, of_step = 0.01, of_face_behind = 0.06,
-                 of_edge_behind = 2e-4;
-// For a piece that is decided, and for a curve's jumps: three and six visible parts, each at a
-// place where edges line up, so that signs take exact arithmetic.
-constexpr std::size_t looks_to_decide = 12, looks_for_jumps = 24;
+// Measured, in units of 1 to 2 µs: a line that is cast; what is seen from a point; how much more
+// that is behind each face and each edge.
+constexpr double of_swath = 0.5, of_piece = 1, of_step = 0.01, of_look = 1, of_turn = 0.015,
+                 of_exact_turn = 1.5, of_face_behind = 0.06, of_edge_behind = 2e-4;
+// For the jumps of a curve.
+constexpr std::size_t looks_for_jumps = 6;
 // So many jobs tell what all take, and one may take so many times its share of what is left.
 constexpr std::size_t sample_size = 16;
 constexpr double most_of_share = 1.2;
 
 }  // namespace
 
+double work_of(const SightEffort& effort) {
+  return of_look * static_cast<double>(effort.looks) + of_turn * static_cast<double>(effort.turns) +
+         of_exact_turn * static_cast<double>(effort.exact_turns);
+}
+
 double look_work(const TraceCounts& counts, std::size_t edges) {
+  if (counts.effort.looks > 0)
+    return work_of(counts.effort) / static_cast<double>(counts.effort.looks);
   const double depth =
       counts.pieces > 0 ? static_cast<double>(counts.crossings) / static_cast<double>(counts.pieces)
                         : 1;
-  return 1 + of_face_behind * depth * depth + of_edge_behind * depth * static_cast<double>(edges);
+  return of_look + of_face_behind * depth * depth +
+         of_edge_behind * depth * static_cast<double>(edges);
 }
 
 double SearchBudget::work_of(const TraceCounts& counts, std::size_t curves) const {
-  const auto looks =
-      static_cast<double>(looks_to_decide * counts.decisions + looks_for_jumps * curves);
   return of_swath * static_cast<double>(counts.swaths) +
          of_step * static_cast<double>(counts.steps) +
-         of_piece * static_cast<double>(counts.pieces) + look_work(counts, edges_) * looks;
+         of_piece * static_cast<double>(counts.pieces) + halfshade::work_of(counts.effort) +
+         look_work(counts, edges_) * static_cast<double>(looks_for_jumps * curves);
 }
 
 bool SearchBudget::allows(CurveKind kind, double work) {

@@ -10,19 +10,22 @@
 
 namespace halfshade {
 
-/// Work that it takes to see what a point sees of an emitter. It grows with how many faces lie
-/// behind each other, of which the lines that were traced tell, and with the edges among them.
+/// Work that looks took.
+double work_of(const SightEffort& effort);
+
+/// Work that it takes to see what a point sees of an emitter: the mean of the looks that there
+/// were. Before any it grows with how many faces lie behind each other, of which the lines that
+/// were traced tell, and with the edges among them.
 double look_work(const TraceCounts& counts, std::size_t edges);
 
 /// Says which kinds of curves one source's share of the work affords. Counts instead of times, so
 /// that the answer is always the same.
 class SearchBudget {
  public:
-  static constexpr double of_test = 0.005;  ///< whether an edge and a vertex can line up
-  static constexpr double of_pair = 0.03;   ///< whether two edges can
-  static constexpr double of_swath = 0.1;   ///< making one, not yet traced
-  /// Measured: 0.5 to 1 in rooms, 3 to 10 in soups, where most looks take exact arithmetic.
-  static constexpr double of_look_along_borders = 8;
+  static constexpr double of_test =
+      0.005;  ///< whether an edge and a vertex can line up, or a point limits a view
+  static constexpr double of_pair = 0.03;  ///< whether two edges can
+  static constexpr double of_swath = 0.1;  ///< making one, not yet traced
 
   /// HUGE_VAL: no limit.
   SearchBudget(double most, std::size_t edges) : most_(most), edges_(edges) {}

@@ -7,16 +7,16 @@
 namespace halfshade {
 
 TraceCounts operator-(const TraceCounts& a, const TraceCounts& b) {
-  return {a.swaths - b.swaths, a.pieces - b.pieces, a.decisions - b.decisions, a.steps - b.steps,
-          a.crossings - b.crossings};
+  return {a.swaths - b.swaths, a.pieces - b.pieces, a.steps - b.steps, a.crossings - b.crossings,
+          a.effort - b.effort};
 }
 
 TraceCounts& operator+=(TraceCounts& a, const TraceCounts& b) {
   a.swaths += b.swaths;
   a.pieces += b.pieces;
-  a.decisions += b.decisions;
   a.steps += b.steps;
   a.crossings += b.crossings;
+  a.effort += b.effort;
   return a;
 }
 
@@ -29,7 +29,8 @@ SwathTracer::SwathTracer(const SoundScene& scene, const OpaqueScene& opaque,
       culling_(scene, opaque, emitter_scene, limits),
       decider_(opaque, emitter_scene) {}
 
-void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves) {
+bool SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves,
+                        const std::function<bool()>& may_go_on) {
   ++counts_.swaths;
   counts_.steps += emitter_scene_.outline.size();
   pieces_.clear();
@@ -40,11 +41,14 @@ void SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
     if (!line || !may_be_event(emitter_scene_, swath, *line)) continue;
     counts_.steps += cuts_.between(swath, t0, t1, parameters_);
-    for (std::size_t k = 1; k < parameters_.size(); ++k)
-      if (parameters_[k] > parameters_[k - 1])
-        trace_piece(swath, parameters_[k - 1], parameters_[k]);
+    for (std::size_t k = 1; k < parameters_.size(); ++k) {
+      if (!(parameters_[k] > parameters_[k - 1])) continue;
+      if (may_go_on && !may_go_on()) return false;
+      trace_piece(swath, parameters_[k - 1], parameters_[k]);
+    }
   }
   for (const Piece& piece : pieces_) append_curves(swath, piece, curves);
+  return true;
 }
 
 void SwathTracer::trace_piece(const Swath& swath, double t0, double t1) {
@@ -75,8 +79,8 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
   const Vec3 left = target.frame.normal.cross(middle->tangent).normalized();
   const ReceivingPoint place = {middle->point, target.frame.normal, left};
   if (!culling_.may_matter(swath, line, receiver, place)) return;
-  ++counts_.decisions;
   EventEvidence evidence = decider_.decide(place, step, swath.group);
+  counts_.effort = decider_.effort();
   if (!evidence.differs) return;
   if (swath.source.kind == CurveKind::face) known_.add(receiver, span);
   add_piece({receiver, t0, t1, step, std::move(evidence.triples)});

@@ -9,6 +9,7 @@
 #include "meshing/events/emitter_scene.h"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace halfshade {
@@ -17,9 +18,9 @@ namespace halfshade {
 struct TraceCounts {
   std::size_t swaths = 0;
   std::size_t pieces = 0;
-  std::size_t decisions = 0;  ///< pieces whose sides were looked at
   std::size_t steps = 0;      ///< boxes, edges and faces looked at
   std::size_t crossings = 0;  ///< faces met by lines of sight
+  SightEffort effort;         ///< of deciding
 };
 
 TraceCounts operator-(const TraceCounts& a, const TraceCounts& b);
@@ -39,8 +40,10 @@ class SwathTracer {
   /// Forgets what earlier swaths made: what is traced next depends on nothing before.
   void begin() { known_ = {}; }
 
-  /// Appends the pieces of curve that a swath makes.
-  void trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves);
+  /// Appends the pieces of curve that a swath makes. Ends early and returns false as soon as
+  /// `may_go_on`, if given, does, which is asked before each piece of the swath.
+  bool trace(const Swath& swath, std::vector<DiscontinuityCurve>& curves,
+             const std::function<bool()>& may_go_on = {});
 
   const TraceCounts& counts() const { return counts_; }
   const EmitterScene& emitter_scene() const { return emitter_scene_; }

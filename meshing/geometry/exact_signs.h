@@ -22,9 +22,9 @@ struct SeenPoint {
 /// stays where it is. Precondition: three distinct points.
 int turn_exactly(const Vec3& eye, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c);
 
-/// The same; in doubles where the rounding error cannot change the sign (Shewchuk's first bound for
-/// orient3d, 1997).
-inline int turn(const Vec3& eye, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c) {
+/// The same in doubles, or 0 where the rounding error may change the sign (Shewchuk's first bound
+/// for orient3d, 1997).
+inline int clear_turn(const SeenPoint& a, const SeenPoint& b, const SeenPoint& c) {
   const Vec3 &p = a.direction, &q = b.direction, &r = c.direction;
   const double qr_x = q.y() * r.z(), rq_x = q.z() * r.y();
   const double qr_y = q.z() * r.x(), rq_y = q.x() * r.z();
@@ -35,8 +35,7 @@ inline int turn(const Vec3& eye, const SeenPoint& a, const SeenPoint& b, const S
                            std::abs(p.z()) * (std::abs(qr_z) + std::abs(rq_z));
   constexpr double bound = (7 + 56 * 0x1p-53) * 0x1p-53;
   if (determinant > bound * permanent) return -1;
-  if (determinant < -bound * permanent) return 1;
-  return turn_exactly(eye, a, b, c);
+  return determinant < -bound * permanent ? 1 : 0;
 }
 
 }  // namespace halfshade

@@ -28,7 +28,7 @@ CurveMesh coarse_mesh(const Outline& outline) {
 
 void check_count(std::size_t count, std::size_t surfaces, std::size_t allowed) {
   if (count > allowed)
-    throw Error(ErrorCode::too_large, "PatchMesh",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("the {} surfaces take more than the {} elements that are allowed",
                             surfaces, allowed));
 }
@@ -93,7 +93,7 @@ void check_size(const SoundScene& scene, const PlanarMeshOptions& options) {
     for (const Surface& surface : scene.surfaces)
       least += area(surface) / options.max_length / options.max_length / (std::sqrt(3.0) / 4);
   if (least > static_cast<double>(options.max_triangles))
-    throw Error(ErrorCode::too_large, "PatchMesh",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("edges of at most {} need at least {:.0f} elements; {} are allowed",
                             options.max_length, least, options.max_triangles));
 }

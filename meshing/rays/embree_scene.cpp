@@ -41,7 +41,7 @@ void throw_on_error(RTCDevice device) {
   const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_NONE) return;
   if (error == RTC_ERROR_OUT_OF_MEMORY)
-    throw Error(ErrorCode::too_large, "VisibilityIndex", "not enough memory for the triangles");
+    throw Error(ErrorCode::too_large, {}, "not enough memory for the triangles");
   throw Error(ErrorCode::contract, "VisibilityIndex",
               fmt::format("Embree failed with error {}", static_cast<int>(error)));
 }

@@ -178,14 +178,14 @@ void require_few_crossings(const std::vector<std::vector<std::array<int, 2>>>& c
   double pairs = 0;
   for (const auto& lines : cuts) pairs += std::pow(static_cast<double>(lines.size()), 2) / 2;
   if (pairs > most_pairs)
-    throw Error(ErrorCode::too_large, "find_contacts",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("the {} surfaces cut through each other so often that {:.2g} pairs of "
                             "the lines may cross in them",
                             cuts.size(), pairs));
 }
 
 [[noreturn]] void refuse_pieces(std::size_t surfaces, double most) {
-  throw Error(ErrorCode::too_large, "find_contacts",
+  throw Error(ErrorCode::too_large, {},
               fmt::format("the {} surfaces touch and cut through each other along more than {:.0f} "
                           "pieces of lines",
                           surfaces, most));
@@ -199,7 +199,7 @@ void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (const int p : edges[i].link) boxes[i].include(points[at(p)]);
   const FlatTree tree = make_flat_tree(boxes, 1);
-  const auto cuts = find_intersections(drafts, points);
+  const auto cuts = find_intersections(drafts, points, most);
   require_few_crossings(cuts);
   double pieces = 0;
   for (std::size_t i = 0; i < drafts.size(); ++i) {

@@ -17,7 +17,7 @@ using Stretch = std::array<double, 2>;
 constexpr double parallel = 1e-9;
 
 // What takes some seconds to find, and far longer to make use of.
-constexpr std::size_t most_lines = 2'000'000;
+constexpr double most_lines = 500'000;
 
 bool lies_on_both_sides(const SurfaceDraft& draft, const PlaneFrame& plane,
                         const std::vector<Vec3>& points, double slack) {
@@ -56,7 +56,8 @@ Bounds box_of(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
 }  // namespace
 
 std::vector<std::vector<std::array<int, 2>>> find_intersections(
-    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points) {
+    const std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points, double most) {
+  most = std::min(most, most_lines);
   const std::size_t point_count = points.size();
   std::vector<Bounds> boxes;
   for (const SurfaceDraft& draft : drafts) boxes.push_back(box_of(draft, points));
@@ -76,10 +77,11 @@ std::vector<std::vector<std::array<int, 2>>> find_intersections(
           !lies_on_both_sides(a, b.frame, points, tolerance.planarity) ||
           !lies_on_both_sides(b, a.frame, points, tolerance.planarity))
         continue;
-      if (points.size() > 2 * most_lines + point_count)
-        throw Error(ErrorCode::too_large, "find_intersections",
-                    fmt::format("the {} surfaces cut through each other along more than {} lines",
-                                drafts.size(), most_lines));
+      if (static_cast<double>(points.size() - point_count) > 2 * most)
+        throw Error(
+            ErrorCode::too_large, {},
+            fmt::format("the {} surfaces cut through each other along more than {:.0f} lines",
+                        drafts.size(), most));
       const Vec3 along = line.normalized();
       // The point of both planes nearest to the origin of the first.
       const Vec3 down = along.cross(a.frame.normal);

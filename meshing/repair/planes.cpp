@@ -149,7 +149,27 @@ class PlaneGrower {
     if (polygon.frame.normal.cross(plane.normal).norm() > normal_tolerance) return false;
     const double farther = greatest_distance(origin(seed), polygon.corners) / extent;
     return greatest_height(plane, polygon.corners) <=
-           (1 + farther) * planarity_limit(polygon, polygons_[seed].scale, plane.normal);
+               (1 + farther) * planarity_limit(polygon, polygons_[seed].scale, plane.normal) &&
+           !has_back_between(seed, i);
+  }
+
+  /// Whether something that looks the other way lies between two that look the same way, or on the
+  /// front one: a thin sheet above a floor. In one plane they would come out inside out.
+  bool has_back_between(std::size_t seed, std::size_t i) const {
+    const PlaneFrame& plane = polygons_[seed].frame;
+    const double height = plane.height(origin(i));
+    const double slack =
+        tolerance_of(joint_scale(polygons_[seed].scale, polygons_[i].scale)).length;
+    if (!(plane.normal.dot(polygons_[i].frame.normal) > 0) || std::abs(height) <= slack)
+      return false;
+    const double low = std::min(height, 0.) + slack, high = std::max(height, 0.) + slack;
+    bool is_between = false;
+    neighbours_.visit(static_cast<int>(i), [&](int k) {
+      const Polygon& other = polygons_[at(k)];
+      const double h = plane.height(other.frame.origin);
+      is_between = is_between || (plane.normal.dot(other.frame.normal) < 0 && h > low && h <= high);
+    });
+    return is_between;
   }
 
   const std::vector<Polygon>& polygons_;

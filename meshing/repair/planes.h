@@ -18,6 +18,7 @@ struct PlaneClasses {
 /// they are near each other, directly or through others, and look the same way, to within what the
 /// rounding of a file can have moved their corners (see tolerance_of); if they look opposite ways,
 /// only if arithmetic cannot tell their planes apart, for light passes through the narrowest gap.
+/// What looks the other way between two, as the back of a thin sheet does, keeps them apart.
 /// Deterministic; each polygon is compared with those near it only.
 /// `scales` has one entry a loop.
 PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,

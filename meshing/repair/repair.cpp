@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
+#include "meshing/core/planar.h"
 #include "meshing/repair/clean_faces.h"
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
@@ -67,6 +68,17 @@ void report_merge(const SurfaceDraft& draft, std::vector<Repair>& repairs) {
 void report_overlap(const CoveredPair& pair, std::vector<Repair>& repairs) {
   if (!pair.backs)
     repairs.push_back({Repair::Kind::overlap_removed, {pair.keeper, pair.loser}, pair.area});
+}
+
+/// Whether anything of it is left once its corners are rounded in its frame.
+bool has_area(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
+  const std::vector<int>& outline = draft.rings.front();
+  const auto place = [&](int p) { return draft.frame.to_plane(points[at(p)]); };
+  const Vec2 first = place(outline.front());
+  double twice = 0;
+  for (std::size_t k = 1; k < outline.size(); ++k)
+    twice += cross_2d(place(outline[k - 1]) - first, place(outline[k]) - first);
+  return twice > 0;
 }
 
 // Faces that snapping left nothing of, though nothing covers them.
@@ -148,16 +160,22 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   WeldedVertices vertices = weld(scene);
   const std::vector<FacePiece> pieces = clean_faces(scene, vertices, sound.repairs);
   std::vector<SurfaceDraft> drafts = make_drafts(scene, pieces, vertices.points, sound.repairs);
-  if (drafts.empty())
-    throw Error(ErrorCode::invalid_input, scene.source,
-                fmt::format("none of its {} faces has an area", scene.faces.size()));
   if (static_cast<double>(drafts.size()) > options.most_surfaces)
-    throw Error(ErrorCode::too_large, "make_sound",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("there are {} surfaces, and {} are allowed", drafts.size(),
                             options.most_surfaces));
   if (options.contacts) find_contacts(drafts, vertices.points, options.most_contacts);
   for (SurfaceDraft& draft : drafts)
-    sound.surfaces.push_back(finish(std::move(draft), vertices.points));
+    // What snaps in one plane may have corners in others.
+    if (has_area(draft, vertices.points))
+      sound.surfaces.push_back(finish(std::move(draft), vertices.points));
+    else if (!draft.back)
+      sound.repairs.push_back({Repair::Kind::degenerate_dropped,
+                               {draft.faces.front()},
+                               tolerance_of(draft.scale).planarity});
+  if (sound.surfaces.empty())
+    throw Error(ErrorCode::invalid_input, scene.source,
+                fmt::format("none of its {} faces has an area", scene.faces.size()));
   return sound;
 }
 

@@ -191,7 +191,7 @@ CurveMesh mesh_with_curves(std::span<const Ring> rings, std::span<const Segment2
     result.mesh.complete = is_complete && !is_last;
     return result;
   }
-  throw Error(ErrorCode::invalid_input, "mesh_with_curves",
+  throw Error(ErrorCode::invalid_input, {},
               fmt::format("{} rings with {} contact lines could not be triangulated", rings.size(),
                           contacts.size()));
 }

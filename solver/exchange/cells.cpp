@@ -1,6 +1,7 @@
 #include "solver/exchange/cells.h"
 
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/flat_tree.h"
 #include "solver/exchange/shells.h"
 
 #include <algorithm>
@@ -76,11 +77,47 @@ std::vector<Vec3> outermost_points(const ElementTable& elements, const Shells& s
   return points;
 }
 
-/// The planes of a shell's elements that have a corner here.
+/// Finds the elements that rays outwards may meet.
+class RayIndex {
+ public:
+  explicit RayIndex(const ElementTable& elements) {
+    across_ << outwards.unitOrthogonal(), outwards.cross(outwards.unitOrthogonal()), outwards;
+    std::vector<Bounds> boxes(at(elements.count()));
+    for (int e = 0; e < elements.count(); ++e) {
+      Bounds box;
+      double magnitude = 0;
+      for (const Vec3& corner : elements.triangle(e)) {
+        box.include(across_.transpose() * corner);
+        magnitude = std::max(magnitude, corner.lpNorm<1>());
+      }
+      boxes[at(e)] =
+          box.grown(edge_margin * (box.high - box.low).lpNorm<1>() + rounding * magnitude);
+    }
+    tree_ = make_flat_tree(boxes, 4);
+  }
+
+  /// Those that a ray may meet from `slack` behind its origin on, in their order.
+  std::vector<int> near_ray(const Vec3& origin, double slack) const {
+    Bounds ray;
+    ray.include(across_.transpose() * (origin - slack * outwards));
+    ray.high.z() = HUGE_VAL;
+    std::vector<int> near;
+    visit_overlaps(tree_, ray, [&](int e) { near.push_back(e); });
+    std::sort(near.begin(), near.end());
+    return near;
+  }
+
+ private:
+  Eigen::Matrix3d across_;  ///< columns: two directions across, and outwards
+  FlatTree tree_;
+};
+
+/// The planes of a shell's elements, among some, that have a corner here.
 std::vector<int> planes_at(const SoundScene& scene, const ElementTable& elements,
-                           const Shells& shells, int shell, const Vec3& corner) {
+                           const Shells& shells, int shell, const Vec3& corner,
+                           const std::vector<int>& near) {
   std::vector<int> planes;
-  for (int e = 0; e < elements.count(); ++e) {
+  for (const int e : near) {
     const auto& sides = shells.of_side[at(e)];
     if (sides[0] != shell && sides[1] != shell) continue;
     const auto corners = elements.triangle(e);
@@ -91,17 +128,18 @@ std::vector<int> planes_at(const SoundScene& scene, const ElementTable& elements
 }
 
 /// The first thing that a ray from the outermost point of a shell meets.
-RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const Shells& shells,
-                    int shell, const Vec3& origin) {
+RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const RayIndex& index,
+                    const Shells& shells, int shell, const Vec3& origin) {
   // A point that touches another surface may lie beyond it by rounding.
   const double slack = tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.diagonal}).length;
+  const std::vector<int> near = index.near_ray(origin, slack);
   // The other sides of the shell's own elements lie behind it.
-  const std::vector<int> own = planes_at(scene, elements, shells, shell, origin);
+  const std::vector<int> own = planes_at(scene, elements, shells, shell, origin, near);
   const auto plane = [&](int element) {
     return scene.surfaces[at(elements.surface[at(element)])].plane;
   };
   RayHit hit;
-  for (int e = 0; e < elements.count(); ++e) {
+  for (const int e : near) {
     const auto& sides = shells.of_side[at(e)];
     if (sides[0] == shell || sides[1] == shell) continue;
     const std::optional<double> distance = meet(elements.triangle(e), origin);
@@ -130,13 +168,14 @@ std::vector<int> find_surroundings(const SoundScene& scene, const ElementTable& 
   const std::vector<double> volume = volumes(elements, shells);
   const std::vector<bool> has_fronts = with_fronts(shells);
   const std::vector<Vec3> points = outermost_points(elements, shells);
+  const RayIndex index(elements);
   std::vector<int> around(volume.size());
   parallel_for(volume.size(), [&](std::size_t k) {
     const int shell = static_cast<int>(k);
     around[k] = shell;
     // Backs without any volume are those of elements that cover each other.
     if (volume[k] > 0 || (volume[k] == 0 && !has_fronts[k])) return;
-    const RayHit hit = first_beyond(scene, elements, shells, shell, points[k]);
+    const RayHit hit = first_beyond(scene, elements, index, shells, shell, points[k]);
     around[k] = hit.element < 0 ? -1 : shells.of_side[at(hit.element)][hit.is_front ? 0 : 1];
   });
   return around;

@@ -17,8 +17,7 @@ double fraction(double x) { return x - std::floor(x); }
 }  // namespace
 
 RaySequence::RaySequence(std::uint64_t seed) {
-  for (std::size_t d = 0; d < 4; ++d)
-    start_[d] = static_cast<double>(mix_bits(4 * seed + d) >> 11) * 0x1p-53;
+  for (std::size_t d = 0; d < 4; ++d) start_[d] = unit_share(mix_bits(4 * seed + d));
 }
 
 std::array<double, 4> RaySequence::operator[](int k) const {

@@ -7,6 +7,7 @@
 #include "solver/pipeline/corner_places.h"
 #include "solver/pipeline/shadow_places.h"
 #include "solver/pipeline/solve_mesh.h"
+#include "solver/pipeline/spot_places.h"
 
 #include <fmt/format.h>
 
@@ -78,8 +79,10 @@ class DirectFieldSearch {
         goal_(goal),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
         watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {
-    const auto corners = corner_places(prepared.scene(), prepared.direct_light().emitters());
-    watched_.insert(watched_.end(), corners.begin(), corners.end());
+    for (const auto& find : {corner_places, spot_places}) {
+      const auto more = find(prepared.scene(), prepared.direct_light().emitters());
+      watched_.insert(watched_.end(), more.begin(), more.end());
+    }
   }
 
   DirectField run() {

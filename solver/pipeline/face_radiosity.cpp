@@ -1,10 +1,9 @@
 #include "solver/pipeline/face_radiosity.h"
 
-#include "solver/adapt/recovery_estimate.h"
-#include "solver/elements/balancing_scale.h"
 #include "solver/elements/material_arrays.h"
 #include "solver/elements/solution_parts.h"
 #include "solver/factors/saved_factors.h"
+#include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 
@@ -88,17 +87,6 @@ MaterialArrays materials_of_rows(const FactorScene& faces, const Scene& scene) {
   return arrays;
 }
 
-void estimate_relative_error(SolveResult& result) {
-  const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
-  const ChannelArray irradiance = scale * result.solution.irradiance;
-  const Eigen::ArrayXd estimate = scale * result.solution.error_estimate;
-  result.relative_error = relative_error(result.elements, irradiance, estimate);
-  double of_solver = 0;
-  for (const ChannelReport& channel : result.radiosity.channel)
-    of_solver = std::max(of_solver, channel.error);
-  result.relative_error += of_solver;
-}
-
 }  // namespace
 
 SolveResult solve_by_faces(const Scene& scene, const FactorMatrix& factors,
@@ -138,7 +126,7 @@ SolveResult solve_by_faces(const Scene& scene, const FactorMatrix& factors,
     result.exchange = exchange.report;
     return static_cast<std::size_t>(result.radiosity.unknowns);
   });
-  estimate_relative_error(result);
+  result.relative_error = error_of_elements_and_solver(result);
   result.interrupted = progress.stopped();
   if (!result.interrupted)
     add(light_warnings(

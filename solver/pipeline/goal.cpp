@@ -9,13 +9,6 @@
 namespace halfshade {
 namespace {
 
-double area_of(const SoundScene& scene, int group) {
-  double sum = 0;
-  for (const Surface& surface : scene.surfaces)
-    if (surface.group == group) sum += area(surface);
-  return sum;
-}
-
 /// Adds a field's power on a group.
 void add_power(int group, const ElementTable& elements, const ElementField& field, Rgb& power) {
   for (int e = 0; e < elements.count(); ++e)
@@ -25,6 +18,13 @@ void add_power(int group, const ElementTable& elements, const ElementField& fiel
 
 }  // namespace
 
+double area_of_group(const SoundScene& scene, int group) {
+  double sum = 0;
+  for (const Surface& surface : scene.surfaces)
+    if (surface.group == group) sum += area(surface);
+  return sum;
+}
+
 int find_goal(const SoundScene& scene, std::string_view name) {
   const auto found = std::find(scene.groups.begin(), scene.groups.end(), name);
   const int group = static_cast<int>(found - scene.groups.begin());
@@ -32,7 +32,7 @@ int find_goal(const SoundScene& scene, std::string_view name) {
     throw Error(ErrorCode::usage, {},
                 fmt::format("--goal: there is no group '{}'; the scene has {}", name,
                             fmt::join(scene.groups, ", ")));
-  if (!(area_of(scene, group) > 0))
+  if (!(area_of_group(scene, group) > 0))
     throw Error(ErrorCode::usage, {},
                 fmt::format("--goal: no surface is left of the group '{}'", name));
   return group;

@@ -14,7 +14,7 @@ struct GoalResult {
   int group = 0;
   double area = 0;            ///< of it, squared scene units
   Rgb mean = Rgb::Zero();     ///< W/m²
-  double relative_error = 0;  ///< of the mean, all channels together: a bound, estimated
+  double relative_error = 0;  ///< of the mean, all channels together: an estimate
   std::size_t unknowns = 0;   ///< coefficients per channel, of direct and reflected light
 };
 
@@ -28,6 +28,9 @@ struct GoalWeights {
   ErrorWeight weight;  ///< z ∫ z, z that of the channel where it is largest, squared scene units⁻¹
   double norm = 0;  ///< W/m²: a little less than the mean, its channels' squares summed
 };
+
+/// The area of a group's surfaces, squared scene units.
+double area_of_group(const SoundScene& scene, int group);
 
 /// The id of a group. Throws Error(usage), with all names, if there is none of that name.
 int find_goal(const SoundScene& scene, std::string_view name);

@@ -79,10 +79,8 @@ GoalAdjoint solve_adjoint(const SoundScene& scene, int group, const SolveOptions
   how.through_operator = true;
   // What arrives straight from the group arrives by the operator's first application.
   if (options.radiosity.bounces >= 0) how.bounces = options.radiosity.bounces + 1;
-  double shining = 0;
-  for (const Surface& surface : scene.surfaces)
-    if (surface.group == group) shining += area(surface);
-  return {scene, group, shining, reflected_light(lit_by_group(scene, group), {}, how, progress)};
+  return {scene, group, area_of_group(scene, group),
+          reflected_light(lit_by_group(scene, group), {}, how, progress)};
 }
 
 GoalWeights weights_of(std::shared_ptr<const GoalAdjoint> adjoint) {

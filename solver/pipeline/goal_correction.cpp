@@ -17,10 +17,6 @@ constexpr int gathering_rays = 256;
 /// Where the polynomials' z is below this share of its mean, as many points as if it were that.
 constexpr double least_share = 0.1;
 
-double random_share(std::uint64_t seed) {
-  return static_cast<double>(mix_bits(seed) >> 11) * 0x1p-53;
-}
-
 /// Random points of elements, and what ∫ z R is by each.
 class Sampler {
  public:
@@ -46,10 +42,12 @@ class Sampler {
   /// The k-th of `count` points, evenly spread along all elements; `seed` tells runs apart.
   Rgb value(std::size_t k, std::size_t count, std::uint64_t seed) const {
     const std::uint64_t own = mix_bits(seed ^ mix_bits(k));
-    const double along = (static_cast<double>(k) + random_share(own)) / static_cast<double>(count);
+    const double along =
+        (static_cast<double>(k) + unit_share(mix_bits(own))) / static_cast<double>(count);
     const auto found = std::lower_bound(passed_.begin(), passed_.end() - 1, along * passed_.back());
     const int e = static_cast<int>(found - passed_.begin());
-    const double across = std::sqrt(random_share(own + 1)), up = random_share(own + 2);
+    const double across = std::sqrt(unit_share(mix_bits(own + 1))),
+                 up = unit_share(mix_bits(own + 2));
     const TrianglePlace place(across * (1 - up), across * up);
     return passed_.back() / density_[at(e)] * term(e, place);
   }

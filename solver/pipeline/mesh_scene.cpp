@@ -1,9 +1,13 @@
 #include "solver/pipeline/mesh_scene.h"
 
+#include "meshing/backprojection/visible_part.h"
 #include "meshing/core/error.h"
+#include "meshing/discontinuity/search_budget.h"
 #include "solver/direct/direct_light.h"
+#include "solver/pipeline/middle.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/solve_mesh.h"
 #include "solver/pipeline/sources.h"
 
 #include <fmt/format.h>
@@ -15,7 +19,7 @@ namespace halfshade {
 namespace {
 
 /// Of the work that a tolerance is worth.
-constexpr double share_to_label = 0.06;
+constexpr double share_to_label = 0.2;
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
@@ -26,14 +30,46 @@ void check(const MeshOptions& options) {
                             options.tolerance, options.max_length, options.secondary));
 }
 
+/// Work that it takes to see what an element sees of a source: the mean of some surfaces.
+double mean_look_work(const PreparedScene& prepared, const std::vector<LightSource>& sources) {
+  constexpr std::size_t most = 32;
+  const std::vector<Surface>& surfaces = prepared.scene().surfaces;
+  const std::size_t count = sources.empty() ? 0 : std::min(most, surfaces.size());
+  VisiblePartFinder finder(prepared.opaque());
+  VisiblePart part;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Surface& surface = surfaces[k * surfaces.size() / count];
+    finder.find(middle(surface), surface.frame.normal, sources[k % sources.size()].surface, part);
+  }
+  return count > 0 ? work_of(finder.effort()) / static_cast<double>(count) : 0;
+}
+
+/// So many elements can be labelled in the time that a tolerance is worth.
+std::size_t most_elements(const PreparedScene& prepared, const std::vector<LightSource>& sources,
+                          const MeshOptions& options) {
+  const std::size_t most = DiscontinuityMeshOptions{}.max_triangles;
+  if (!(options.tolerance > 0)) return most;
+  // Each source's part, and what all give.
+  const double for_one =
+      mean_look_work(prepared, sources) * static_cast<double>(sources.size() + 1);
+  const double affordable = share_to_label * affordable_work(options.tolerance);
+  return for_one * static_cast<double>(most) > affordable
+             ? static_cast<std::size_t>(std::max(affordable / for_one, 1.))
+             : most;
+}
+
+[[noreturn]] void refuse_labels(const PreparedScene& prepared, std::size_t most) {
+  throw Error(ErrorCode::too_large, {},
+              fmt::format("the {} surfaces with their contact lines and curves take more than {} "
+                          "elements, which is all that can be labelled in the time that a "
+                          "tolerance is worth; --tolerance 0 takes all the time there is",
+                          prepared.scene().surfaces.size(), most));
+}
+
 /// Finds the curves, and what their effect is measured against.
-void find_curves(const PreparedScene& prepared, const MeshOptions& options,
-                 const Progress& progress, Stages& stages, MeshResult& result) {
-  std::vector<LightSource> sources;
-  stages.run("sources", [&] {
-    sources = all_sources(prepared, options.secondary, progress);
-    return sources.size();
-  });
+void find_curves(const PreparedScene& prepared, const std::vector<LightSource>& sources,
+                 const MeshOptions& options, const Progress& progress, Stages& stages,
+                 MeshResult& result) {
   if (options.tolerance > 0)
     stages.run("tolerance", [&] {
       result.irradiance_tolerance = options.tolerance * mean_direct_irradiance(prepared, progress);
@@ -50,34 +86,22 @@ void find_curves(const PreparedScene& prepared, const MeshOptions& options,
   });
 }
 
-/// Refuses what would take too long to label.
-DiscontinuityMesh make_mesh(const PreparedScene& prepared, const MeshOptions& options,
-                            const Progress& progress, const MeshResult& result) {
-  DiscontinuityMeshOptions mesh_options;
-  mesh_options.max_length = options.max_length;
-  mesh_options.irradiance_tolerance = result.irradiance_tolerance;
-  const double for_one =
-      result.found.report.look_work * static_cast<double>(result.found.sources.size() + 1);
-  const double most = share_to_label * affordable_work(options.tolerance) / std::max(for_one, 1.);
-  if (most > 0 && most < static_cast<double>(mesh_options.max_triangles))
-    mesh_options.max_triangles = static_cast<std::size_t>(std::max(most, 1.));
+DiscontinuityMesh make_mesh(const PreparedScene& prepared, const Discontinuities& found,
+                            const DiscontinuityMeshOptions& options, const Progress& progress) {
   try {
-    return mesh_discontinuities(prepared.scene(), result.found, mesh_options, progress);
+    return mesh_discontinuities(prepared.scene(), found, options, progress);
   } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_large || !(most > 0)) throw;
-    throw Error(ErrorCode::too_large, "mesh_scene",
-                fmt::format("the {} surfaces with their contact lines and curves take more than {} "
-                            "elements, which is all that can be labelled in the time that a "
-                            "tolerance is worth; --tolerance 0 takes all the time there is",
-                            prepared.scene().surfaces.size(), mesh_options.max_triangles));
+    const bool is_limited = options.max_triangles < DiscontinuityMeshOptions{}.max_triangles;
+    if (error.code() != ErrorCode::too_large || !is_limited) throw;
+    refuse_labels(prepared, options.max_triangles);
   }
 }
 
 /// Meshes and labels what was found.
-void make_elements(const PreparedScene& prepared, const MeshOptions& options,
+void make_elements(const PreparedScene& prepared, const DiscontinuityMeshOptions& options,
                    const Progress& progress, Stages& stages, MeshResult& result) {
   stages.run("mesh", [&] {
-    const DiscontinuityMesh mesh = make_mesh(prepared, options, progress, result);
+    const DiscontinuityMesh mesh = make_mesh(prepared, result.found, options, progress);
     result.mesh = mesh.report;
     result.elements = mesh.patches.elements();
     return result.elements.corners.size();
@@ -111,9 +135,22 @@ MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,
   check(options);
   auto result = begin_result<MeshResult>(prepared);
   Stages stages(result.stages);
-  find_curves(prepared, options, progress, stages, result);
+  std::vector<LightSource> sources;
+  stages.run("sources", [&] {
+    sources = all_sources(prepared, options.secondary, progress);
+    return sources.size();
+  });
+  DiscontinuityMeshOptions mesh_options;
+  mesh_options.max_length = options.max_length;
+  if (options.with_elements) {
+    mesh_options.max_triangles = most_elements(prepared, sources, options);
+    if (least_elements(prepared.scene()) > mesh_options.max_triangles)
+      refuse_labels(prepared, mesh_options.max_triangles);
+  }
+  find_curves(prepared, sources, options, progress, stages, result);
+  mesh_options.irradiance_tolerance = result.irradiance_tolerance;
   add(search_warnings(result.found.report, options.tolerance), result.warnings);
-  if (options.with_elements) make_elements(prepared, options, progress, stages, result);
+  if (options.with_elements) make_elements(prepared, mesh_options, progress, stages, result);
   stages.leave_out_if(!options.with_elements, "mesh", "only the curves were asked for");
   result.interrupted = progress.stopped();
   return result;

@@ -2,6 +2,7 @@
 
 #include "meshing/core/planar.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/middle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,6 @@ namespace {
 constexpr double most_looks = 2e7;
 /// Cosines below this count as it: grazing shadows have no end.
 constexpr double least_cosine = 0.05;
-
-Vec3 middle(const Surface& surface) {
-  Vec2 sum = Vec2::Zero();
-  for (const Vec2& p : surface.rings.front()) sum += p;
-  return surface.frame.to_space(sum / static_cast<double>(surface.rings.front().size()));
-}
 
 /// What light from a point meets next behind another, on its front; −1 if nothing.
 struct Landing {

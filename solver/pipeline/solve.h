@@ -17,6 +17,7 @@
 #include "solver/reflected/reflected_light.h"
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,13 @@ struct SubdivisionReport {
   std::vector<int> elements;  ///< after each round
 };
 
+/// What came of a scene's heat beside its light; see solve_net_exchange.
+struct FoundHeat {
+  Eigen::ArrayXd escaped_power;  ///< what space gets net in each band, W (for lengths in metres)
+  /// K, of each face whose temperature several bands tell together, else NaN; empty if of none.
+  std::vector<double> face_temperature;
+};
+
 /// A solved scene and how it came about.
 struct SolveResult {
   SoundScene scene;
@@ -41,7 +49,8 @@ struct SolveResult {
   DiscontinuityMeshReport mesh;        ///< how many of them the mesh has edges along
   double discontinuity_tolerance = 0;  ///< share of the mean irradiance, as used
   ElementTable elements;
-  Solution solution;  ///< means over the elements
+  std::shared_ptr<PatchMesh> patches;  ///< of the elements, if they can be split further
+  Solution solution;                   ///< means over the elements
   /// Polynomials on the elements, if they are not constant: direct and all irradiance, W/m².
   ElementField direct, irradiance;
   bool interpolated = false;  ///< they are of constant elements, see interpolated_field
@@ -61,6 +70,7 @@ struct SolveResult {
   /// goal: of that.
   double relative_error = 0;
   Heat heat;                       ///< what is known of temperatures; see solve_net_exchange
+  FoundHeat found_heat;            ///< empty unless it was solved for
   std::optional<GoalResult> goal;  ///< if one was asked for
   std::string not_reached;         ///< why the accuracy asked for was not; empty if it was
   bool interrupted = false;        ///< stopped early; see compute_exchange for factors not reached

@@ -198,6 +198,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.mesh = direct.mesh;
   result.discontinuity_tolerance = direct.discontinuity_tolerance;
   result.refinement = direct.light.report;
+  result.patches = direct.patches;
   result.radiosity.channels = plan.no_channels.empty() ? 3 : 1;
   stages.leave_out_if(!reflects, "reflected light", plan.no_factors);
   stages.leave_out_if(!plan.no_channels.empty(), "second and third channel", plan.no_channels);

@@ -3,6 +3,7 @@
 #include "solver/adapt/recovery_estimate.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/vertex_interpolation.h"
+#include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 #include "solver/pipeline/subdivide.h"
@@ -63,11 +64,7 @@ void estimate_error(const Eigen::ArrayXd& exchange_error, Stages& stages, SolveR
         recovery_estimate(result.elements, irradiance)
             .binaryExpr(of_exchange, [](double a, double b) { return std::hypot(a, b); });
     result.solution.error_estimate = estimate / scale;
-    result.relative_error = relative_error(result.elements, irradiance, estimate);
-    double of_solver = 0;
-    for (const ChannelReport& channel : result.radiosity.channel)
-      of_solver = std::max(of_solver, channel.error);
-    result.relative_error += of_solver;
+    result.relative_error = error_of_elements_and_solver(result);
     return result.elements.corners.size();
   });
 }

@@ -41,7 +41,7 @@ std::size_t count_contacts(const SoundScene& scene) {
 }
 
 [[noreturn]] void refuse(const SoundScene& scene, const SolveOptions& options) {
-  throw Error(ErrorCode::too_large, "solve",
+  throw Error(ErrorCode::too_large, {},
               fmt::format("{} surfaces with {} contact lines take more than {} elements{}; "
                           "--max-elements allows more",
                           scene.surfaces.size(), count_contacts(scene), options.max_elements,
@@ -117,9 +117,13 @@ PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_op
 }
 
 // Every surface takes an element, and every contact line two sides of three.
+std::size_t least_elements(const SoundScene& scene) {
+  return std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
+}
+
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options) {
-  const std::size_t least = std::max(scene.surfaces.size(), 2 * count_contacts(scene) / 3);
-  if (least > static_cast<std::size_t>(options.max_elements)) refuse(scene, options);
+  if (least_elements(scene) > static_cast<std::size_t>(options.max_elements))
+    refuse(scene, options);
 }
 
 double longest_edge(const SoundScene& scene, const SolveOptions& options) {

@@ -16,6 +16,9 @@ struct SolveMesh {
   std::optional<PatchMesh> patches;  ///< the same elements, for those who divide them
 };
 
+/// How many elements surfaces and contact lines alone take at least.
+std::size_t least_elements(const SoundScene& scene);
+
 /// Throws Error(too_large) if surfaces and contact lines alone take more than options.max_elements.
 void require_few_surfaces(const SoundScene& scene, const SolveOptions& options);
 

@@ -36,7 +36,7 @@ double mean_irradiance(const ElementTable& elements, const ChannelArray& irradia
 void require_room(int elements, std::size_t steep, int most) {
   // Three more for each, without what neighbours take.
   if (elements + 3 * static_cast<double>(steep) > most)
-    throw Error(ErrorCode::too_large, "solve",
+    throw Error(ErrorCode::too_large, {},
                 fmt::format("{} of {} elements are to be split in four, which makes more than {}; "
                             "--max-elements allows more, a larger --gradient takes fewer",
                             steep, elements, most));

@@ -14,6 +14,8 @@ namespace {
 
 /// Of the emitted power; beyond it nearly all is lost.
 constexpr double nearly_all = 0.99;
+/// Of the emitted power; where so much reaches surfaces, what leaves is what they reflect.
+constexpr double clearly_arriving = 0.1;
 /// Relative to a face's size or area: what moved by less counts as rounding.
 constexpr double noticeable = 1e-3;
 
@@ -83,6 +85,15 @@ double escaping_share(const RadiosityReport& report) {
     escaped += channel.escaped_power;
   }
   return emitted > 0 ? escaped / emitted : 0;
+}
+
+/// What arrives at surfaces of what is emitted; light that is reflected arrives more than once.
+double arriving_share(const LightOutcome& outcome) {
+  double emitted = 0, arriving = 0;
+  for (const ChannelReport& channel : outcome.radiosity.channel) emitted += channel.emitted_power;
+  for (int e = 0; e < outcome.elements.count(); ++e)
+    arriving += outcome.elements.area[at(e)] * outcome.solution.irradiance.row(e).sum();
+  return emitted > 0 ? arriving / emitted : 0;
 }
 
 /// What makes form factors better.
@@ -210,7 +221,7 @@ std::vector<Warning> light_warnings(const LightOutcome& outcome) {
   if (is_unlit(outcome))
     warnings.push_back(
         {Warning::Kind::nothing_lit, fmt::format("no light reaches any surface; {}", way_out)});
-  else if (escaping > nearly_all)
+  else if (escaping > nearly_all && arriving_share(outcome) < clearly_arriving)
     warnings.push_back(
         {Warning::Kind::light_escapes,
          fmt::format("{:.4g} % of the light leaves the scene; {}", 100 * escaping, way_out)});

@@ -63,7 +63,7 @@ void check(const ReflectedOptions& options) {
 }
 
 /// Elements as long as this to begin with.
-double first_length(const ElementTable& roots, const ReflectedOptions& options) {
+double first_length(double area, const ReflectedOptions& options) {
   constexpr double mean_area = 0.3;  // of elements that are at most 1 long, see make_reflected_mesh
   constexpr double fewest = 50;
   const double wanted =
@@ -71,7 +71,6 @@ double first_length(const ElementTable& roots, const ReflectedOptions& options) 
           ? fewest
           : std::clamp(usual_elements * std::pow(usual_error / options.tolerance, 2. / 3), fewest,
                        5000.);
-  const double area = std::accumulate(roots.area.begin(), roots.area.end(), 0.);
   const double length = std::sqrt(area / (mean_area * wanted));
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
 }
@@ -94,8 +93,7 @@ bool parts_are_quicker(int surfaces, const ReflectedOptions& options) {
 }
 
 /// How exact rows have to be for a tolerance, in a scene of some area.
-RowAccuracy row_accuracy(double tolerance, const ElementTable& roots) {
-  const double area = std::accumulate(roots.area.begin(), roots.area.end(), 0.);
+RowAccuracy row_accuracy(double tolerance, double area) {
   return {0.003 * tolerance, 0.3 * tolerance, 0.35 * std::sqrt(area)};
 }
 
@@ -372,9 +370,10 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   check(options);
   auto state = std::make_shared<ReflectedLight::State>(scene, direct, options, progress);
   const bool nothing = reflects_nothing(state->light) || options.bounces == 0;
-  const double length = nothing ? HUGE_VAL : first_length(state->reflecting.roots, options);
-  state->mesh =
-      make_reflected_mesh(state->reflecting.roots, length, options.order, options.max_elements);
+  const ElementTable& roots = state->reflecting.roots;
+  const HugeRoots huge = find_huge(roots);
+  const double length = nothing ? HUGE_VAL : first_length(huge.area, options);
+  state->mesh = make_reflected_mesh(roots, length, options.order, options.max_elements, huge);
   scale_light(*state);
   const int surfaces = static_cast<int>(scene.surfaces.size());
   state->report.is_exact = options.visibility == ReflectedVisibility::exact ||
@@ -384,7 +383,7 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   if (state->report.is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
-    state->accuracy = row_accuracy(options.tolerance, state->reflecting.roots);
+    state->accuracy = row_accuracy(options.tolerance, huge.area);
   }
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round

@@ -1,5 +1,7 @@
 #include "solver/reflected/reflected_mesh.h"
 
+#include "meshing/geometry/flat_tree.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +20,26 @@ double length_of(const TriangleForest& forest, int triangle) {
   const double longest = std::sqrt(std::max(
       {(c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm()}));
   return std::sqrt(longest * equilateral_edge * std::sqrt(forest.area(triangle)));
+}
+
+Bounds box_of(const std::array<Vec3, 3>& corners) {
+  Bounds box;
+  for (const Vec3& p : corners) box.include(p);
+  return box;
+}
+
+/// Of the roots that are not huge; empty if none is.
+FlatTree boxes_but(const HugeRoots& huge, const ElementTable& roots) {
+  std::vector<Bounds> boxes;
+  for (std::size_t r = 0; r < huge.is_huge.size(); ++r)
+    if (!huge.is_huge[r]) boxes.push_back(box_of(roots.triangle(static_cast<int>(r))));
+  return make_flat_tree(boxes, 1);
+}
+
+bool is_far(const Bounds& box, const FlatTree& others) {
+  bool meets = false;
+  visit_overlaps(others, box, [&](int) { meets = true; });
+  return !meets;
 }
 
 void number_elements(ReflectedMesh& mesh) {
@@ -55,12 +77,16 @@ ElementNodes make_nodes(int order) {
 }  // namespace
 
 ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int order,
-                                  int max_elements) {
+                                  int max_elements, const HugeRoots& huge) {
   ReflectedMesh mesh(roots);
   mesh.highest_order = order;
+  const FlatTree others = boxes_but(huge, roots);
   int leaves = roots.count();
   for (int t = 0; t < mesh.forest.count() && leaves < max_elements; ++t) {
-    if (length_of(mesh.forest, t) <= length) continue;
+    const double own = length_of(mesh.forest, t);
+    if (own <= length) continue;
+    const bool is_huge = !huge.is_huge.empty() && huge.is_huge[at(mesh.forest.root(t))];
+    if (is_huge && is_far(box_of(mesh.forest.corners(t)).grown(own), others)) continue;
     mesh.forest.bisect(t);
     ++leaves;
   }

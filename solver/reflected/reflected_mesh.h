@@ -2,6 +2,7 @@
 
 #include "solver/elements/element_field.h"
 #include "solver/elements/quadrature.h"
+#include "solver/reflected/huge_roots.h"
 #include "solver/reflected/triangle_forest.h"
 
 #include <span>
@@ -32,9 +33,10 @@ struct ReflectedMesh {
 
 /// Bisects roots until no triangle is longer than `length`: the geometric mean of its longest edge
 /// and the edge of an equilateral triangle of its area, so that slender ones stay few. Stops at
-/// `max_elements`. Elements much smaller have lower orders.
+/// `max_elements`. Elements much smaller have lower orders. Triangles of huge surfaces may be as
+/// long as they are far from everything else.
 ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int order,
-                                  int max_elements);
+                                  int max_elements, const HugeRoots& huge = {});
 
 /// Raises the order of elements where that is the next thing to do, else bisects them, and the
 /// halves again where `twice` says so. One entry of it a wanted element.

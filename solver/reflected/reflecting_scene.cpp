@@ -44,7 +44,7 @@ void fill_directions(const RayOrigin& from, int strata, std::uint64_t seed,
 }  // namespace
 
 double random_number(std::uint64_t seed, std::uint64_t place) {
-  return static_cast<double>(mix_bits(seed + place * splitmix_step) >> 11) * 0x1p-53;
+  return unit_share(mix_bits(seed + place * splitmix_step));
 }
 
 ReflectingScene make_reflecting_scene(const SoundScene& scene, const Progress& progress) {

@@ -165,8 +165,10 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
     for (auto arguments :
          test::examples_of(halfshade({command, "--help"}, folder.path()).out, command)) {
       arguments.insert(arguments.begin(), command);
-      if (command == "solve" &&
-          std::find(arguments.begin(), arguments.end(), "--elements") == arguments.end())
+      const auto has = [&](const char* option) {
+        return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+      };
+      if (command == "solve" && !has("--elements") && !has("--tolerance"))
         arguments.insert(arguments.end(), {"--elements", "300"});
       const test::Outcome outcome = halfshade(arguments, folder.path());
       EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
@@ -175,6 +177,17 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
   EXPECT_GE(ran, 6);
   for (const char* file : {"cornell.vtu", "cornell.ply", "cornell.png", "l_room.vtu", "s1.png"})
     EXPECT_TRUE(fs::exists(folder.path() / file)) << file;
+}
+
+TEST(CommandLine, ElementsAskedForThatAreTooFewForAToleranceAskedFor) {
+  const test::TempDir folder;
+  const std::string s1 = (data / "s1.obj").string();
+  const test::Outcome outcome =
+      halfshade({"solve", s1, "-q", "--elements", "50", "--tolerance", "1e-5"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 4);
+  EXPECT_NE(outcome.err.find("with these elements the error is about"), std::string::npos)
+      << outcome.err;
+  EXPECT_EQ(halfshade({"solve", s1, "--elements", "50"}, folder.path()).exit_code, 0);
 }
 
 TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {

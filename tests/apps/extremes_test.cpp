@@ -156,8 +156,9 @@ void furnaces(std::vector<Extreme>& all) {
     SceneText scene = furnace(0.7).polygon("wall", "sheet", sheet);
     std::reverse(sheet.begin(), sheet.end());
     scene.polygon("wall", "sheet", sheet);
-    all.push_back(solve_group(fmt::format("sheet_{:g}_above_a_floor", height), scene, "sheet",
-                              1 / 0.3, 1e-3, {"--elements", "600"}));
+    for (const char* group : {"sheet", "walls"})
+      all.push_back(solve_group(fmt::format("{}_sheet_{:g}_above_a_floor", group, height), scene,
+                                group, 1 / 0.3, 1e-3, {"--elements", "600"}));
   }
 }
 

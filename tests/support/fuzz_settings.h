@@ -1,6 +1,10 @@
 #pragma once
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <sys/time.h>
+#include <unistd.h>
 
 /// Fuzz tests run longer, and otherwise, as the environment says.
 namespace halfshade::test {
@@ -15,5 +19,25 @@ inline int fuzz_seconds() { return fuzz_setting("HALFSHADE_FUZZ_SECONDS", 0); }
 
 /// HALFSHADE_FUZZ_SEED.
 inline int fuzz_seed(int otherwise) { return fuzz_setting("HALFSHADE_FUZZ_SEED", otherwise); }
+
+/// The run that is watched.
+inline volatile std::sig_atomic_t watched_run = 0;
+
+inline void end_long_run(int) {
+  char text[64];
+  const int size =
+      std::snprintf(text, sizeof text, "run %d takes too long\n", static_cast<int>(watched_run));
+  if (size > 0 && write(STDERR_FILENO, text, static_cast<std::size_t>(size)) < 0) _exit(3);
+  _exit(2);
+}
+
+/// Ends the program, and names the run, if it goes on for more than these seconds of CPU time:
+/// machines may be busy. 0: it has ended.
+inline void watch_run(int run, int seconds) {
+  watched_run = run;
+  std::signal(SIGPROF, end_long_run);
+  const itimerval limit{{0, 0}, {seconds, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+}
 
 }  // namespace halfshade::test

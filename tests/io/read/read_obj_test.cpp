@@ -245,6 +245,7 @@ const BadFile bad_files[] = {
     {"LibraryMissing", "mtllib none.mtl\n", {"scene.obj:1", "'none.mtl'", "no file"}},
     {"LibraryUnnamed", "mtllib\n", {"scene.obj:1"}},
     {"LibraryIsFolder", "mtllib .\n", {"directory"}},
+    {"LibraryWithALongName", "mtllib " + std::string(1300, '/') + "\n", {"…///", "directory"}},
     {"LibraryEmpty", with_m(), {"m.mtl: the file is empty"}},
     {"MaterialUnnamed", "usemtl\n", {"scene.obj:1"}},
     {"MaterialUnknown", with_m("other"), {"scene.obj:2", "'other'"}, "newmtl m\nKd 0 0 0\n"},

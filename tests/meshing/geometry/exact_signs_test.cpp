@@ -10,6 +10,12 @@
 namespace halfshade {
 namespace {
 
+int turn(const Vec3& eye, const SeenPoint& a, const SeenPoint& b, const SeenPoint& c) {
+  const int sign = clear_turn(a, b, c);
+  EXPECT_TRUE(sign == 0 || sign == turn_exactly(eye, a, b, c));
+  return turn_exactly(eye, a, b, c);
+}
+
 using test::Random;
 
 SeenPoint seen(const Vec3& eye, const Vec3& position, int rank) {

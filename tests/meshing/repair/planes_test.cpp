@@ -68,6 +68,22 @@ TEST(ClassifyPlanes, ThatLookTheSameWayAreOneToWithinTheRoundingOfAFile) {
                 1e-6);
 }
 
+TEST(ClassifyPlanes, OfASheetAboveAFloorAreTwoHoweverNarrowTheGap) {
+  for (const double gap : {1e-5, 1e-6, 3e-7, 1e-8}) {
+    Sheets sheets;
+    sheets.add(0, true), sheets.add(gap, true), sheets.add(gap, false);
+    const PlaneClasses classes = sheets.classes();
+    EXPECT_EQ(classes.frames.size(), 2u) << gap;
+    EXPECT_EQ(classes.of_polygon[1], classes.of_polygon[2]) << gap;
+    EXPECT_NE(classes.of_polygon[0], classes.of_polygon[1]) << gap;
+  }
+  // The back of the floor itself is no reason.
+  Sheets slab;
+  slab.add(0, true), slab.add(0, false), slab.add(3e-7, true);
+  const PlaneClasses classes = slab.classes();
+  EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[2]);
+}
+
 TEST(ClassifyPlanes, ThatFaceEachOtherAreTwoHoweverNarrowTheGap) {
   for (const double gap : {1e-3, 1e-6, 1e-7, 1e-8}) {
     Sheets sheets;

@@ -55,6 +55,17 @@ TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
   EXPECT_EQ(dark.find("lamp"), std::string::npos);
 }
 
+TEST(Warnings, WhatIsReflectedOutIsNotLost) {
+  Scene scene;
+  const int light = test::add_material(scene, 1, 1), white = test::add_material(scene, 1, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
+  test::add_polygon(scene, {{0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 0, 1}}, white);
+  const SolveResult result = solve(scene, coarse());
+  ASSERT_GT(result.radiosity.channel[0].escaped_power,
+            .99 * result.radiosity.channel[0].emitted_power);
+  EXPECT_EQ(sentence_of(result, Warning::Kind::light_escapes), "");
+}
+
 TEST(Warnings, LostLightIsPutRightByWhatFactorsAreMadeOf) {
   SolveResult room = solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse());
   room.exchange.unfinished = 1;

@@ -4,13 +4,14 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <unistd.h>
+#include <system_error>
 
 /// What tests that read or write files need; expect_error, too.
 namespace halfshade::test {
@@ -27,15 +28,15 @@ inline std::filesystem::path data_file(std::string_view name) {
   return std::filesystem::path(HALFSHADE_DATA) / name;
 }
 
-/// A folder of its own for one test, removed with what is in it. Tests run in parallel processes,
-/// hence the process id in its name.
+/// A new, empty folder for one test, removed with what is in it.
 class TempDir {
  public:
   TempDir() {
-    static std::atomic<int> count{0};
-    path_ = std::filesystem::temp_directory_path() /
-            ("halfshade_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-    std::filesystem::create_directories(path_);
+    // Not from the process id: a test that was killed has left its folder, and ids come again.
+    std::string name = (std::filesystem::temp_directory_path() / "halfshade_test_XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw std::filesystem::filesystem_error("mkdtemp", name, {errno, std::generic_category()});
+    path_ = name;
   }
   ~TempDir() {
     std::error_code ignored;

@@ -38,8 +38,10 @@ void add_elements(CLI::App& app, int& elements, const char* help);
 /// Which discontinuities to look for.
 void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary);
 
-/// --flip and --orient, of commands that read a scene; --force, of those that solve it.
+/// --flip and --orient, of commands that read a scene; --visibility and --force, of those that
+/// solve it or say how.
 void add_orientation(CLI::App& app, SceneOptions& options);
+void add_visibility(CLI::App& app, SolveOptions& options);
 void add_force(CLI::App& app, ForcedStages& force);
 /// --method, and --factors with --hemicube and --rays, of solve.
 void add_solve_method(CLI::App& app, SolveOptions& options);

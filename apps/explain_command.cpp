@@ -43,6 +43,7 @@ void print_stages(const Explanation& explanation, std::FILE* out) {
                            : fmt::format("left out     {}: {}", stage.name, stage.left_out_because);
     if (!stage.left_out_because.empty() && !stage.force.empty())
       line += fmt::format(" (--force {})", stage.force);
+    if (!stage.how.empty()) line += ", " + stage.how;
     if (stage.left_out_because.empty() && stage.amount > 0)
       line += fmt::format(": {:.3g} {}", stage.amount, stage.what);
     if (stage.left_out_because.empty() && stage.seconds > 0)

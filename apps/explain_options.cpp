@@ -14,6 +14,7 @@ void add_explain(CLI::App& program, ExplainCommand& command, CommonOptions& comm
       ->capture_default_str();
   add_whole(app, "--bounces", command.options.radiosity.bounces, {0, 100000}, "As for solve");
   add_solve_method(app, command.options);
+  add_visibility(app, command.options);
   add_factors_by(app, command.options.exchange);
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <array>
+
 namespace halfshade {
 
 void add_orientation(CLI::App& app, SceneOptions& options) {
@@ -9,6 +11,18 @@ void add_orientation(CLI::App& app, SceneOptions& options) {
   app.add_flag("--orient", options.orient,
                "Turn the faces of closed shells: inwards if a light is in it (else the largest),\n"
                "all others outwards");
+}
+
+void add_visibility(CLI::App& app, SolveOptions& options) {
+  add_choice(
+      app, "--visibility", {"auto", "exact", "sampled"},
+      [&options](std::size_t k) {
+        options.visibility = std::array{ReflectedVisibility::automatic, ReflectedVisibility::exact,
+                                        ReflectedVisibility::sampled}
+                                 .at(k);
+      },
+      "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
+      "by whichever takes less time ('auto')");
 }
 
 void add_force(CLI::App& app, ForcedStages& force) {

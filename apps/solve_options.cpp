@@ -61,15 +61,7 @@ void add_light(CLI::App& app, SolveCommand& command) {
       ->excludes("--goal");
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
-  add_choice(
-      app, "--visibility", {"auto", "exact", "sampled"},
-      [&options](std::size_t k) {
-        options.visibility = std::array{ReflectedVisibility::automatic, ReflectedVisibility::exact,
-                                        ReflectedVisibility::sampled}
-                                 .at(k);
-      },
-      "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
-      "by whichever takes less time ('auto')");
+  add_visibility(app, options);
   add_factors_by(app, options.exchange, &command.factors);
   add_choice(
       app, "--solver",

@@ -1,6 +1,7 @@
 // glTF, COLLADA and 3DS through assimp, which keeps positions in single precision as the
 // formats mostly do. Nothing is triangulated or joined; node transforms are applied in double.
 
+#include "io/files/trial_run.h"
 #include "io/read/read_formats.h"
 #include "io/read/read_text.h"
 #include "meshing/core/error.h"
@@ -13,6 +14,7 @@
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <limits>
 #include <map>
@@ -178,18 +180,39 @@ class NotingFiles : public Assimp::DefaultIOSystem {
   std::vector<std::filesystem::path>& files_;
 };
 
+/// Null, with a sentence in the importer or thrown, if there is no scene in the file.
+const aiScene* load(Assimp::Importer& importer, const std::filesystem::path& path) {
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // not the ids
+  return importer.ReadFile(path.string(), 0);
+}
+
+/// Assimp's older importers crash or hang on some damaged files. That of glTF checks what it reads.
+void require_harmless(const std::filesystem::path& path) {
+  if (is_gltf(path)) return;
+  constexpr double a_megabyte = 1e6;
+  const auto size = static_cast<double>(std::filesystem::file_size(path));
+  const int seconds = 3 + static_cast<int>(2 * std::min(size / a_megabyte, 1e4));
+  const auto try_import = [&] {
+    Assimp::Importer importer;
+    load(importer, path);
+  };
+  if (!survives(try_import, seconds))
+    fail(path, 0,
+         fmt::format("the file is damaged: reading it crashes or takes over {} s", seconds));
+}
+
 }  // namespace
 
 SceneDraft read_with_assimp(const std::filesystem::path& path) {
   require_readable(path);
   if (is_gltf(path)) require_whole_glb(path);
+  require_harmless(path);
   std::vector<std::filesystem::path> files;
   Assimp::Importer importer;
   importer.SetIOHandler(new NotingFiles(files));  // which the importer deletes
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_USE_COLLADA_NAMES, true);  // not the ids
   const aiScene* input = nullptr;
   try {
-    input = importer.ReadFile(path.string(), 0);
+    input = load(importer, path);
   } catch (const std::exception& error) {
     fail(path, 0, fmt::format("the file cannot be read: {}", error.what()));
   }

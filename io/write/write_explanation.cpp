@@ -31,7 +31,8 @@ Json planned_json(const std::vector<PlannedStage>& stages) {
                     {"force", or_null(stage.force)},
                     {"amount", stage.amount},
                     {"what", stage.what},
-                    {"seconds", stage.seconds}});
+                    {"seconds", stage.seconds},
+                    {"how", or_null(stage.how)}});
   return json;
 }
 

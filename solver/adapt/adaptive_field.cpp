@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <unordered_map>
 
@@ -93,9 +94,11 @@ class Adaptation {
   /// Square of the error.
   double allowed() const { return options_.tolerance * options_.tolerance * square_norm(); }
 
+  Rgb scale() const { return scale_.value_or(Rgb::Ones()); }
+
   /// Of what errors are relative to.
   double square_norm() const {
-    const double norm = options_.norm * (scale_ > 0 ? scale_ : 1);
+    const double norm = options_.norm * scale().minCoeff();
     return options_.weight ? norm * norm : std::max(square_, norm * norm);
   }
 
@@ -150,12 +153,12 @@ class Adaptation {
     std::vector<Rgb> values = field_(points, progress_);
     report_.samples += points.size();
     if (progress_.stopped()) return {};
-    if (scale_ == 0) {
-      double largest = 0;
-      for (const Rgb& value : values) largest = std::max(largest, value.maxCoeff());
+    if (!scale_) {
+      Rgb largest = Rgb::Zero();
+      for (const Rgb& value : values) largest = largest.max(value);
       scale_ = balancing_scale(largest);
     }
-    for (Rgb& value : values) value *= scale_;
+    for (Rgb& value : values) value *= *scale_;
     return values;
   }
 
@@ -359,10 +362,10 @@ class Adaptation {
     for (const Element& element : elements_) order.push_back(element.fit.order);
     out.field = zero_field(std::move(order));
     out.error.resize(static_cast<Eigen::Index>(elements_.size()));
-    const double scale = scale_ > 0 ? scale_ : 1;
+    const Rgb unscaled = scale().inverse();
     for (int e = 0; e < out.field.count(); ++e) {
-      out.field.of(e) = elements_[at(e)].fit.coefficients / scale;
-      out.error[e] = elements_[at(e)].fit.error / scale;
+      out.field.of(e) = elements_[at(e)].fit.coefficients.rowwise() * unscaled.transpose();
+      out.error[e] = elements_[at(e)].fit.error * unscaled.maxCoeff();
     }
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;
@@ -381,7 +384,7 @@ class Adaptation {
   ElementTable table_;
   std::vector<Element> elements_;
   std::unordered_map<int, int> index_of_node_;
-  double scale_ = 0;  ///< of all values; 0: not known yet
+  std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0;
   std::size_t unknowns_ = 0, next_check_ = 0;
   AdaptiveFieldReport report_;

@@ -3,7 +3,9 @@
 #include "meshing/patches/patch_mesh.h"
 #include "solver/exchange/cells.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/solve_fields.h"
 #include "solver/pipeline/solve_mesh.h"
+#include "solver/reflected/reflected_cost.h"
 
 #include <fmt/format.h>
 
@@ -66,6 +68,19 @@ double count_rays(const SolveOptions& options, double factors) {
   return 3. * options.elements * std::pow(options.exchange.hemicube_pixels, 2);
 }
 
+PlannedStage plan_reflected_light(const SoundScene& scene, const Plan& plan,
+                                  const SolveOptions& options) {
+  constexpr double cores = 2;
+  PlannedStage stage{"reflected light", plan.no_factors, "factors", 0, "", 0, ""};
+  if (!plan.no_factors.empty()) return stage;
+  const ReflectedCost cost =
+      reflected_cost(static_cast<int>(scene.surfaces.size()),
+                     reflected_options(plan, options, options.tolerance, nullptr));
+  stage.seconds = cost.cpu_seconds / cores;
+  stage.how = cost.is_exact ? "by exactly visible parts" : "by rays over hemispheres";
+  return stage;
+}
+
 std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
                                       const SolveOptions& options, bool any_closed) {
   const double n = options.elements, factors = count_factors(scene, options.elements);
@@ -87,7 +102,7 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
     stages.push_back({"mesh", "", "", 0, "as many elements as the tolerance takes", 0});
     stages.push_back({"exact direct light", plan.no_exact_direct_light, "direct-light", emitters,
                       "emitters", 0});
-    stages.push_back({"reflected light", plan.no_factors, "factors", 0, "", 0});
+    stages.push_back(plan_reflected_light(scene, plan, options));
     stages.push_back({"second and third channel", plan.no_channels, "channels", 0, "", 0});
     return stages;
   }

@@ -17,6 +17,7 @@ struct PlannedStage {
   double amount = 0;             ///< about how much of `what` there is to do
   std::string what;
   double seconds = 0;  ///< about, on two cores; 0 where there is no telling before
+  std::string how{};   ///< it will run; empty where there is one way
 };
 
 /// A part of space whose surfaces exchange no light with those elsewhere.

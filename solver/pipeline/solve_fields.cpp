@@ -75,24 +75,6 @@ double goal_tolerance(double share, double tolerance) {
   return std::min(slack_of_goal * share * tolerance, std::max(most, share * tolerance));
 }
 
-ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options, double tolerance,
-                                   const GoalWeights* goal) {
-  ReflectedOptions result;
-  result.visibility = options.visibility;
-  result.tolerance = reflected_share * tolerance;
-  if (goal) {
-    result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
-    result.weight = goal->weight;
-    result.norm = goal->norm;
-  }
-  result.bounces = options.radiosity.bounces;
-  result.through_operator = !plan.no_exact_direct_light.empty();
-  // What arrives straight from emitters arrives by the operator's first application.
-  if (result.through_operator && result.bounces >= 0) ++result.bounces;
-  result.max_elements = options.max_elements;
-  return result;
-}
-
 AdaptiveFieldOptions values_options(const SolveOptions& options, double tolerance,
                                     const GoalWeights* goal) {
   AdaptiveFieldOptions result = field_options(options, goal);
@@ -175,6 +157,24 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, double tolerance
 }
 
 }  // namespace
+
+ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options, double tolerance,
+                                   const GoalWeights* goal) {
+  ReflectedOptions result;
+  result.visibility = options.visibility;
+  result.tolerance = reflected_share * tolerance;
+  if (goal) {
+    result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
+    result.weight = goal->weight;
+    result.norm = goal->norm;
+  }
+  result.bounces = options.radiosity.bounces;
+  result.through_operator = !plan.no_exact_direct_light.empty();
+  // What arrives straight from emitters arrives by the operator's first application.
+  if (result.through_operator && result.bounces >= 0) ++result.bounces;
+  result.max_elements = options.max_elements;
+  return result;
+}
 
 void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
                   const Progress& progress, Stages& stages, SolveResult& result) {

@@ -2,9 +2,11 @@
 
 #include "meshing/core/error.h"
 #include "meshing/geometry/mix_bits.h"
+#include "solver/elements/balancing_scale.h"
 #include "solver/reflected/exact_estimate.h"
 #include "solver/reflected/exact_exchange.h"
 #include "solver/reflected/refinement.h"
+#include "solver/reflected/reflected_cost.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +31,7 @@ struct ReflectedLight::State {
   std::unique_ptr<const SoundScene> scene;  ///< for exact parts, as the next two
   std::unique_ptr<const ExactSight> sight;
   RowAccuracy accuracy;
-  double scale = 1;  ///< of all light while it is solved for: no size of it over- or underflows
+  Rgb scale = Rgb::Ones();  ///< of light while it is solved for: no size of it over- or underflows
   ReflectedMesh mesh;
   ElementTable elements;
   ElementField field;
@@ -44,8 +46,6 @@ namespace {
 
 /// Rays from a node that are kept: strata².
 constexpr int kept_strata = 10;
-/// With these many elements of order 2 plain rooms come to this error.
-constexpr double usual_elements = 200, usual_error = 0.01;
 constexpr double usual_rays = 300;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
@@ -80,18 +80,6 @@ int first_rays(const ReflectedOptions& options) {
   return std::min(options.max_rays, std::max(48, static_cast<int>(rays)));
 }
 
-/// Whether exactly visible parts are expected to take less time than rays. CPU seconds, measured on
-/// rooms of 15 to 560 surfaces; both need more elements where there is more furniture.
-bool parts_are_quicker(int surfaces, const ReflectedOptions& options) {
-  // Noise of rays is everywhere, and few elements matter.
-  constexpr double with_weights = 10;
-  const double finer = (options.weight ? with_weights : 1) * usual_error / options.tolerance;
-  const double rows = 6 * (usual_elements + 8 * surfaces) * std::pow(finer, 2. / 3) * 1.5 + 1500;
-  const double by_parts = rows * 3.4e-6 * std::pow(surfaces, 1.25);
-  const double by_rays = 1.1 * std::pow(finer, 2.5) * (1 + surfaces / 50.);
-  return by_parts < by_rays;
-}
-
 /// How exact rows have to be for a tolerance, in a scene of some area.
 RowAccuracy row_accuracy(double tolerance, double area) {
   return {0.003 * tolerance, 0.3 * tolerance, 0.35 * std::sqrt(area)};
@@ -109,12 +97,11 @@ bool reflects_nothing(const FirstLight& light) {
          (!light.through_operator && std::all_of(light.rho.begin(), light.rho.end(), is_zero));
 }
 
-/// Brings the strongest exitance to about 1, by a power of two.
+/// Brings the strongest exitance to about 1.
 void scale_light(ReflectedLight::State& state) {
-  double largest = 0;
-  for (const Rgb& e : state.light.exitance) largest = std::max(largest, e.maxCoeff());
-  if (!(largest > 0)) return;
-  state.scale = std::ldexp(1., -std::ilogb(largest));
+  Rgb largest = Rgb::Zero();
+  for (const Rgb& e : state.light.exitance) largest = largest.max(e);
+  state.scale = balancing_scale(largest);
   for (Rgb& e : state.light.exitance) e *= state.scale;
   state.light.direct = [direct = std::move(state.light.direct), scale = state.scale](
                            int surface, const Vec3& p) { return Rgb(scale * direct(surface, p)); };
@@ -262,8 +249,8 @@ class Rounds {
     ++report.rounds;
     report.rays += estimate.rays;
     const double found = std::max(estimate.sum, 0.);
-    const double all =
-        options_.weight ? std::pow(state_.scale * options_.norm, 2) : estimate.square_total;
+    const double scale = state_.scale.minCoeff();  // of the channels that count
+    const double all = options_.weight ? std::pow(scale * options_.norm, 2) : estimate.square_total;
     const auto share = [&](double square) { return all > 0 ? std::sqrt(square / all) : 0; };
     const BalanceEstimate balance = estimate_balance(
         system, direct_.leaving(mesh_, state_.light), irradiance.rest,
@@ -271,8 +258,7 @@ class Rounds {
     report.error = std::hypot(comes_back * share(found + 2 * estimate.deviation),
                               share(balance.square), report.residual * report.amplification);
     report.noise = share(std::accumulate(noise.begin(), noise.end(), 0.));
-    report.mean_square_total =
-        estimate.square_total / system.systems.area.sum() / (state_.scale * state_.scale);
+    report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
     if (report.error <= options_.tolerance) {
       report.end = ReflectedEnd::accurate;
       return false;
@@ -327,7 +313,7 @@ void finish(ReflectedLight::State& state) {
   if (state.field.count() != state.mesh.count()) state.field = zero_field(state.mesh);
   state.leaving_rest = reflected_part(state.mesh, state.light, state.field);
   state.leaving.emplace(state.leaving_rest);
-  state.field.coefficients /= state.scale;
+  state.field.coefficients.rowwise() /= state.scale.transpose();
   state.irradiance.emplace(state.field);
   state.elements = element_table(state.mesh, state.reflecting.roots);
   state.report.elements = state.mesh.count();
@@ -376,9 +362,7 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   state->mesh = make_reflected_mesh(roots, length, options.order, options.max_elements, huge);
   scale_light(*state);
   const int surfaces = static_cast<int>(scene.surfaces.size());
-  state->report.is_exact = options.visibility == ReflectedVisibility::exact ||
-                           (options.visibility == ReflectedVisibility::automatic &&
-                            parts_are_quicker(surfaces, options));
+  state->report.is_exact = reflected_cost(surfaces, options).is_exact;
   state->report.through_operator = options.through_operator;
   if (state->report.is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);

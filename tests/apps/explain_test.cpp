@@ -51,6 +51,26 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   EXPECT_EQ(halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code, 2);
 }
 
+TEST(Explain, SaysHowReflectedLightWillBeFoundAndWhatItTakes) {
+  const test::TempDir folder;
+  const std::string box = (fs::path(HALFSHADE_DATA) / "cornell_box.obj").string();
+  const auto seconds = [&](const std::string& tolerance) {
+    const test::Outcome outcome =
+        halfshade({"explain", box, "--tolerance", tolerance, "--json", "p.json"}, folder.path());
+    EXPECT_TRUE(has(outcome.out, "reflected light, by exactly visible parts, about"))
+        << outcome.out;
+    nlohmann::json report;
+    std::ifstream(folder.path() / "p.json") >> report;
+    for (const auto& stage : report["stages"])
+      if (stage["name"] == "reflected light") return stage["seconds"].get<double>();
+    return 0.;
+  };
+  EXPECT_GT(seconds("1e-2"), 0);
+  EXPECT_GT(seconds("1e-3"), 2 * seconds("1e-2"));
+  EXPECT_TRUE(has(halfshade({"explain", box, "--visibility", "sampled"}, folder.path()).out,
+                  "reflected light, by rays over hemispheres"));
+}
+
 TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
   const test::TempDir folder;
   write_inside_out(folder.path());

@@ -1,4 +1,5 @@
 #include "io/read/read_scene.h"
+#include "tests/support/assimp_samples.h"
 #include "tests/support/files.h"
 #include "tests/support/gltf_samples.h"
 #include "tests/support/scene_texts.h"
@@ -15,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using test::as_glb;
+using test::collada;
 using test::expect_error;
 using test::expect_refused;
 using test::gltf_triangle;
@@ -138,30 +140,6 @@ TEST(ReadGltf, RefusesTruncatedFiles) {
     expect_refused("a.glb", binary.substr(0, size), {"a.glb"});
 }
 
-std::string collada(const std::string& up, const std::string& meter) {
-  return fmt::format(
-      R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema"
-version="1.4.1"><asset><unit name="u" meter="{}"/><up_axis>{}</up_axis></asset>
-<library_effects><effect id="e"><profile_COMMON><technique sid="c"><lambert>
-<emission><color>3 2 1 1</color></emission><diffuse><color>0.25 0.5 0.75 1</color></diffuse>
-</lambert></technique></profile_COMMON></effect></library_effects>
-<library_materials><material id="m" name="paint"><instance_effect url="#e"/></material>
-</library_materials>
-<library_geometries><geometry id="g" name="plate"><mesh>
-<source id="p"><float_array id="pa" count="15">0 0 0 1 0 0 1 1 0 0.5 2 0 0 1 0</float_array>
-<technique_common><accessor source="#pa" count="5" stride="3"><param name="X" type="float"/>
-<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
-<polylist material="s" count="1"><input semantic="VERTEX" source="#v" offset="0"/>
-<vcount>5</vcount><p>0 1 2 3 4</p></polylist></mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="vs"><node id="n" name="table">
-<translate>0 0 4</translate><instance_geometry url="#g"><bind_material><technique_common>
-<instance_material symbol="s" target="#m"/></technique_common></bind_material></instance_geometry>
-</node></visual_scene></library_visual_scenes>
-<scene><instance_visual_scene url="#vs"/></scene></COLLADA>)",
-      meter, up);
-}
-
 TEST(ReadCollada, KeepsPolygonsAndMaterials) {
   const Scene scene = read_text("a.dae", collada("Y_UP", "1")).scene;
   ASSERT_EQ(scene.faces.size(), 1U);
@@ -178,6 +156,25 @@ TEST(ReadCollada, RefusesTruncatedFiles) {
   const std::string text = collada("Y_UP", "1");
   for (const std::size_t size : {std::size_t{30}, text.size() / 3, text.size() / 2})
     expect_refused("a.dae", text.substr(0, size), {"a.dae"});
+}
+
+TEST(Read3ds, KeepsTrianglesAndMaterials) {
+  const Scene scene = read_text("a.3ds", test::three_ds()).scene;
+  ASSERT_EQ(scene.faces.size(), 2U);
+  // Assimp turns the third axis, which is up in this format, to the second.
+  EXPECT_THAT(face_corners(scene, 0), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, -1)));
+  EXPECT_THAT(face_corners(scene, 1), ElementsAre(Vec3(0, 0, 0), Vec3(1, 0, -1), Vec3(0, 0, -1)));
+  const Material& material = scene.materials[static_cast<std::size_t>(scene.faces[0].material)];
+  EXPECT_EQ(material.name, "paint");
+  EXPECT_NEAR(material.rho[0], 0.2, 1e-6);
+  EXPECT_NEAR(material.rho[1], 0.4, 1e-6);
+  EXPECT_NEAR(material.rho[2], 0.6, 1e-6);
+}
+
+TEST(Read3ds, RefusesTruncatedFiles) {
+  const std::string bytes = test::three_ds();
+  for (const std::size_t size : {std::size_t{5}, bytes.size() / 3, bytes.size() / 2})
+    expect_refused("a.3ds", bytes.substr(0, size), {"a.3ds"});
 }
 
 }  // namespace

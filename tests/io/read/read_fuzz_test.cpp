@@ -10,6 +10,7 @@
 #include "io/read/read_points.h"
 #include "io/read/read_scene.h"
 #include "meshing/core/error.h"
+#include "tests/support/assimp_samples.h"
 #include "tests/support/files.h"
 #include "tests/support/fuzz_settings.h"
 #include "tests/support/gltf_samples.h"
@@ -189,6 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Seed{"Gltf", "scene.gltf", "scene.gltf", test::gltf_triangle().dump(1), 1500},
                     Seed{"Glb", "scene.glb", "scene.glb", test::as_glb(test::gltf_triangle()),
                          1500},
+                    Seed{"Collada", "scene.dae", "scene.dae", test::collada("Y_UP", "1"), 1500},
+                    Seed{"ThreeDs", "scene.3ds", "scene.3ds", test::three_ds(), 1500},
                     Seed{"Points", "points.csv", "points.csv", points, 1500}),
     [](const auto& param) { return param.param.name; });
 

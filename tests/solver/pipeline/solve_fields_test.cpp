@@ -169,6 +169,20 @@ TEST(SolveFields, AClosedCubeKeepsItsPower) {
   EXPECT_GT(result.reflected.systems, 0);
 }
 
+TEST(SolveFields, WeakChannelsAreReflectedLikeStrongOnes) {
+  Scene cube = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  const Rgb strength(1e155, 1, 1e-170);
+  for (Material& material : cube.materials) material.exitance *= strength;
+  const SolveResult result = solve(cube, within(1e-2));
+  Rgb power = Rgb::Zero();
+  double area = 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    power += result.elements.area[at(e)] * result.solution.irradiance.row(e).transpose();
+    area += result.elements.area[at(e)];
+  }
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(power[k] / area / strength[k], 1. / 3, 1e-3 / 3) << k;
+}
+
 TEST(SolveFields, WithoutBouncesAllLightIsDirect) {
   SolveOptions options = within(1e-2);
   options.radiosity.bounces = 0;

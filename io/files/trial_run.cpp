@@ -1,0 +1,54 @@
+#include "io/files/trial_run.h"
+
+#include <cerrno>
+#include <csignal>
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace halfshade {
+namespace {
+
+/// In the child.
+void limit_time(int seconds) {
+  const rlimit limit{static_cast<rlim_t>(seconds), static_cast<rlim_t>(seconds) + 1};
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
+/// In the child: a crash leaves nothing behind and prints nothing.
+void be_quiet() {
+  const rlimit none{0, 0};
+  setrlimit(RLIMIT_CORE, &none);
+  const int nothing = open("/dev/null", O_WRONLY);
+  dup2(nothing, STDOUT_FILENO);
+  dup2(nothing, STDERR_FILENO);
+}
+
+}  // namespace
+
+bool survives(const std::function<void()>& work, int seconds) {
+  const pid_t parent = getpid();
+  const pid_t child = fork();
+  if (child < 0) return true;
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM})
+      std::signal(signal, SIG_DFL);
+    limit_time(seconds);
+    be_quiet();
+    try {
+      work();
+    } catch (...) {  // which the caller's own run will meet
+    }
+    _exit(0);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return true;
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace halfshade

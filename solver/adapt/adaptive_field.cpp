@@ -153,11 +153,7 @@ class Adaptation {
     std::vector<Rgb> values = field_(points, progress_);
     report_.samples += points.size();
     if (progress_.stopped()) return {};
-    if (!scale_) {
-      Rgb largest = Rgb::Zero();
-      for (const Rgb& value : values) largest = largest.max(value);
-      scale_ = balancing_scale(largest);
-    }
+    if (!scale_) scale_ = balancing_scale(values);
     for (Rgb& value : values) value *= *scale_;
     return values;
   }

@@ -59,12 +59,21 @@ double cost_of_curves(const SoundScene& scene, const Plan& plan) {
          static_cast<double>(plan.sources.size());
 }
 
-PlanarMeshOptions plain_mesh_options(const SoundScene& scene, const SolveOptions& options) {
-  PlanarMeshOptions result;
-  result.max_length = length_of(scene, options);
-  result.min_angle = least_angle;
-  result.max_triangles = static_cast<std::size_t>(options.max_elements);
-  return result;
+/// Whether elements are not divided, and there are to be so many.
+bool has_budget(const SolveOptions& options) {
+  return options.refine == Refinement::uniform && options.max_length == 0;
+}
+
+/// Elements that follow no curves.
+PatchMesh mesh_without_curves(const SoundScene& scene, const SolveOptions& options,
+                              const Progress& progress) {
+  if (has_budget(options))
+    return *std::move(make_solve_mesh(scene, options, progress, least_angle).patches);
+  PlanarMeshOptions mesh_options;
+  mesh_options.max_length = length_of(scene, options);
+  mesh_options.min_angle = least_angle;
+  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
+  return mesh_plainly(scene, mesh_options, options, progress);
 }
 
 class DirectFieldSearch {
@@ -115,19 +124,32 @@ class DirectFieldSearch {
     return true;
   }
 
+  /// Where the scene alone takes more elements than were asked for.
+  void warn_of_excess(int plain_elements) {
+    if (has_budget(options_))
+      add(mesh_warnings({scene(), 0, plain_elements, options_.elements, 0, 0}), found_.warnings);
+  }
+
   void fit_without_curves(double most_samples) {
-    const PlanarMeshOptions mesh_options = plain_mesh_options(scene(), options_);
     stages_.run("mesh", [&] {
       found_.patches =
-          std::make_shared<PatchMesh>(mesh_plainly(scene(), mesh_options, options_, progress_));
+          std::make_shared<PatchMesh>(mesh_without_curves(scene(), options_, progress_));
       return static_cast<std::size_t>(found_.patches->element_count());
     });
+    warn_of_excess(found_.patches->element_count());
     AdaptiveFieldOptions fit = field_options(options_, goal_);
     fit.max_samples = most_samples;
     fit_on_patches(fit);
   }
 
   void fit_along_curves() {
+    SolveMesh plain;
+    if (has_budget(options_))
+      stages_.run("mesh", [&] {
+        plain = make_solve_mesh(scene(), options_, progress_, least_angle);
+        warn_of_excess(plain.elements.count());
+        return plain.elements.corners.size();
+      });
     DiscontinuityOptions events = options_.events;
     events.eee = events.eee && plan_.no_eee.empty();
     events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
@@ -150,6 +172,7 @@ class DirectFieldSearch {
     found_.discontinuities = curves.report;
     found_.curves = curves.curves.size();
     add(search_warnings(curves.report, options_.tolerance), found_.warnings);
+    if (has_budget(options_)) return fit_some_curves(curves, std::move(plain));
     bool fits = true;
     stages_.run("mesh along curves", [&] {
       fits = mesh_along(curves, mesh_options);
@@ -165,6 +188,27 @@ class DirectFieldSearch {
       return fit_without_curves(0);
     }
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
+    fit_on_patches(field_options(options_, goal_));
+  }
+
+  /// As many of the strongest as suit the number of elements asked for.
+  void fit_some_curves(const Discontinuities& curves, SolveMesh plain) {
+    SolveOptions mesh_options = options_;
+    mesh_options.tolerance *= share_of_curves;
+    stages_.run("mesh along curves", [&] {
+      SolveMesh mesh = make_solve_mesh(scene(), curves, std::move(plain), mesh_options,
+                                       plan_.mean_irradiance, progress_);
+      found_.mesh = mesh.report;
+      found_.discontinuity_tolerance = mesh.tolerance;
+      found_.patches = std::make_shared<PatchMesh>(*std::move(mesh.patches));
+      return mesh.elements.corners.size();
+    });
+    if (found_.discontinuity_tolerance > mesh_options.tolerance)
+      found_.warnings.push_back(
+          {Warning::Kind::curves_left_out,
+           fmt::format("elements follow only {} of the {} curves, for more take more than the {} "
+                       "elements asked for with --elements",
+                       found_.mesh.kept, found_.curves, options_.elements)});
     fit_on_patches(field_options(options_, goal_));
   }
 
@@ -252,8 +296,7 @@ DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options
                             const Progress& progress, Stages& stages) {
   DirectField none;
   stages.run("mesh", [&] {
-    none.patches = std::make_shared<PatchMesh>(
-        mesh_plainly(scene, plain_mesh_options(scene, options), options, progress));
+    none.patches = std::make_shared<PatchMesh>(mesh_without_curves(scene, options, progress));
     none.light.elements = none.patches->elements();
     return none.light.elements.corners.size();
   });

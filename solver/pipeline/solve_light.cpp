@@ -4,6 +4,7 @@
 #include "solver/direct/direct_light.h"
 #include "solver/elements/material_arrays.h"
 #include "solver/exchange/estimated_factors.h"
+#include "solver/pipeline/gap_light.h"
 
 #include <fmt/format.h>
 
@@ -130,6 +131,7 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
     const ChannelArray& sent = light.solution.radiosity;
     light.exchange_error =
         estimation_error(exchange, is_exact ? ChannelArray(sent - materials.exitance) : sent);
+    light.in_gaps = light_in_gaps(exchange, materials, light.solution.irradiance);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });
   stages.leave_out_if(light.radiosity.unknowns == 0, "interreflection", "no surface reflects");

@@ -18,6 +18,7 @@ struct SolvedLight {
   RadiosityReport radiosity;
   /// Standard deviation of the irradiance that estimated factors make, see estimation_error.
   Eigen::ArrayXd exchange_error;
+  double in_gaps = 0;  ///< see light_in_gaps
 };
 
 /// Finds direct light, form factors and radiosity on given elements, as far as the plan does not

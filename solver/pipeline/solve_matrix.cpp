@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace halfshade {
 namespace {
@@ -75,6 +76,18 @@ void interpolate(SolveResult& result) {
   result.interpolated = true;
 }
 
+/// Why the error is larger than its estimate.
+std::string not_resolved(const SolvedLight& light) {
+  constexpr double often =
+      5;  // as much light as this where it is seen wrongly is a good part of it
+  if (light.in_gaps < often) return {};
+  return fmt::format(
+      "elements are longer than the gaps in which {:.2g} times the light put in is reflected, and "
+      "do "
+      "not show how much of it gets out; more --elements, or --method fields, tell more",
+      light.in_gaps);
+}
+
 }  // namespace
 
 void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
@@ -103,6 +116,7 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.elements = std::move(mesh.elements);
 
   SolvedLight light = solve_light(prepared, result.elements, plan, options, progress, stages);
+  result.not_reached = not_resolved(light);
   if (options.subdivision.rounds > 0 && mesh.patches) {
     SubdividedLight divided = subdivide(prepared, plan, options, *std::move(mesh.patches),
                                         std::move(light), progress, stages);

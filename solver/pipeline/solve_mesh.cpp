@@ -27,7 +27,8 @@ std::optional<SolveMesh> try_mesh(const SoundScene& scene, const Discontinuities
   try {
     DiscontinuityMesh mesh = mesh_discontinuities(scene, found, options, progress);
     ElementTable elements = mesh.patches.elements();
-    return SolveMesh{std::move(elements), mesh.report, 0, std::move(mesh.patches)};
+    return SolveMesh{std::move(elements), mesh.report, 0, std::move(mesh.patches),
+                     options.min_angle};
   } catch (const Error& error) {
     if (error.code() == ErrorCode::too_large) return std::nullopt;
     throw;
@@ -50,6 +51,12 @@ std::size_t count_contacts(const SoundScene& scene) {
                               : ""));
 }
 
+/// The elements asked for and some more, or what it takes without curves and some more.
+double most_elements(int asked, int plain) {
+  const double most = (1 + most_excess) * asked;
+  return plain <= most ? most : (1 + most_excess) * plain;
+}
+
 /// How the length and the tolerance come to suit the number of elements asked for. Works with the
 /// inverse square of the length, which the number of elements is nearly linear in: curves make some
 /// of their own, whatever the length.
@@ -60,7 +67,7 @@ class SizeSearch {
       : wanted_(std::max(options.elements, plain)),
         most_(options.max_length > 0
                   ? options.max_elements
-                  : std::min<double>(options.max_elements, (1 + most_excess) * wanted_)),
+                  : std::min<double>(options.max_elements, most_elements(options.elements, plain))),
         is_fixed_(options.max_length > 0),
         longest_(longest_edge(scene, options)),
         density_(1 / std::pow(first_length(scene, options), 2)),
@@ -104,6 +111,41 @@ class SizeSearch {
   double last_count_ = 0, last_density_ = 0;  ///< before the last change; 0: none to learn from
 };
 
+/// Nothing if it takes too many elements.
+std::optional<SolveMesh> try_plainly(const SoundScene& scene, const PlanarMeshOptions& options,
+                                     const Progress& progress) {
+  try {
+    PatchMesh patches(scene, options, progress);
+    ElementTable elements = patches.elements();
+    return SolveMesh{std::move(elements), {}, 0, std::move(patches), options.min_angle};
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::too_large) return std::nullopt;
+    throw;
+  }
+}
+
+/// With the length that comes nearest to the number of elements asked for, or that is asked for.
+std::optional<SolveMesh> mesh_near(const SoundScene& scene, const SolveOptions& options,
+                                   double min_angle, const Progress& progress) {
+  constexpr int attempts = 5;
+  PlanarMeshOptions mesh_options;
+  mesh_options.min_angle = min_angle;
+  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
+  mesh_options.max_length = first_length(scene, options);
+  std::optional<SolveMesh> mesh = try_plainly(scene, mesh_options, progress);
+  for (int k = 1; mesh && k < attempts && options.max_length == 0 && !progress.stopped(); ++k) {
+    const double excess = mesh->elements.count() / static_cast<double>(options.elements);
+    if (std::abs(excess - 1) <= near_enough) break;
+    mesh_options.max_length *= std::sqrt(excess);
+    mesh = try_plainly(scene, mesh_options, progress);
+  }
+  return mesh;
+}
+
+bool is_few_enough(const SolveMesh& mesh, const SolveOptions& options) {
+  return options.max_length > 0 || mesh.elements.count() <= (1 + most_excess) * options.elements;
+}
+
 }  // namespace
 
 PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
@@ -134,24 +176,17 @@ double longest_edge(const SoundScene& scene, const SolveOptions& options) {
 }
 
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
-                          const Progress& progress) {
-  constexpr int attempts = 5;
+                          const Progress& progress, double min_angle) {
   require_few_surfaces(scene, options);
-  PlanarMeshOptions mesh_options;
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
-  mesh_options.max_length = first_length(scene, options);
-  SolveMesh mesh;
-  mesh.patches = mesh_plainly(scene, mesh_options, options, progress);
-  mesh.elements = mesh.patches->elements();
-  if (options.max_length > 0 || progress.stopped()) return mesh;
-  for (int k = 1; k < attempts; ++k) {
-    const double excess = mesh.elements.count() / static_cast<double>(options.elements);
-    if (std::abs(excess - 1) <= near_enough) break;
-    mesh_options.max_length *= std::sqrt(excess);
-    mesh.patches = mesh_plainly(scene, mesh_options, options, progress);
-    mesh.elements = mesh.patches->elements();
+  std::optional<SolveMesh> best;
+  for (const double angle : {min_angle, 10., 5., 0.}) {
+    if (angle > min_angle) continue;
+    std::optional<SolveMesh> mesh = mesh_near(scene, options, angle, progress);
+    if (mesh && (!best || mesh->elements.count() < best->elements.count())) best = std::move(mesh);
+    if (progress.stopped() || (best && is_few_enough(*best, options))) break;
   }
-  return mesh;
+  if (!best) refuse(scene, options);
+  return *std::move(best);
 }
 
 SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
@@ -160,6 +195,7 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
   SizeSearch search(scene, options, plain.elements.count());
   std::optional<SolveMesh> best;
   DiscontinuityMeshOptions mesh_options;
+  mesh_options.min_angle = plain.min_angle;
   // Some more than would do, so that a mesh that ended early is known by its size.
   mesh_options.max_triangles = 4 * static_cast<std::size_t>(options.max_elements);
   for (bool again = true; again;) {

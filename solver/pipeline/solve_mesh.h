@@ -12,8 +12,9 @@ namespace halfshade {
 struct SolveMesh {
   ElementTable elements;
   DiscontinuityMeshReport report;
-  double tolerance = 0;              ///< share of the mean irradiance, as used
-  std::optional<PatchMesh> patches;  ///< the same elements, for those who divide them
+  double tolerance = 0;               ///< share of the mean irradiance, as used
+  std::optional<PatchMesh> patches;   ///< the same elements, for those who divide them
+  double min_angle = delaunay_angle;  ///< of the elements, as used; degrees
 };
 
 /// How many elements surfaces and contact lines alone take at least.
@@ -31,15 +32,16 @@ PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_op
 double longest_edge(const SoundScene& scene, const SolveOptions& options);
 
 /// Meshes with the length asked for, or with the one that comes nearest to the number of elements
-/// asked for: narrow surfaces need more than their area suggests. Throws Error(too_large) if it
-/// takes more than options.max_elements.
+/// asked for: narrow surfaces need more than their area suggests. Where that is more than a quarter
+/// more, or than options.max_elements, with smaller angles than `min_angle`, in degrees. Throws
+/// Error(too_large) if it takes more than options.max_elements all the same.
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
-                          const Progress& progress = {});
+                          const Progress& progress = {}, double min_angle = delaunay_angle);
 
-/// The same along curves; `plain` is the mesh without them. Where they make a quarter more than the
-/// elements asked for, or than `plain` if that has more, or more than options.max_elements, those
-/// with the smallest effect are left out by raising the tolerance. `mean_irradiance` is what
-/// options.tolerance is a share of; W/m².
+/// The same along curves; `plain` is the mesh without them, and has the angle. Where they make a
+/// quarter more than the elements asked for, or than `plain` if that has more, or more than
+/// options.max_elements, those with the smallest effect are left out by raising the tolerance.
+/// `mean_irradiance` is what options.tolerance is a share of; W/m².
 SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,
                           const SolveOptions& options, double mean_irradiance,
                           const Progress& progress = {});

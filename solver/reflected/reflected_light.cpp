@@ -99,9 +99,7 @@ bool reflects_nothing(const FirstLight& light) {
 
 /// Brings the strongest exitance to about 1.
 void scale_light(ReflectedLight::State& state) {
-  Rgb largest = Rgb::Zero();
-  for (const Rgb& e : state.light.exitance) largest = largest.max(e);
-  state.scale = balancing_scale(largest);
+  state.scale = balancing_scale(state.light.exitance);
   for (Rgb& e : state.light.exitance) e *= state.scale;
   state.light.direct = [direct = std::move(state.light.direct), scale = state.scale](
                            int surface, const Vec3& p) { return Rgb(scale * direct(surface, p)); };

@@ -77,6 +77,18 @@ TEST(NarrowGap, TooNarrowToSeeWhatGetsLostIsTold) {
               3 * mean.deviation + result.relative_error * mean.value);
 }
 
+TEST(NarrowGap, ElementsOfTheMatrixThatAreTooLongTellSo) {
+  SolveOptions options;
+  options.method = SolveMethod::matrix;
+  options.elements = 600;
+  EXPECT_FALSE(solve(plates(1e-3, 0.999), options).not_reached.empty());
+  EXPECT_TRUE(solve(plates(1e-3, 0.5), options).not_reached.empty()) << "hardly any comes back";
+  const SolveResult wide = solve(plates(0.1, 0.99), options);
+  const Mean mean = walked(0.1, 0.99, 40000);
+  EXPECT_TRUE(wide.not_reached.empty());
+  EXPECT_NEAR(mean_irradiance(wide), mean.value, 0.05 * mean.value);
+}
+
 TEST(NarrowGap, RaysThatNeverSeeItTellSo) {
   SolveOptions options;
   options.visibility = ReflectedVisibility::sampled;

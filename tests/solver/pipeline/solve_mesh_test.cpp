@@ -211,6 +211,30 @@ TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
   EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised));
 }
 
+TEST(SolveWithLines, ThinLouvresStayWithinTheElementsAskedFor) {
+  Scene scene = s1();
+  const int dark = test::add_material(scene, 0, 0);
+  for (int k = 0; k < 12; ++k) {
+    const double x = -0.9 + 0.15 * k;
+    for (const auto& face : test::box_faces({x, -0.9, 0.8}, {x + 0.01, 0.9, 0.9}, false))
+      test::add_polygon(scene, face, dark);
+  }
+  for (const SolveMethod method : {SolveMethod::fields, SolveMethod::matrix}) {
+    SolveOptions options;
+    options.method = method;
+    options.refine = Refinement::uniform;
+    for (const int asked : {300, 1000}) {
+      options.elements = asked;
+      const SolveResult result = solve(scene, options);
+      EXPECT_LE(result.elements.count(), 1.25 * asked);
+      EXPECT_GE(result.elements.count(), 0.6 * asked);
+      EXPECT_LT(result.mesh.kept, result.curves);
+      EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised) ||
+                  has_warning(result, Warning::Kind::curves_left_out));
+    }
+  }
+}
+
 TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
   const Scene soup = test::unit_soup(40, 2);
   SolveOptions options;

@@ -10,12 +10,16 @@
 namespace halfshade {
 namespace {
 
-/// A vector in [−length, length)³ that looks random.
-Vec3 scatter(std::int64_t rank, double length) {
+/// A vector in [−length, length)³ that looks random; of another length by a power of two, the same
+/// with that length.
+Vec3 scatter(std::int64_t rank, double length, double attempt) {
   Vec3 v;
+  int exponent = 0;
+  const std::uint64_t seed = std::bit_cast<std::uint64_t>(std::frexp(length, &exponent)) ^
+                             std::bit_cast<std::uint64_t>(attempt);
   for (int axis = 0; axis < 3; ++axis) {
     std::uint64_t x = 3 * static_cast<std::uint64_t>(rank) + static_cast<std::uint64_t>(axis);
-    x = mix_bits(mix_bits(x) + std::bit_cast<std::uint64_t>(length));
+    x = mix_bits(mix_bits(x) + seed);
     v[axis] = length * (static_cast<double>(x >> 11) * 0x1p-52 - 1);
   }
   return v;
@@ -99,7 +103,7 @@ int PointView::add_corner(const Vec3& position) { return add_corner(position, ne
 int PointView::add_corner(const Vec3& position, std::int64_t rank) {
   Corner corner;
   corner.true_position = corner.position = position;
-  if (jitter_ > 0) corner.position += scatter(rank, jitter_at(position));
+  if (jitter_ > 0) corner.position += scatter(rank, jitter_at(position), jitter_);
   corner.direction = corner.position - point_;
   corner.rank = rank;
   corner.height = emitter_->height(position);

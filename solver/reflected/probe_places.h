@@ -18,7 +18,8 @@ struct ProbePlace {
 };
 
 /// About so many over all elements: the largest errors are those of small elements beside contacts,
-/// so that there are as many as the square root of the area, in the mean over `use`.
+/// so that there are as many as the square root of the area, in the mean over `use`; no element is
+/// given nearly all.
 /// `weight` has an entry for each element.
 std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, const std::vector<double>& weight,
                                       int points, int use);

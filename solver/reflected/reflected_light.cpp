@@ -336,7 +336,9 @@ Rgb ReflectedLight::gather(const SurfacePoint& point, int rays) const {
     return state.gather->irradiance(point) / state.scale;
   }
   std::uint64_t seed = 0;
-  for (const double x : point.position) seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(x));
+  int exponent = 0;  // which changes with the unit
+  for (const double x : point.position)
+    seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(std::frexp(x, &exponent)));
   thread_local std::vector<RayEnd> ends;
   ends.clear();
   HemisphereRays caster(state_->reflecting);

@@ -1,0 +1,118 @@
+#include "io/read/read_scene.h"
+#include "solver/pipeline/solve.h"
+#include "tests/support/files.h"
+#include "tests/support/random_scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+// The laws for all light, as `solve` finds it. Another unit or order rounds anew what decides where
+// elements are divided, so that light changes within the tolerance; powers of two change no bit.
+
+namespace halfshade {
+namespace {
+
+constexpr double tolerance = 0.01;
+
+std::vector<std::string> scenes() {
+  std::vector<std::string> names = {"cornell_box", "furnace_cube", "l_room", "reading_room",
+                                    "thermal_furnace"};
+  for (int seed = 0; seed < 50; seed += 5) names.push_back("random_" + std::to_string(seed));
+  return names;
+}
+
+Scene load(const std::string& name) {
+  if (name.starts_with("random_")) return test::random_scene(std::stoul(name.substr(7)));
+  return read_scene(test::data_file(name + ".obj")).scene;
+}
+
+SolveResult solved(const Scene& scene) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  SolveResult result = solve(scene, options);
+  EXPECT_EQ(result.not_reached, "");
+  return result;
+}
+
+/// Power that arrives at the faces of each material of `like`, W.
+std::vector<Rgb> powers(const SolveResult& result, const Scene& like, double unit = 1) {
+  std::vector<Rgb> power(like.materials.size(), Rgb::Zero());
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const auto m = static_cast<std::size_t>(result.elements.material[static_cast<std::size_t>(e)]);
+    if (m >= power.size()) continue;
+    power[m] += result.elements.area[static_cast<std::size_t>(e)] / (unit * unit) *
+                result.solution.irradiance.row(e).transpose();
+  }
+  return power;
+}
+
+double norm(const std::vector<Rgb>& values) {
+  double sum = 0;
+  for (const Rgb& value : values) sum += value.square().sum();
+  return std::sqrt(sum);
+}
+
+void expect_near(const std::vector<Rgb>& expected, const std::vector<Rgb>& got,
+                 const std::string& what) {
+  std::vector<Rgb> off = expected;
+  for (std::size_t i = 0; i < off.size(); ++i) off[i] -= got[i];
+  EXPECT_LE(norm(off), 2 * tolerance * norm(expected)) << what;
+}
+
+class ReflectedLaws : public testing::TestWithParam<std::string> {
+ protected:
+  const Scene scene_ = load(GetParam());
+  const SolveResult expected_ = solved(scene_);
+};
+
+TEST_P(ReflectedLaws, PowersOfTwoChangeNoBit) {
+  Scene scene = scene_;
+  for (Vec3& p : scene.vertices) p *= 0x1p-40;
+  for (Material& material : scene.materials) material.exitance *= 0x1p60;
+  const SolveResult result = solved(scene);
+  ASSERT_EQ(result.elements.count(), expected_.elements.count());
+  EXPECT_TRUE((result.solution.irradiance == 0x1p60 * expected_.solution.irradiance).all());
+  EXPECT_EQ(result.relative_error, expected_.relative_error);
+}
+
+TEST_P(ReflectedLaws, UnitsDoNotMatter) {
+  for (const double unit : {1e-30, 1e-3, 1e9}) {
+    Scene scene = scene_;
+    for (Vec3& p : scene.vertices) p *= unit;
+    expect_near(powers(expected_, scene_), powers(solved(scene), scene_, unit),
+                std::to_string(std::log10(unit)));
+  }
+}
+
+TEST_P(ReflectedLaws, ExitanceScalesAllLight) {
+  for (const double factor : {1e-150, 1e150}) {
+    Scene scene = scene_;
+    for (Material& material : scene.materials) material.exitance *= factor;
+    std::vector<Rgb> got = powers(solved(scene), scene_);
+    for (Rgb& power : got) power /= factor;
+    expect_near(powers(expected_, scene_), got, std::to_string(std::log10(factor)));
+  }
+}
+
+TEST_P(ReflectedLaws, TheOrderOfFacesAndVerticesDoesNotMatter) {
+  expect_near(powers(expected_, scene_), powers(solved(test::turned_round(scene_)), scene_),
+              "turned round");
+}
+
+TEST_P(ReflectedLaws, WhatIsFarAwayDoesNotMatter) {
+  for (const double distance : {1e2, 1e6})
+    expect_near(powers(expected_, scene_),
+                powers(solved(test::with_black_triangle(scene_, distance, distance / 10)), scene_),
+                "a triangle " + std::to_string(distance) + " away");
+  expect_near(powers(expected_, scene_),
+              powers(solved(test::with_black_triangle(scene_, 10, 1e-9)), scene_), "a tiny one");
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ReflectedLaws, testing::ValuesIn(scenes()),
+                         [](const auto& scene) { return scene.param; });
+
+}  // namespace
+}  // namespace halfshade

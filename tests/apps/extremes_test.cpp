@@ -149,6 +149,11 @@ void furnaces(std::vector<Extreme>& all) {
     all.push_back(solve_group(fmt::format("furnace_absorbs_{:g}", absorbed), furnace(rho), "walls",
                               1 / (1 - rho), 1e-6, {"--elements", "150"}));
   }
+  for (const double far : {1e3, 1e6, 1e9})
+    all.push_back(solve_group(
+        fmt::format("furnace_triangle_at_{:g}", far),
+        furnace(0.5).polygon("dark", "elsewhere", {{far, 0, 0}, {1.1 * far, 0, 0}, {far, far, 1}}),
+        "walls", 2, 1e-6, {"--elements", "150"}));
   // A sheet that is seen from both sides, close above the floor of a furnace.
   for (const double height : {1e-3, 1e-5, 1e-7}) {
     std::vector<Vec3> sheet = {

@@ -45,6 +45,13 @@ void make_black(Scene& scene) {
   for (Material& material : scene.materials) material.rho.setZero();
 }
 
+/// Where the default would not look for curves.
+SolveOptions along_curves() {
+  SolveOptions options;
+  options.tolerance = 1e-4;
+  return options;
+}
+
 SolveOptions by_matrix() {
   SolveOptions options;
   options.method = SolveMethod::matrix;
@@ -53,11 +60,12 @@ SolveOptions by_matrix() {
 }
 
 [[maybe_unused]] const bool registered = [] {
-  add_pair("discontinuities", "cornell_box", {.discontinuities = true});
-  add_pair("curves at three edges", "s1", {.eee = true}, by_matrix());
-  add_pair("form factors", "cornell_box", {.factors = true}, by_matrix(), make_black);
-  add_pair("second and third channel", "l_room", {.channels = true}, by_matrix(), make_grey);
-  add_pair("exact direct light", "furnace_cube", {.exact_direct_light = true}, by_matrix());
+  add_pair("discontinuities", "furnace_cube", {.discontinuities = true});
+  add_pair("exact direct light", "furnace_cube", {.exact_direct_light = true});
+  add_pair("curves at three edges", "s1", {.eee = true}, along_curves());
+  add_pair("reflected light", "cornell_box", {.factors = true}, {}, make_black);
+  add_pair("second and third channel", "l_room", {.channels = true}, {}, make_grey);
+  add_pair("form factors of a matrix", "cornell_box", {.factors = true}, by_matrix(), make_black);
   return true;
 }();
 

@@ -128,6 +128,43 @@ TEST(ForcedStages, GiveTheSameAnswer) {
             1e-12);
 }
 
+/// The same by fields, whose elements need not be the same: the difference of the mean irradiance
+/// of surfaces, in the L2 norm, relative to it.
+double forced_difference_of_fields(const Scene& scene, const ForcedStages& force,
+                                   const std::string& name) {
+  SolveOptions options;
+  const auto means = [&](const SolveResult& result) {
+    Eigen::MatrixX3d power =
+        Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(result.scene.surfaces.size()), 3);
+    for (int e = 0; e < result.elements.count(); ++e)
+      power.row(result.elements.surface[at(e)]) +=
+          result.elements.area[at(e)] * result.solution.irradiance.row(e).matrix();
+    return power;
+  };
+  const SolveResult planned = solve(scene, options);
+  EXPECT_TRUE(is_left_out(planned, name)) << name;
+  options.force = force;
+  const SolveResult forced = solve(scene, options);
+  EXPECT_FALSE(is_left_out(forced, name)) << name;
+  return (means(planned) - means(forced)).norm() / means(forced).norm();
+}
+
+TEST(ForcedStages, GiveTheSameAnswerByFields) {
+  constexpr double tolerance = 0.01;  // by default, of each of the two
+  const auto difference = forced_difference_of_fields;
+  EXPECT_LE(difference(test::lit_cube({.5, .5, .5, .5, .5, 0}), {.discontinuities = true},
+                       "discontinuities"),
+            2 * tolerance);
+  EXPECT_LE(difference(test::lit_cube({0, 0, 0, 0, 0, 0}), {.factors = true}, "reflected light"),
+            2 * tolerance);
+  EXPECT_LE(difference(test::lit_cube({.5, .1, .9, .5, .5, 0}), {.channels = true},
+                       "second and third channel"),
+            1e-12);
+  Scene furnace = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  for (Material& material : furnace.materials) material.exitance = Rgb::Constant(0.5);
+  EXPECT_LE(difference(furnace, {.exact_direct_light = true}, "exact direct light"), 2 * tolerance);
+}
+
 SolveResult solve_with_factors(const Scene& scene, Closure closure) {
   SolveOptions options;
   options.method = SolveMethod::matrix;

@@ -174,10 +174,10 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
     SolveOptions& options = command.options;
     const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
     options.radiosity.stages = given("--progressive");
-    if ((given("--elements") || given("--max-length")) && !given("--refine")) {
+    if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
-      command.needs_tolerance = given("--tolerance") && options.method == SolveMethod::fields;
-    }
+    command.needs_tolerance = given("--tolerance") && options.refine == Refinement::uniform &&
+                              options.method == SolveMethod::fields;
     if (command.factors.empty()) return;
     for (const char* name : needless_with_saved_factors)
       if (given(name))

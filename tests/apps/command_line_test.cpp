@@ -182,11 +182,14 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
 TEST(CommandLine, ElementsAskedForThatAreTooFewForAToleranceAskedFor) {
   const test::TempDir folder;
   const std::string s1 = (data / "s1.obj").string();
-  const test::Outcome outcome =
-      halfshade({"solve", s1, "-q", "--elements", "50", "--tolerance", "1e-5"}, folder.path());
-  EXPECT_EQ(outcome.exit_code, 4);
-  EXPECT_NE(outcome.err.find("with these elements the error is about"), std::string::npos)
-      << outcome.err;
+  for (const std::string more : {"", "--refine=uniform"}) {
+    std::vector<std::string> words = {"solve", s1, "-q", "--elements", "50", "--tolerance", "1e-5"};
+    if (!more.empty()) words.push_back(more);
+    const test::Outcome outcome = halfshade(words, folder.path());
+    EXPECT_EQ(outcome.exit_code, 4);
+    EXPECT_NE(outcome.err.find("with these elements the error is about"), std::string::npos)
+        << outcome.err;
+  }
   EXPECT_EQ(halfshade({"solve", s1, "--elements", "50"}, folder.path()).exit_code, 0);
 }
 

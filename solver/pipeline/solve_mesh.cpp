@@ -150,12 +150,9 @@ bool is_few_enough(const SolveMesh& mesh, const SolveOptions& options) {
 
 PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_options,
                        const SolveOptions& options, const Progress& progress) {
-  try {
-    return PatchMesh(scene, mesh_options, progress);
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_large) throw;
-    refuse(scene, options);
-  }
+  std::optional<SolveMesh> mesh = try_plainly(scene, mesh_options, progress);
+  if (!mesh) refuse(scene, options);
+  return *std::move(mesh->patches);
 }
 
 // Every surface takes an element, and every contact line two sides of three.
@@ -179,8 +176,10 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
                           const Progress& progress, double min_angle) {
   require_few_surfaces(scene, options);
   std::optional<SolveMesh> best;
+  double last = HUGE_VAL;  // angle tried
   for (const double angle : {min_angle, 10., 5., 0.}) {
-    if (angle > min_angle) continue;
+    if (angle >= last) continue;
+    last = angle;
     std::optional<SolveMesh> mesh = mesh_near(scene, options, angle, progress);
     if (mesh && (!best || mesh->elements.count() < best->elements.count())) best = std::move(mesh);
     if (progress.stopped() || (best && is_few_enough(*best, options))) break;

@@ -116,9 +116,10 @@ class Rounds {
         direct_(state.report.is_exact ? many_direct_points : few_direct_points),
         rays_(first_rays(options)) {
     if (state.sight)
-      parts_.emplace(*state.sight, state.reflecting, state.light, direct_, state.accuracy);
+      parts_ = std::make_unique<ExactExchange>(*state.sight, state.reflecting, state.light, direct_,
+                                               state.accuracy);
     else
-      kept_rays_.emplace(state.reflecting, state.light, kept_strata);
+      kept_rays_ = std::make_unique<RayExchange>(state.reflecting, state.light, kept_strata);
   }
 
   void run() {
@@ -300,8 +301,8 @@ class Rounds {
   const Progress& progress_;
   ReflectedMesh mesh_;
   DirectProjection direct_;
-  std::optional<RayExchange> kept_rays_;  ///< either these
-  std::optional<ExactExchange> parts_;    ///< or exact parts
+  std::unique_ptr<RayExchange> kept_rays_;  ///< either these
+  std::unique_ptr<ExactExchange> parts_;    ///< or exact parts
   int rays_;
   int use_ = 0;
   int surer_ = 1;  ///< times as many points of the estimate

@@ -65,7 +65,7 @@ struct BlockedCells::Sum {
 
 PointFactor BlockedCells::factor_at(const Vec3& point) {
   ++points_;
-  return scene_.light.factor({point, scene_.surfaces[at(a_)].frame.normal}, b_);
+  return looks_.factor({point, scene_.surfaces[at(a_)].frame.normal}, b_);
 }
 
 BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {

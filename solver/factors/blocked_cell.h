@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/factors/mutual_sight.h"
+#include "solver/factors/point_looks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,8 +50,9 @@ struct BlockedCell {
 /// Evaluates cells of one pair of surfaces.
 class BlockedCells {
  public:
-  BlockedCells(const SightScene& scene, int a, int b, const SightTolerance& tolerance)
-      : scene_(scene), a_(a), b_(b), tolerance_(tolerance) {}
+  BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
+               const SightTolerance& tolerance)
+      : scene_(scene), looks_(looks), a_(a), b_(b), tolerance_(tolerance) {}
 
   /// A first look, by the rules of degree 1 and 2.
   BlockedCell look(const Triangle3& corners);
@@ -78,6 +80,7 @@ class BlockedCells {
   Vec3 where_sight_changes(Vec3 from, Vec3 to, std::uint64_t signature);
 
   const SightScene& scene_;
+  PointLooks& looks_;
   int a_, b_;
   SightTolerance tolerance_;
   std::size_t points_ = 0;

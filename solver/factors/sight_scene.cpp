@@ -4,6 +4,7 @@
 #include "meshing/triangulation/ring_triangles.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -43,6 +44,35 @@ SightSurface sight_surface(const Surface& surface) {
   return result;
 }
 
+FlatPiece flat_piece(const Polygon3& polygon, const PlaneFrame& frame) {
+  FlatPiece piece;
+  for (const Vec3& p : polygon) piece.corners.push_back(frame.to_plane(p));
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 side = piece.corners[(k + 1) % polygon.size()] - piece.corners[k];
+    piece.size = std::max(piece.size, side.norm());
+    piece.sides.push_back(side.normalized());
+  }
+  return piece;
+}
+
+/// What looks at the whole that a surface is a part of need.
+void add_place_in_whole(const Surface& surface, const Surface& whole, SightSurface& result) {
+  for (const Ring& ring : surface.rings) {
+    result.rings.emplace_back();
+    for (const Vec2& p : ring) result.rings.back().push_back(surface.frame.to_space(p));
+  }
+  for (const Polygon3& piece : result.pieces)
+    result.flat_pieces.push_back(flat_piece(piece, surface.frame));
+  for (const Vec2& p : whole.rings.front())
+    result.magnitude_in_plane = std::max(result.magnitude_in_plane, p.cwiseAbs().maxCoeff());
+}
+
+VisibilityIndex index_of(const SoundScene& joined) {
+  TriangleSoup soup = occluders(joined);
+  std::iota(soup.owner.begin(), soup.owner.end(), 0);
+  return VisibilityIndex(std::move(soup));
+}
+
 bool reaches_in_front(const Polygon3& outline, const PlaneFrame& frame, double margin) {
   return std::any_of(outline.begin(), outline.end(),
                      [&](const Vec3& p) { return frame.height(p) > margin; });
@@ -75,8 +105,22 @@ std::vector<Polygon3> facing(std::span<const Polygon3> polygons, const PlaneFram
 }  // namespace
 
 SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
-  SightScene result{{}, make_reflecting_scene(scene, progress), DirectLightIndex(scene)};
-  for (const Surface& surface : scene.surfaces) result.surfaces.push_back(sight_surface(surface));
+  JoinedScene joined = join_coplanar(scene);
+  VisibilityIndex between = index_of(joined.sound);
+  DirectLightIndex light(joined.sound);
+  SightScene result{{},
+                    make_reflecting_scene(scene, progress),
+                    std::move(joined),
+                    std::move(between),
+                    std::move(light)};
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    SightSurface surface = sight_surface(scene.surfaces[s]);
+    surface.joined = result.joined.of[s];
+    if (result.joined.parts[at(surface.joined)].size() > 1)
+      add_place_in_whole(scene.surfaces[s], result.joined.sound.surfaces[at(surface.joined)],
+                         surface);
+    result.surfaces.push_back(std::move(surface));
+  }
   const ElementTable& roots = result.reflecting.roots;
   for (int root = 0; root < roots.count(); ++root) {
     SightSurface& surface = result.surfaces[at(roots.surface[at(root)])];
@@ -100,21 +144,21 @@ Sight sight_between(const SightScene& scene, int a, int b) {
   const std::vector<Polygon3> others = parts(q, p);
   for (const Polygon3& part : parts(p, q))
     for (const Polygon3& other : others)
-      if (!roots_between(scene, part, a, other, b).empty()) return Sight::partial;
+      if (!triangles_between(scene, part, a, other, b).empty()) return Sight::partial;
   return Sight::clear;
 }
 
-std::vector<int> roots_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                               std::span<const Vec3> other, int b) {
-  const VisibilityIndex& visibility = scene.reflecting.visibility;
+std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                                   std::span<const Vec3> other, int b) {
+  const VisibilityIndex& visibility = scene.between;
   const int p = scene.surfaces[at(a)].plane, q = scene.surfaces[at(b)].plane;
-  std::vector<int> roots = visibility.candidates(part, other);
+  std::vector<int> triangles = visibility.candidates(part, other);
   // Light that leaves a plane does not cross it again.
-  std::erase_if(roots, [&](int r) {
-    const int plane = visibility.soup().plane[at(r)];
+  std::erase_if(triangles, [&](int t) {
+    const int plane = visibility.soup().plane[at(t)];
     return plane == p || plane == q;
   });
-  return roots;
+  return triangles;
 }
 
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {

@@ -3,6 +3,7 @@
 #include "meshing/core/progress.h"
 #include "solver/direct/direct_light.h"
 #include "solver/factors/factor_scene.h"
+#include "solver/factors/joined_scene.h"
 #include "solver/reflected/reflecting_scene.h"
 
 #include <array>
@@ -14,6 +15,13 @@ namespace halfshade {
 using Polygon3 = std::vector<Vec3>;
 using Triangle3 = std::array<Vec3, 3>;
 
+/// A convex polygon in the frame of its plane, counter-clockwise.
+struct FlatPiece {
+  Ring corners;
+  std::vector<Vec2> sides;  ///< unit length, from each corner to the next
+  double size = 0;          ///< the longest side
+};
+
 /// A surface as form factors need it.
 struct SightSurface {
   Polygon3 outline;              ///< the outer ring
@@ -23,13 +31,20 @@ struct SightSurface {
   double area = 0;  ///< squared scene units
   int plane = 0;
   std::vector<int> roots, cells;  ///< its coarse triangles, and the cells of space before them
+  int joined = 0;                 ///< what it is a part of
+  // Of surfaces that are not all of what they are a part of:
+  std::vector<std::vector<Vec3>> rings;
+  std::vector<FlatPiece> flat_pieces;  ///< in the frame
+  double magnitude_in_plane = 0;       ///< the largest coordinate of what it is a part of
 };
 
 /// A scene with all that is asked of it for form factors. All calls may run concurrently.
 struct SightScene {
   std::vector<SightSurface> surfaces;
   ReflectingScene reflecting;
-  DirectLightIndex light;  ///< exact point factors to any surface
+  JoinedScene joined;       ///< what hides things
+  VisibilityIndex between;  ///< its triangles, each its own owner
+  DirectLightIndex light;   ///< what points see of joined surfaces, exactly
 };
 
 /// `scene` must outlive the result. Cost: that of ReflectingScene and DirectLightIndex.
@@ -42,10 +57,10 @@ enum class Sight { none, clear, partial };
 /// each other; or something in between. Cost: a shaft through the tree of the scene.
 Sight sight_between(const SightScene& scene, int a, int b);
 
-/// Roots that reach into the hull of a convex polygon on surface `a` and a convex part of surface
-/// `b`, both before the plane of the other. Sorted.
-std::vector<int> roots_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                               std::span<const Vec3> other, int b);
+/// Triangles of SightScene::between that reach into the hull of a convex polygon on surface `a` and
+/// a convex part of surface `b`, both before the plane of the other. Sorted.
+std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                                   std::span<const Vec3> other, int b);
 
 /// The parts of surface `a` that light from `b` may reach: triangles before the plane of `b`, and
 /// in a cell of space that `b` is in. `is_all` tells whether none is left out because of its cell.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace halfshade {
@@ -83,6 +84,41 @@ class ErrorShares {
   std::vector<std::map<int, double>> of_entry_;
 };
 
+/// A pair that something may come between, and where its result belongs.
+struct HardPair {
+  int low, high;
+  std::size_t place;
+  int own, other;  ///< the same two: what is integrated over first, and what it looks at
+};
+
+HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place) {
+  // From the smaller one the larger looks more alike.
+  const bool is_swapped = sight.surfaces[at(high)].area < sight.surfaces[at(low)].area;
+  return {low, high, place, is_swapped ? high : low, is_swapped ? low : high};
+}
+
+/// So many surfaces of one plane are looked from at another plane before what was seen is
+/// forgotten: what these look back at is then found once for all of them.
+constexpr int surfaces_of_task = 16;
+
+/// Puts pairs of the same two joined surfaces next to each other. Returns where tasks end.
+std::vector<std::size_t> sort_into_tasks(const SightScene& sight, std::vector<HardPair>& hard) {
+  std::vector<int> place(sight.surfaces.size());
+  for (const auto& parts : sight.joined.parts)
+    for (std::size_t k = 0; k < parts.size(); ++k) place[at(parts[k])] = static_cast<int>(k);
+  const auto task_of = [&](const HardPair& pair) {
+    return std::array{sight.surfaces[at(pair.own)].joined, sight.surfaces[at(pair.other)].joined,
+                      place[at(pair.own)] / surfaces_of_task};
+  };
+  std::sort(hard.begin(), hard.end(), [&](const HardPair& a, const HardPair& b) {
+    return std::tuple(task_of(a), a.own, a.other) < std::tuple(task_of(b), b.own, b.other);
+  });
+  std::vector<std::size_t> ends;
+  for (std::size_t h = 1; h <= hard.size(); ++h)
+    if (h == hard.size() || task_of(hard[h]) != task_of(hard[h - 1])) ends.push_back(h);
+  return ends;
+}
+
 }  // namespace
 
 void RowExchange::add(int row, int other, double value, double error) {
@@ -110,11 +146,12 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
   const auto pairs = find_pairs(scene, sight, progress);
   const ErrorShares shares(scene, pairs);
   std::vector<std::vector<MutualSight>> found(pairs.size());
-  std::vector<std::array<std::size_t, 2>> hard;  // surface and number of its pair
+  std::vector<HardPair> hard;
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     found[a].resize(pairs[a].size());
     for (std::size_t k = 0; k < pairs[a].size(); ++k)
-      if (pairs[a][k].sight == Sight::partial) hard.push_back({a, k});
+      if (pairs[a][k].sight == Sight::partial)
+        hard.push_back(hard_pair(sight, static_cast<int>(a), pairs[a][k].other, k));
   }
   // Half for pairs that are clear, and half for those that are not.
   const double half = 0.5 * options.tolerance;
@@ -124,20 +161,21 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
         found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
                                   {half, 0, options.max_points});
   };
-  const auto see_partial = [&](std::size_t h) {
-    const auto [a, k] = hard[h];
-    int own = static_cast<int>(a), other = pairs[a][k].other;
-    const double share = shares.share(scene.row[a], scene.row[at(other)], half);
-    // From the smaller one the larger looks more alike.
-    if (sight.surfaces[at(other)].area < sight.surfaces[at(own)].area) std::swap(own, other);
-    found[a][k] =
-        partial_sight(sight, own, other, {half, share, options.max_points}, progress.stop);
+  const auto see_partial = [&](const HardPair& pair, PointLooks& looks) {
+    const double share = shares.share(scene.row[at(pair.low)], scene.row[at(pair.high)], half);
+    found[at(pair.low)][pair.place] = partial_sight(
+        sight, looks, pair.own, pair.other, {half, share, options.max_points}, progress.stop);
+  };
+  const std::vector<std::size_t> ends = sort_into_tasks(sight, hard);
+  const auto see_task = [&](std::size_t task) {
+    PointLooks looks(sight);
+    for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
+      see_partial(hard[h], looks);
   };
   RowExchange exchange(scene.rows());
   exchange.report.is_complete =
       parallel_for(pairs.size(), see_clear, progress, "form factors") &&
-      parallel_for(hard.size(), see_partial, progress, "hidden form factors") &&
-      !progress.stopped();
+      parallel_for(ends.size(), see_task, progress, "hidden form factors") && !progress.stopped();
   for (std::size_t a = 0; a < pairs.size(); ++a)
     for (std::size_t k = 0; k < found[a].size(); ++k)
       exchange.add(scene.row[a], scene.row[at(pairs[a][k].other)], pairs[a][k].sight, found[a][k]);

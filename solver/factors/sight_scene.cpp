@@ -67,10 +67,76 @@ void add_place_in_whole(const Surface& surface, const Surface& whole, SightSurfa
     result.magnitude_in_plane = std::max(result.magnitude_in_plane, p.cwiseAbs().maxCoeff());
 }
 
-VisibilityIndex index_of(const SoundScene& joined) {
-  TriangleSoup soup = occluders(joined);
+VisibilityIndex index_of(TriangleSoup soup) {
   std::iota(soup.owner.begin(), soup.owner.end(), 0);
   return VisibilityIndex(std::move(soup));
+}
+
+/// A joined surface, or each of its triangles where it is not convex.
+void add_blockers(const SoundScene& joined, const std::vector<int>& owner, SightScene& scene) {
+  const TriangleSoup& soup = scene.between.soup();
+  std::vector<int> whole(joined.surfaces.size(), -1);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const Surface& surface = joined.surfaces[at(owner[t])];
+    int& known = whole[at(owner[t])];
+    if (known < 0) {
+      Blocker blocker{{}, surface.frame.normal};
+      if (is_convex(surface))
+        for (const Vec2& p : surface.rings.front())
+          blocker.corners.push_back(surface.frame.to_space(p));
+      else
+        for (const int k : soup.triangles[t]) blocker.corners.push_back(soup.points[at(k)]);
+      scene.blockers.push_back(std::move(blocker));
+      if (is_convex(surface)) known = static_cast<int>(scene.blockers.size()) - 1;
+    }
+    scene.blocker_of.push_back(static_cast<int>(scene.blockers.size()) - 1);
+    if (known >= 0) scene.blocker_of.back() = known;
+  }
+}
+
+/// Clearly before (1) or behind (−1) the plane of a blocker, or neither.
+int side_of(const Blocker& blocker, std::span<const Vec3> polygon, double margin) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const Vec3& p : polygon) {
+    const double height = blocker.normal.dot(p - blocker.corners.front());
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return least > margin ? 1 : most < -margin ? -1 : 0;
+}
+
+/// Whether every line from a corner of one to a corner of the other passes through the blocker: so
+/// do all lines between them then, for what a point sees of a plane through a convex polygon is
+/// convex, from either end.
+bool hides_all(const Blocker& blocker, std::span<const Vec3> part, std::span<const Vec3> other) {
+  const auto& corners = blocker.corners;
+  const double margin =
+      tolerance_of(scale_of(corners)).length + tolerance_of(scale_of(part)).length;
+  const int side = side_of(blocker, part, margin);
+  if (side == 0 || side_of(blocker, other, margin) != -side) return false;
+  for (const Vec3& p : part)
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      // The plane through p and an edge, as seen from where the blocker is counter-clockwise.
+      const Vec3 out = (corners[k] - p).cross(corners[(k + 1) % corners.size()] - p) * side;
+      for (const Vec3& q : other)
+        if (!(out.dot(q - p) < 0)) return false;
+    }
+  return true;
+}
+
+/// With more in between, one thing that hides all is rather found for smaller parts.
+constexpr std::size_t most_blockers = 64;
+
+bool hides_all(const SightScene& scene, const std::vector<int>& triangles,
+               std::span<const Vec3> part, std::span<const Vec3> other) {
+  if (triangles.size() > most_blockers) return false;
+  int last = -1;
+  return std::any_of(triangles.begin(), triangles.end(), [&](int t) {
+    const int blocker = scene.blocker_of[at(t)];
+    const bool is_new = blocker != last;
+    last = blocker;
+    return is_new && hides_all(scene.blockers[at(blocker)], part, other);
+  });
 }
 
 bool reaches_in_front(const Polygon3& outline, const PlaneFrame& frame, double margin) {
@@ -106,13 +172,18 @@ std::vector<Polygon3> facing(std::span<const Polygon3> polygons, const PlaneFram
 
 SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
   JoinedScene joined = join_coplanar(scene);
-  VisibilityIndex between = index_of(joined.sound);
+  TriangleSoup soup = occluders(joined.sound);
+  const std::vector<int> owner = soup.owner;
+  VisibilityIndex between = index_of(std::move(soup));
   DirectLightIndex light(joined.sound);
   SightScene result{{},
                     make_reflecting_scene(scene, progress),
                     std::move(joined),
                     std::move(between),
+                    {},
+                    {},
                     std::move(light)};
+  add_blockers(result.joined.sound, owner, result);
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     SightSurface surface = sight_surface(scene.surfaces[s]);
     surface.joined = result.joined.of[s];
@@ -133,17 +204,33 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
   return result;
 }
 
-Sight sight_between(const SightScene& scene, int a, int b) {
+bool may_see(const SightScene& scene, int a, int b) {
   const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
-  if (!face_each_other(p, q) || !share_a_cell(p, q)) return Sight::none;
+  return face_each_other(p, q) && share_a_cell(p, q);
+}
+
+Sight sight_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                    std::span<const Vec3> other, int b) {
+  const PlaneFrame &p = scene.surfaces[at(a)].frame, &q = scene.surfaces[at(b)].frame;
+  const Polygon3 seen = clip_to_front(part, q.origin, q.normal);
+  const Polygon3 seeing = clip_to_front(other, p.origin, p.normal);
+  if (seen.empty() || seeing.empty()) return Sight::none;
+  const std::vector<int> triangles = triangles_between(scene, seen, a, seeing, b);
+  if (triangles.empty()) return Sight::clear;
+  return hides_all(scene, triangles, seen, seeing) ? Sight::none : Sight::partial;
+}
+
+Sight sight_between(const SightScene& scene, int a, int b) {
+  if (!may_see(scene, a, b)) return Sight::none;
+  const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
   const bool is_simple = p.pieces.size() * q.pieces.size() <= most_pairs;
-  const auto parts = [&](const SightSurface& surface, const SightSurface& other) {
-    return facing(is_simple ? std::span(surface.pieces) : std::span(&surface.outline, 1),
-                  other.frame);
+  const auto parts = [&](const SightSurface& surface) {
+    return is_simple ? std::span(surface.pieces) : std::span(&surface.outline, 1);
   };
-  const std::vector<Polygon3> others = parts(q, p);
-  for (const Polygon3& part : parts(p, q))
-    for (const Polygon3& other : others)
+  if (parts(p).size() * parts(q).size() == 1)
+    return sight_between(scene, parts(p).front(), a, parts(q).front(), b);
+  for (const Polygon3& part : facing(parts(p), q.frame))
+    for (const Polygon3& other : facing(parts(q), p.frame))
       if (!triangles_between(scene, part, a, other, b).empty()) return Sight::partial;
   return Sight::clear;
 }

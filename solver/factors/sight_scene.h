@@ -38,13 +38,21 @@ struct SightSurface {
   double magnitude_in_plane = 0;       ///< the largest coordinate of what it is a part of
 };
 
+/// A convex polygon that hides things.
+struct Blocker {
+  Polygon3 corners;
+  Vec3 normal;  ///< unit length
+};
+
 /// A scene with all that is asked of it for form factors. All calls may run concurrently.
 struct SightScene {
   std::vector<SightSurface> surfaces;
   ReflectingScene reflecting;
   JoinedScene joined;       ///< what hides things
   VisibilityIndex between;  ///< its triangles, each its own owner
-  DirectLightIndex light;   ///< what points see of joined surfaces, exactly
+  std::vector<Blocker> blockers;
+  std::vector<int> blocker_of;  ///< triangle of `between` → what it is a part of
+  DirectLightIndex light;       ///< what points see of joined surfaces, exactly
 };
 
 /// `scene` must outlive the result. Cost: that of ReflectingScene and DirectLightIndex.
@@ -52,10 +60,18 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress = 
 
 enum class Sight { none, clear, partial };
 
+/// Whether neither lies behind the other's plane, and both are in one cell of space.
+bool may_see(const SightScene& scene, int a, int b);
+
 /// What two surfaces can see of each other: nothing, for they lie behind each other's plane or in
-/// different cells of space; everything, for nothing reaches into the hull of their parts that face
-/// each other; or something in between. Cost: a shaft through the tree of the scene.
+/// different cells of space, or one convex polygon hides all from all; everything, for nothing
+/// reaches into the hull of their parts that face each other; or something in between. Cost: a
+/// shaft through the tree of the scene.
 Sight sight_between(const SightScene& scene, int a, int b);
+
+/// The same of two convex polygons in the planes of surfaces `a` and `b`, whatever their cells.
+Sight sight_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                    std::span<const Vec3> other, int b);
 
 /// Triangles of SightScene::between that reach into the hull of a convex polygon on surface `a` and
 /// a convex part of surface `b`, both before the plane of the other. Sorted.

@@ -1,6 +1,7 @@
 #include "solver/factors/surface_exchange.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/factors/pair_search.h"
 
 #include <algorithm>
 #include <array>
@@ -12,32 +13,6 @@
 namespace halfshade {
 namespace {
 
-struct Pair {
-  int other;
-  Sight sight;
-};
-
-/// For each surface with a row, those it may see: others with rows only once, and then all that
-/// have none.
-std::vector<std::vector<Pair>> find_pairs(const FactorScene& scene, const SightScene& sight,
-                                          const Progress& progress) {
-  const std::size_t count = sight.surfaces.size();
-  std::vector<std::vector<Pair>> pairs(count);
-  parallel_for(
-      count,
-      [&](std::size_t a) {
-        if (scene.row[a] < 0) return;
-        for (std::size_t b = 0; b < count; ++b) {
-          if (scene.row[b] >= 0 && b <= a) continue;
-          const int p = static_cast<int>(a), q = static_cast<int>(b);
-          const Sight seen = sight_between(sight, p, q);
-          if (seen != Sight::none) pairs[a].push_back({q, seen});
-        }
-      },
-      progress, "what surfaces see of each other");
-  return pairs;
-}
-
 /// Estimates are several times what entries are off by, and these add up like the root of their
 /// number: shares that fall like its fourth root keep rows of thousands near the tolerance.
 constexpr double root_of_row = 0.25;
@@ -46,10 +21,10 @@ constexpr double root_of_row = 0.25;
 /// entries are off independently of each other, hardly by more.
 class ErrorShares {
  public:
-  ErrorShares(const FactorScene& scene, const std::vector<std::vector<Pair>>& pairs)
+  ErrorShares(const FactorScene& scene, const std::vector<std::vector<SightPair>>& pairs)
       : scene_(scene), of_row_(at(scene.rows())), of_entry_(at(scene.rows())) {
     for (std::size_t a = 0; a < pairs.size(); ++a)
-      for (const Pair& pair : pairs[a]) {
+      for (const SightPair& pair : pairs[a]) {
         if (pair.sight != Sight::partial) continue;
         const int row = scene.row[a], other = scene.row[at(pair.other)];
         of_row_[at(row)] += 1;

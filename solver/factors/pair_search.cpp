@@ -10,9 +10,10 @@ namespace {
 
 /// Some of the parts of a joined surface, and a rectangle that holds them.
 struct Group {
-  int first, last;     ///< range of GroupTree::parts
-  int low = -1;        ///< of its halves, the other one comes next; −1: one part alone
-  Polygon3 rectangle;  ///< counter-clockwise
+  int first, last;              ///< range of GroupTree::parts
+  int low = -1;                 ///< of its halves, the other one comes next; −1: one part alone
+  Polygon3 rectangle;           ///< counter-clockwise
+  std::vector<int> cells = {};  ///< of space that any part is in, rising
 };
 
 /// Halves of halves of a joined surface; the first group is all of it.
@@ -36,9 +37,14 @@ class TreeMaker {
     const PlaneFrame& frame = scene_.surfaces[at(tree_.parts.front())].frame;
     const int first = tree_.groups[g].first, last = tree_.groups[g].last;
     Eigen::AlignedBox2d box;
-    for (int k = first; k < last; ++k)
-      for (const Vec3& p : scene_.surfaces[at(tree_.parts[at(k)])].outline)
-        box.extend(frame.to_plane(p));
+    std::vector<int>& cells = tree_.groups[g].cells;
+    for (int k = first; k < last; ++k) {
+      const SightSurface& part = scene_.surfaces[at(tree_.parts[at(k)])];
+      for (const Vec3& p : part.outline) box.extend(frame.to_plane(p));
+      cells.insert(cells.end(), part.cells.begin(), part.cells.end());
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
     const Vec2 low = box.min(), high = box.max();
     for (const Vec2& p : {low, Vec2(high.x(), low.y()), high, Vec2(low.x(), high.y())})
       tree_.groups[g].rectangle.push_back(frame.to_space(p));
@@ -80,7 +86,7 @@ class PairSearch {
     const auto& planes = scene_.joined.sound.surfaces;
     for (int b = a + 1; b < static_cast<int>(trees_.size()); ++b)
       if (planes[at(a)].plane != planes[at(b)].plane && (has_rows(a) || has_rows(b)))
-        visit({a, 0}, {b, 0}, found);
+        visit({a, 0}, {b, 0}, nullptr, found);
   }
 
  private:
@@ -98,18 +104,36 @@ class PairSearch {
                        [&](int s) { return rows_.row[at(s)] >= 0; });
   }
 
-  void visit(const Node& m, const Node& n, std::vector<Found>& found) const {
+  /// `known` are the triangles that reach between what the two are parts of.
+  void visit(const Node& m, const Node& n, const Between* known, std::vector<Found>& found) const {
     const int a = parts(m).front(), b = parts(n).front();
     const bool is_pair = group(m).low < 0 && group(n).low < 0;
-    const Sight sight = is_pair
+    if (!share_a_cell(group(m), group(n))) return;
+    Between own;
+    const Sight sight = is_pair && (!known || !is_convex(a) || !is_convex(b))
                             ? sight_between(scene_, a, b)
-                            : sight_between(scene_, group(m).rectangle, a, group(n).rectangle, b);
+                            : sight_between_convex(scene_, shape(m), a, shape(n), b, known, own);
     if (sight == Sight::none) return;
-    if (is_pair || sight == Sight::clear) return add(m, n, sight, is_pair, found);
+    if (is_pair || sight == Sight::clear) return add(m, n, sight, found);
     const bool cuts_first = group(n).low < 0 || (group(m).low >= 0 && size(m) >= size(n));
     const int low = group(cuts_first ? m : n).low;
     for (const int half : {low, low + 1})
-      cuts_first ? visit({m.tree, half}, n, found) : visit(m, {n.tree, half}, found);
+      cuts_first ? visit({m.tree, half}, n, &own, found) : visit(m, {n.tree, half}, &own, found);
+  }
+
+  static bool share_a_cell(const Group& a, const Group& b) {
+    return std::any_of(a.cells.begin(), a.cells.end(), [&](int cell) {
+      return std::binary_search(b.cells.begin(), b.cells.end(), cell);
+    });
+  }
+
+  bool is_convex(int s) const { return scene_.surfaces[at(s)].pieces.size() == 1; }
+
+  /// A convex polygon that holds a group.
+  const Polygon3& shape(const Node& n) const {
+    const int part = parts(n).front();
+    return group(n).low < 0 && is_convex(part) ? scene_.surfaces[at(part)].pieces.front()
+                                               : group(n).rectangle;
   }
 
   double size(const Node& n) const {
@@ -117,12 +141,11 @@ class PairSearch {
     return (r[2] - r[0]).squaredNorm();
   }
 
-  void add(const Node& m, const Node& n, Sight sight, bool is_known,
-           std::vector<Found>& found) const {
+  void add(const Node& m, const Node& n, Sight sight, std::vector<Found>& found) const {
     for (const int a : parts(m))
       for (const int b : parts(n)) {
         const bool has_a = rows_.row[at(a)] >= 0, has_b = rows_.row[at(b)] >= 0;
-        if (!(has_a || has_b) || !(is_known || may_see(scene_, a, b))) continue;
+        if (!(has_a || has_b) || !may_see(scene_, a, b)) continue;
         const bool is_first = has_a && (a < b || !has_b);
         found.push_back({is_first ? a : b, {is_first ? b : a, sight}});
       }

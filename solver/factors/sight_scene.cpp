@@ -80,7 +80,7 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner, Sight
     const Surface& surface = joined.surfaces[at(owner[t])];
     int& known = whole[at(owner[t])];
     if (known < 0) {
-      Blocker blocker{{}, surface.frame.normal};
+      Blocker blocker{{}, surface.frame.normal, 1e-13 * surface.scale.magnitude};
       if (is_convex(surface))
         for (const Vec2& p : surface.rings.front())
           blocker.corners.push_back(surface.frame.to_space(p));
@@ -137,6 +137,41 @@ bool hides_all(const SightScene& scene, const std::vector<int>& triangles,
     last = blocker;
     return is_new && hides_all(scene.blockers[at(blocker)], part, other);
   });
+}
+
+/// Whether each triangle is parted from two polygons by the plane of some blocker among them, so
+/// that none reaches into their hull. Quicker than a shaft where there are few.
+bool are_all_beside(const SightScene& scene, const std::vector<int>& triangles,
+                    std::span<const Vec3> part, std::span<const Vec3> other) {
+  constexpr std::size_t most = 24;
+  if (triangles.size() > most) return false;
+  const TriangleSoup& soup = scene.between.soup();
+  std::uint32_t left = (std::uint32_t{1} << triangles.size()) - 1;
+  int last = -1;
+  for (std::size_t i = 0; i < triangles.size() && left != 0; ++i) {
+    const int id = scene.blocker_of[at(triangles[i])];
+    if (id == last) continue;
+    last = id;
+    const Blocker& blocker = scene.blockers[at(id)];
+    double least = HUGE_VAL, most_high = -HUGE_VAL;
+    for (const auto& polygon : {part, other})
+      for (const Vec3& p : polygon) {
+        const double height = blocker.normal.dot(p - blocker.corners.front());
+        least = std::min(least, height);
+        most_high = std::max(most_high, height);
+      }
+    if (least < 0 && most_high > 0) continue;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      if ((left >> k & 1) == 0) continue;
+      const auto is_beside = [&](int corner) {
+        const double height = blocker.normal.dot(soup.points[at(corner)] - blocker.corners.front());
+        return least >= 0 ? height <= blocker.rounding : height >= -blocker.rounding;
+      };
+      const auto& corners = soup.triangles[at(triangles[k])];
+      if (std::all_of(corners.begin(), corners.end(), is_beside)) left &= ~(std::uint32_t{1} << k);
+    }
+  }
+  return left == 0;
 }
 
 bool reaches_in_front(const Polygon3& outline, const PlaneFrame& frame, double margin) {
@@ -209,15 +244,21 @@ bool may_see(const SightScene& scene, int a, int b) {
   return face_each_other(p, q) && share_a_cell(p, q);
 }
 
-Sight sight_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                    std::span<const Vec3> other, int b) {
+Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, int a,
+                           std::span<const Vec3> other, int b, const Between* known,
+                           Between& found) {
   const PlaneFrame &p = scene.surfaces[at(a)].frame, &q = scene.surfaces[at(b)].frame;
   const Polygon3 seen = clip_to_front(part, q.origin, q.normal);
   const Polygon3 seeing = clip_to_front(other, p.origin, p.normal);
   if (seen.empty() || seeing.empty()) return Sight::none;
-  const std::vector<int> triangles = triangles_between(scene, seen, a, seeing, b);
-  if (triangles.empty()) return Sight::clear;
-  return hides_all(scene, triangles, seen, seeing) ? Sight::none : Sight::partial;
+  if (known && known->size() <= most_blockers) {
+    if (hides_all(scene, *known, seen, seeing)) return Sight::none;
+    if (are_all_beside(scene, *known, seen, seeing)) return Sight::clear;
+  }
+  found = triangles_between(scene, seen, a, seeing, b);
+  if (found.empty()) return Sight::clear;
+  if (found.size() > most_blockers || (known && *known == found)) return Sight::partial;
+  return hides_all(scene, found, seen, seeing) ? Sight::none : Sight::partial;
 }
 
 Sight sight_between(const SightScene& scene, int a, int b) {
@@ -227,8 +268,9 @@ Sight sight_between(const SightScene& scene, int a, int b) {
   const auto parts = [&](const SightSurface& surface) {
     return is_simple ? std::span(surface.pieces) : std::span(&surface.outline, 1);
   };
+  Between found;
   if (parts(p).size() * parts(q).size() == 1)
-    return sight_between(scene, parts(p).front(), a, parts(q).front(), b);
+    return sight_between_convex(scene, parts(p).front(), a, parts(q).front(), b, nullptr, found);
   for (const Polygon3& part : facing(parts(p), q.frame))
     for (const Polygon3& other : facing(parts(q), p.frame))
       if (!triangles_between(scene, part, a, other, b).empty()) return Sight::partial;

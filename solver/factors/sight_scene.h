@@ -41,7 +41,8 @@ struct SightSurface {
 /// A convex polygon that hides things.
 struct Blocker {
   Polygon3 corners;
-  Vec3 normal;  ///< unit length
+  Vec3 normal;          ///< unit length
+  double rounding = 0;  ///< of heights above its plane
 };
 
 /// A scene with all that is asked of it for form factors. All calls may run concurrently.
@@ -69,9 +70,15 @@ bool may_see(const SightScene& scene, int a, int b);
 /// shaft through the tree of the scene.
 Sight sight_between(const SightScene& scene, int a, int b);
 
+/// Triangles of SightScene::between that may lie between two polygons. Sorted.
+using Between = std::vector<int>;
+
 /// The same of two convex polygons in the planes of surfaces `a` and `b`, whatever their cells.
-Sight sight_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                    std::span<const Vec3> other, int b);
+/// `known`, if any, are triangles among which all lie that are between them; those that do are left
+/// in `found` if sight is partial.
+Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, int a,
+                           std::span<const Vec3> other, int b, const Between* known,
+                           Between& found);
 
 /// Triangles of SightScene::between that reach into the hull of a convex polygon on surface `a` and
 /// a convex part of surface `b`, both before the plane of the other. Sorted.

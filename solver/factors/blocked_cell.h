@@ -1,11 +1,13 @@
 #pragma once
 
+#include "solver/factors/few_blockers.h"
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/point_looks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -51,8 +53,7 @@ struct BlockedCell {
 class BlockedCells {
  public:
   BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
-               const SightTolerance& tolerance)
-      : scene_(scene), looks_(looks), a_(a), b_(b), tolerance_(tolerance) {}
+               const SightTolerance& tolerance);
 
   /// A first look, by the rules of degree 1 and 2.
   BlockedCell look(const Triangle3& corners);
@@ -83,6 +84,7 @@ class BlockedCells {
   PointLooks& looks_;
   int a_, b_;
   SightTolerance tolerance_;
+  std::optional<FewBlockers> few_;
   std::size_t points_ = 0;
 };
 

@@ -35,7 +35,11 @@ std::vector<Polygon3> convex_pieces(const Surface& surface, const Polygon3& outl
 
 SightSurface sight_surface(const Surface& surface) {
   SightSurface result;
-  for (const Vec2& p : surface.rings.front()) result.outline.push_back(surface.frame.to_space(p));
+  for (const Ring& ring : surface.rings) {
+    result.rings.emplace_back();
+    for (const Vec2& p : ring) result.rings.back().push_back(surface.frame.to_space(p));
+  }
+  result.outline = result.rings.front();
   result.pieces = convex_pieces(surface, result.outline);
   result.frame = surface.frame;
   result.scale = surface.scale;
@@ -57,10 +61,6 @@ FlatPiece flat_piece(const Polygon3& polygon, const PlaneFrame& frame) {
 
 /// What looks at the whole that a surface is a part of need.
 void add_place_in_whole(const Surface& surface, const Surface& whole, SightSurface& result) {
-  for (const Ring& ring : surface.rings) {
-    result.rings.emplace_back();
-    for (const Vec2& p : ring) result.rings.back().push_back(surface.frame.to_space(p));
-  }
   for (const Polygon3& piece : result.pieces)
     result.flat_pieces.push_back(flat_piece(piece, surface.frame));
   for (const Vec2& p : whole.rings.front())

@@ -25,6 +25,7 @@ struct FlatPiece {
 /// A surface as form factors need it.
 struct SightSurface {
   Polygon3 outline;              ///< the outer ring
+  std::vector<Polygon3> rings;   ///< the outer one, then the holes
   std::vector<Polygon3> pieces;  ///< convex, together the surface
   PlaneFrame frame;
   LocalScale scale;
@@ -33,7 +34,6 @@ struct SightSurface {
   std::vector<int> roots, cells;  ///< its coarse triangles, and the cells of space before them
   int joined = 0;                 ///< what it is a part of
   // Of surfaces that are not all of what they are a part of:
-  std::vector<std::vector<Vec3>> rings;
   std::vector<FlatPiece> flat_pieces;  ///< in the frame
   double magnitude_in_plane = 0;       ///< the largest coordinate of what it is a part of
 };

@@ -43,12 +43,27 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
   }
   std::sort(blockers.begin(), blockers.end());
   blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
-  if (blockers.size() > most_shades) return;
-  for (const int blocker : blockers) {
-    if (scene.blockers[at(blocker)].corners.size() + 1 >= borders_of_shade) return;
-    add(scene.blockers[at(blocker)]);
-  }
   nearness_ = nearness_of_target * size;
+  // Where a body lies before the target's plane as a whole, all that it covers is hidden.
+  const auto is_before = [&](const Vec3& p) { return target_.frame.height(p) >= -nearness_; };
+  std::vector<int> bodies;
+  for (const int b : blockers) {
+    const Blocker& blocker = scene.blockers[at(b)];
+    if (blocker.corners.size() + 1 >= borders_of_shade) return;
+    if (blocker.body < 0) {
+      add(blocker);
+      continue;
+    }
+    if (std::find(bodies.begin(), bodies.end(), blocker.body) != bodies.end()) continue;
+    const ConvexBody& body = scene.bodies[at(blocker.body)];
+    if (body.edges.size() < borders_of_shade &&
+        std::all_of(body.vertices.begin(), body.vertices.end(), is_before)) {
+      bodies.push_back(blocker.body);
+      bodies_.push_back(&body);
+    } else
+      add(blocker);
+  }
+  if (shades_.size() + 3 * bodies_.size() > most_shades) return;
   is_applicable_ = true;
 }
 
@@ -103,6 +118,27 @@ bool FewBlockers::make_shadow(const Shade& shade, const SurfacePoint& point, dou
     from = to;
   }
   return true;
+}
+
+/// The cone through the edges between sides that the point sees and those that it does not.
+bool FewBlockers::make_shadow(const ConvexBody& body, const SurfacePoint& point,
+                              std::uint32_t border) {
+  shadow_.clear();
+  is_front_.clear();
+  for (const ConvexBody::Side& side : body.sides) {
+    const Vec3 towards = point.position - side.corner;
+    is_front_.push_back(side.normal.dot(towards) > edge_on * towards.norm());
+  }
+  for (const auto& [ends, sides] : body.edges) {
+    ++border;
+    const bool left = is_front_[at(sides[0])], right = is_front_[at(sides[1])];
+    if (left == right) continue;
+    const Vec3 from = body.vertices[at(ends[left ? 0 : 1])] - point.position;
+    const Vec3 to = body.vertices[at(ends[left ? 1 : 0])] - point.position;
+    const Vec3 normal = from.cross(to);
+    if (!add_plane(normal, point.position, normal.norm(), border)) return false;
+  }
+  return !shadow_.empty();
 }
 
 void FewBlockers::split(const Part& part, const HalfPlane& plane, Part& inside,
@@ -170,21 +206,27 @@ bool FewBlockers::factor(const SurfacePoint& point, PointFactor& factor) {
   if (!(factor.unobstructed > 0)) return true;
   parts_ = target_parts_;
   bool is_lit = true;
+  const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
+  for (std::size_t k = 0; k < bodies_.size() && can_go_on(); ++k) {
+    const std::size_t number = shades_.size() + k + 1;
+    if (make_shadow(*bodies_[k], point, static_cast<std::uint32_t>(number) * borders_of_shade))
+      cut_off_shadow();
+  }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
-    for (const Shade& shade : shades_) {
-      const Vec3 towards = point.position - shade.blocker->corners.front();
-      const double height = shade.blocker->normal.dot(towards);
-      if (!(height * side > edge_on * towards.norm()) || !make_shadow(shade, point, height))
-        continue;
-      cut_off_shadow();
-      if (parts_.empty()) {
-        factor.region = Region::umbra;
-        factor.signature = dark_signature;
-        return true;
-      }
-      if (parts_.size() > most_parts) return false;
+    for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
+      const Blocker& blocker = *shades_[k].blocker;
+      const Vec3 towards = point.position - blocker.corners.front();
+      const double height = blocker.normal.dot(towards);
+      if (height * side > edge_on * towards.norm() && make_shadow(shades_[k], point, height))
+        cut_off_shadow();
     }
+  if (parts_.size() > most_parts) return false;
+  if (parts_.empty()) {
+    factor.region = Region::umbra;
+    factor.signature = dark_signature;
+    return true;
+  }
   for (const Part& part : parts_)
     for (const Corner& corner : part) is_lit = is_lit && corner.border < borders_of_shade;
   if (is_lit) {

@@ -46,6 +46,7 @@ class FewBlockers {
 
   void add(const Blocker& blocker);
   bool make_shadow(const Shade& shade, const SurfacePoint& point, double height);
+  bool make_shadow(const ConvexBody& body, const SurfacePoint& point, std::uint32_t border);
   bool add_plane(const Vec3& normal, const Vec3& point, double size, std::uint32_t border);
   void cut_off_shadow();
   void cut_off_shadow(Part& part);
@@ -56,7 +57,9 @@ class FewBlockers {
   bool is_applicable_ = false;
   double nearness_ = 0;
   std::vector<Part> target_parts_;
+  std::vector<const ConvexBody*> bodies_;  ///< before the target
   std::vector<Shade> shades_;
+  std::vector<bool> is_front_;
   std::vector<HalfPlane> shadow_;  ///< of one shade from one point
   std::vector<Part> parts_, next_, cut_;
   Part inside_, outside_, rest_;

@@ -73,14 +73,16 @@ VisibilityIndex index_of(TriangleSoup soup) {
 }
 
 /// A joined surface, or each of its triangles where it is not convex.
-void add_blockers(const SoundScene& joined, const std::vector<int>& owner, SightScene& scene) {
+void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
+                  const std::vector<int>& body_of, SightScene& scene) {
   const TriangleSoup& soup = scene.between.soup();
   std::vector<int> whole(joined.surfaces.size(), -1);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
     const Surface& surface = joined.surfaces[at(owner[t])];
     int& known = whole[at(owner[t])];
     if (known < 0) {
-      Blocker blocker{{}, surface.frame.normal, 1e-13 * surface.scale.magnitude};
+      Blocker blocker{
+          {}, surface.frame.normal, 1e-13 * surface.scale.magnitude, body_of[at(owner[t])]};
       if (is_convex(surface))
         for (const Vec2& p : surface.rings.front())
           blocker.corners.push_back(surface.frame.to_space(p));
@@ -210,15 +212,18 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
   TriangleSoup soup = occluders(joined.sound);
   const std::vector<int> owner = soup.owner;
   VisibilityIndex between = index_of(std::move(soup));
-  DirectLightIndex light(joined.sound);
+  const auto opaque = std::make_shared<const OpaqueScene>(joined.sound);
+  ConvexBodies bodies = find_convex_bodies(joined.sound, *opaque);
+  DirectLightIndex light(joined.sound, opaque);
   SightScene result{{},
                     make_reflecting_scene(scene, progress),
                     std::move(joined),
                     std::move(between),
                     {},
+                    std::move(bodies.bodies),
                     {},
                     std::move(light)};
-  add_blockers(result.joined.sound, owner, result);
+  add_blockers(result.joined.sound, owner, bodies.of, result);
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     SightSurface surface = sight_surface(scene.surfaces[s]);
     surface.joined = result.joined.of[s];

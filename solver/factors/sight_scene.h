@@ -2,6 +2,7 @@
 
 #include "meshing/core/progress.h"
 #include "solver/direct/direct_light.h"
+#include "solver/factors/convex_bodies.h"
 #include "solver/factors/factor_scene.h"
 #include "solver/factors/joined_scene.h"
 #include "solver/reflected/reflecting_scene.h"
@@ -43,6 +44,7 @@ struct Blocker {
   Polygon3 corners;
   Vec3 normal;          ///< unit length
   double rounding = 0;  ///< of heights above its plane
+  int body = -1;        ///< that it is a side of; −1: none
 };
 
 /// A scene with all that is asked of it for form factors. All calls may run concurrently.
@@ -52,6 +54,7 @@ struct SightScene {
   JoinedScene joined;       ///< what hides things
   VisibilityIndex between;  ///< its triangles, each its own owner
   std::vector<Blocker> blockers;
+  std::vector<ConvexBody> bodies;
   std::vector<int> blocker_of;  ///< triangle of `between` → what it is a part of
   DirectLightIndex light;       ///< what points see of joined surfaces, exactly
 };

@@ -126,6 +126,29 @@ bool hides_all(const Blocker& blocker, std::span<const Vec3> part, std::span<con
   return true;
 }
 
+/// Whether a segment passes through a body, not only along it.
+bool passes(const ConvexBody& body, const Vec3& from, const Vec3& to) {
+  // What is shorter than this, relative to the segment, may be rounding.
+  constexpr double touching = 1e-9;
+  double enter = 0, leave = 1;
+  for (const ConvexBody::Side& side : body.sides) {
+    const double a = side.normal.dot(from - side.corner), b = side.normal.dot(to - side.corner);
+    if (a > 0 && b > 0) return false;
+    if (a > 0) enter = std::max(enter, a / (a - b));
+    if (b > 0) leave = std::min(leave, a / (a - b));
+    if (!(leave - enter > touching)) return false;
+  }
+  return enter > 0 && leave < 1;
+}
+
+/// The same of a body: what it hides from a point is convex, too.
+bool hides_all(const ConvexBody& body, std::span<const Vec3> part, std::span<const Vec3> other) {
+  for (const Vec3& p : part)
+    for (const Vec3& q : other)
+      if (!passes(body, p, q)) return false;
+  return true;
+}
+
 /// With more in between, one thing that hides all is rather found for smaller parts.
 constexpr std::size_t most_blockers = 64;
 
@@ -137,7 +160,10 @@ bool hides_all(const SightScene& scene, const std::vector<int>& triangles,
     const int blocker = scene.blocker_of[at(t)];
     const bool is_new = blocker != last;
     last = blocker;
-    return is_new && hides_all(scene.blockers[at(blocker)], part, other);
+    if (!is_new) return false;
+    const int body = scene.blockers[at(blocker)].body;
+    return body >= 0 ? hides_all(scene.bodies[at(body)], part, other)
+                     : hides_all(scene.blockers[at(blocker)], part, other);
   });
 }
 

@@ -13,9 +13,12 @@
 namespace halfshade {
 namespace {
 
-/// Estimates are several times what entries are off by, and these add up like the root of their
-/// number: shares that fall like its fourth root keep rows of thousands near the tolerance.
-constexpr double root_of_row = 0.25;
+/// What entries are off by adds up like the root of their number, if there are many; estimates are
+/// at least twice that. Where there are few, they count as more.
+double parts_of_row(double entries) {
+  constexpr double few = 0.25, many = 0.5, overestimated = 2;
+  return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
+}
 
 /// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
 /// entries are off independently of each other, hardly by more.
@@ -42,7 +45,7 @@ class ErrorShares {
     }
     const auto found = of_entry_[at(key(row, other)[0])].find(key(row, other)[1]);
     const double in_entry = found == of_entry_[at(key(row, other)[0])].end() ? 1 : found->second;
-    return tolerance * area / std::max({1., in_entry, std::pow(in_row, root_of_row)});
+    return tolerance * area / std::max({1., in_entry, parts_of_row(in_row)});
   }
 
  private:

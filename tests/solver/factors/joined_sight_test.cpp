@@ -1,4 +1,5 @@
 #include "meshing/core/planar.h"
+#include "solver/factors/factor_matrix.h"
 #include "solver/factors/few_blockers.h"
 #include "solver/factors/joined_scene.h"
 #include "solver/factors/mutual_sight.h"
@@ -8,6 +9,7 @@
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <array>
 #include <cmath>
@@ -190,6 +192,39 @@ TEST(PairSearch, AgreesWithPairsAndPoints) {
   EXPECT_GT(none, 50);
   EXPECT_GT(clear, 500);
   EXPECT_GT(partial, 500);
+}
+
+FactorMatrix matrix_of(const Scene& scene, double tolerance) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  options.tolerance = tolerance;
+  return form_factor_matrix(scene, options);
+}
+
+TEST(JoinedSight, RowsOfTilesSumToOneAtAnyScale) {
+  const FactorMatrix plain = matrix_of(tiled_room(), 1e-3);
+  EXPECT_LT((plain.row_sum - 1).abs().maxCoeff(), 1e-3);
+  EXPECT_EQ(plain.report.rows_not_reached, 0);
+  for (const double scale : {1e-9, 1e9}) {
+    Scene scene = tiled_room();
+    for (Vec3& p : scene.vertices) p *= scale;
+    const FactorMatrix scaled = matrix_of(scene, 1e-3);
+    EXPECT_LT((scaled.row_sum - 1).abs().maxCoeff(), 1e-3) << scale;
+    EXPECT_LT((scaled.factors - plain.factors).cwiseAbs().maxCoeff(), 2e-4) << scale;
+  }
+  Scene scene = tiled_room();
+  const Eigen::Index n = plain.area.size();
+  test::add_polygon(scene, {{1e6, 0, 0}, {1e6, 1, 0}, {1e6, 0, 1}}, 0);
+  const FactorMatrix with_far = matrix_of(scene, 1e-3);
+  EXPECT_LT((with_far.factors.topLeftCorner(n, n) - plain.factors).cwiseAbs().maxCoeff(), 2e-4);
+}
+
+TEST(JoinedSight, BytesOfTilesDoNotDependOnThreads) {
+  const FactorMatrix two = matrix_of(tiled_room(), 1e-2);
+  const tbb::global_control alone(tbb::global_control::max_allowed_parallelism, 1);
+  const FactorMatrix one = matrix_of(tiled_room(), 1e-2);
+  EXPECT_EQ(one.factors, two.factors);
+  EXPECT_TRUE((one.error == two.error).all());
 }
 
 /// A wall in tiles exchanges in sum what it does in one piece, behind the same things.

@@ -63,9 +63,18 @@ struct BlockedCells::Sum {
   }
 };
 
-PointFactor BlockedCells::factor_at(const Vec3& point) {
+BlockedCells::BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
+                           const SightTolerance& tolerance)
+    : scene_(scene), looks_(looks), a_(a), b_(b), tolerance_(tolerance) {
+  few_.emplace(scene, a, b);
+  if (!few_->is_applicable()) few_.reset();
+}
+
+PointFactor BlockedCells::factor_at(const Vec3& position) {
   ++points_;
-  return scene_.light.factor({point, scene_.surfaces[at(a_)].frame.normal}, b_);
+  const SurfacePoint point{position, scene_.surfaces[at(a_)].frame.normal};
+  PointFactor factor;
+  return few_ && few_->factor(point, factor) ? factor : looks_.factor(point, b_);
 }
 
 BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {

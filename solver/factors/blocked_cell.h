@@ -1,10 +1,13 @@
 #pragma once
 
+#include "solver/factors/few_blockers.h"
 #include "solver/factors/mutual_sight.h"
+#include "solver/factors/point_looks.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -49,8 +52,8 @@ struct BlockedCell {
 /// Evaluates cells of one pair of surfaces.
 class BlockedCells {
  public:
-  BlockedCells(const SightScene& scene, int a, int b, const SightTolerance& tolerance)
-      : scene_(scene), a_(a), b_(b), tolerance_(tolerance) {}
+  BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
+               const SightTolerance& tolerance);
 
   /// A first look, by the rules of degree 1 and 2.
   BlockedCell look(const Triangle3& corners);
@@ -78,8 +81,10 @@ class BlockedCells {
   Vec3 where_sight_changes(Vec3 from, Vec3 to, std::uint64_t signature);
 
   const SightScene& scene_;
+  PointLooks& looks_;
   int a_, b_;
   SightTolerance tolerance_;
+  std::optional<FewBlockers> few_;
   std::size_t points_ = 0;
 };
 

@@ -54,12 +54,14 @@ double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int
   for (const Polygon3& piece : scene.surfaces[at(b)].pieces) {
     const Polygon3 other = clip_to_front(piece, plane.origin, plane.normal);
     if (other.empty()) continue;
-    const std::vector<int> roots = roots_between(scene, part, a, other, b);
-    if (roots.empty()) continue;
+    const std::vector<int> triangles = triangles_between(scene, part, a, other, b);
+    if (triangles.empty()) continue;
     const Shaft shaft = make_shaft(part, other, 0);
-    for (const int root : roots) {
-      const Triangle3 triangle = scene.reflecting.roots.triangle(root);
-      const Polygon3 between = clipped({triangle.begin(), triangle.end()}, shaft);
+    const TriangleSoup& soup = scene.between.soup();
+    for (const int t : triangles) {
+      const auto& [i, j, k] = soup.triangles[at(t)];
+      const Polygon3 between =
+          clipped({soup.points[at(i)], soup.points[at(j)], soup.points[at(k)]}, shaft);
       if (!between.empty()) sum += hidden_by(part, plane.normal, between);
       if (sum > enough) return sum;
     }

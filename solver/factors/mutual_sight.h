@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/exchange/form_factor.h"
+#include "solver/factors/point_looks.h"
 #include "solver/factors/sight_scene.h"
 
 #include <cstddef>
@@ -34,5 +35,9 @@ MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
 /// what it is by then, and is_reached false.
 MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
                           const std::stop_token& stop = {});
+
+/// The same with what was seen for other pairs, which saves time and changes nothing.
+MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int b,
+                          const SightTolerance& tolerance, const std::stop_token& stop = {});
 
 }  // namespace halfshade

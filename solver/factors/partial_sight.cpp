@@ -34,9 +34,9 @@ Total total_of(const std::vector<BlockedCell>& cells) {
 /// Cubature of what is hidden of one surface over the triangles of the other, the worst cell first.
 class HiddenIntegral {
  public:
-  HiddenIntegral(const SightScene& scene, int a, int b, const FacingTriangles& facing,
-                 const SightTolerance& tolerance)
-      : evaluator_(scene, a, b, tolerance) {
+  HiddenIntegral(const SightScene& scene, PointLooks& looks, int a, int b,
+                 const FacingTriangles& facing, const SightTolerance& tolerance)
+      : evaluator_(scene, looks, a, b, tolerance) {
     for (const Triangle3& triangle : facing.triangles) cells_.push_back(evaluator_.look(triangle));
     std::make_heap(cells_.begin(), cells_.end(), is_worse);
     total_ = total_of(cells_);
@@ -94,8 +94,8 @@ struct OneSide {
   HiddenIntegral hidden;
   SightTolerance tolerance;
 
-  OneSide(const SightScene& scene, int a, int b, const SightTolerance& asked)
-      : OneSide(scene, a, b, facing_triangles(scene, a, b), asked) {}
+  OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const SightTolerance& asked)
+      : OneSide(scene, looks, a, b, facing_triangles(scene, a, b), asked) {}
 
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
@@ -108,10 +108,10 @@ struct OneSide {
   }
 
  private:
-  OneSide(const SightScene& scene, int a, int b, const FacingTriangles& facing,
+  OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const FacingTriangles& facing,
           const SightTolerance& asked)
       : whole(unhidden(scene, a, b, facing, asked)),
-        hidden(scene, a, b, facing, asked),
+        hidden(scene, looks, a, b, facing, asked),
         tolerance(asked) {}
 };
 
@@ -119,15 +119,21 @@ struct OneSide {
 
 MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
                           const std::stop_token& stop) {
+  PointLooks looks(scene);
+  return partial_sight(scene, looks, a, b, tolerance, stop);
+}
+
+MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int b,
+                          const SightTolerance& tolerance, const std::stop_token& stop) {
   SightTolerance half = tolerance;  // for what is unhidden, and for what is hidden of it
   half.absolute *= 0.5;
   half.relative *= 0.5;
   const auto most = static_cast<std::size_t>(tolerance.max_points);
-  OneSide first(scene, a, b, half);
+  OneSide first(scene, looks, a, b, half);
   first.refine_to(std::min(points_to_try, most), stop);
   std::optional<OneSide> second;
   if (!first.is_reached()) {
-    second.emplace(scene, b, a, half);
+    second.emplace(scene, looks, b, a, half);
     second->refine_to(std::min(points_to_try, most), stop);
   }
   const bool is_second_better = second && second->error() < first.error();

@@ -2,8 +2,10 @@
 
 #include "meshing/core/planar.h"
 #include "meshing/triangulation/ring_triangles.h"
+#include "solver/factors/one_blocker.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -34,13 +36,65 @@ std::vector<Polygon3> convex_pieces(const Surface& surface, const Polygon3& outl
 
 SightSurface sight_surface(const Surface& surface) {
   SightSurface result;
-  for (const Vec2& p : surface.rings.front()) result.outline.push_back(surface.frame.to_space(p));
+  for (const Ring& ring : surface.rings) {
+    result.rings.emplace_back();
+    for (const Vec2& p : ring) result.rings.back().push_back(surface.frame.to_space(p));
+  }
+  result.outline = result.rings.front();
   result.pieces = convex_pieces(surface, result.outline);
   result.frame = surface.frame;
   result.scale = surface.scale;
   result.area = area(surface);
   result.plane = surface.plane;
   return result;
+}
+
+FlatPiece flat_piece(const Polygon3& polygon, const PlaneFrame& frame) {
+  FlatPiece piece;
+  for (const Vec3& p : polygon) piece.corners.push_back(frame.to_plane(p));
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Vec2 side = piece.corners[(k + 1) % polygon.size()] - piece.corners[k];
+    piece.size = std::max(piece.size, side.norm());
+    piece.sides.push_back(side.normalized());
+  }
+  return piece;
+}
+
+/// What looks at the whole that a surface is a part of need.
+void add_place_in_whole(const Surface& surface, const Surface& whole, SightSurface& result) {
+  for (const Polygon3& piece : result.pieces)
+    result.flat_pieces.push_back(flat_piece(piece, surface.frame));
+  for (const Vec2& p : whole.rings.front())
+    result.magnitude_in_plane = std::max(result.magnitude_in_plane, p.cwiseAbs().maxCoeff());
+}
+
+VisibilityIndex index_of(TriangleSoup soup) {
+  std::iota(soup.owner.begin(), soup.owner.end(), 0);
+  return VisibilityIndex(std::move(soup));
+}
+
+/// A joined surface, or each of its triangles where it is not convex.
+void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
+                  const std::vector<int>& body_of, SightScene& scene) {
+  const TriangleSoup& soup = scene.between.soup();
+  std::vector<int> whole(joined.surfaces.size(), -1);
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
+    const Surface& surface = joined.surfaces[at(owner[t])];
+    int& known = whole[at(owner[t])];
+    if (known < 0) {
+      Blocker blocker{
+          {}, surface.frame.normal, 1e-13 * surface.scale.magnitude, body_of[at(owner[t])]};
+      if (is_convex(surface))
+        for (const Vec2& p : surface.rings.front())
+          blocker.corners.push_back(surface.frame.to_space(p));
+      else
+        for (const int k : soup.triangles[t]) blocker.corners.push_back(soup.points[at(k)]);
+      scene.blockers.push_back(std::move(blocker));
+      if (is_convex(surface)) known = static_cast<int>(scene.blockers.size()) - 1;
+    }
+    scene.blocker_of.push_back(static_cast<int>(scene.blockers.size()) - 1);
+    if (known >= 0) scene.blocker_of.back() = known;
+  }
 }
 
 bool reaches_in_front(const Polygon3& outline, const PlaneFrame& frame, double margin) {
@@ -75,8 +129,30 @@ std::vector<Polygon3> facing(std::span<const Polygon3> polygons, const PlaneFram
 }  // namespace
 
 SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
-  SightScene result{{}, make_reflecting_scene(scene, progress), DirectLightIndex(scene)};
-  for (const Surface& surface : scene.surfaces) result.surfaces.push_back(sight_surface(surface));
+  JoinedScene joined = join_coplanar(scene);
+  TriangleSoup soup = occluders(joined.sound);
+  const std::vector<int> owner = soup.owner;
+  VisibilityIndex between = index_of(std::move(soup));
+  const auto opaque = std::make_shared<const OpaqueScene>(joined.sound);
+  ConvexBodies bodies = find_convex_bodies(joined.sound, *opaque);
+  DirectLightIndex light(joined.sound, opaque);
+  SightScene result{{},
+                    make_reflecting_scene(scene, progress),
+                    std::move(joined),
+                    std::move(between),
+                    {},
+                    std::move(bodies.bodies),
+                    {},
+                    std::move(light)};
+  add_blockers(result.joined.sound, owner, bodies.of, result);
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    SightSurface surface = sight_surface(scene.surfaces[s]);
+    surface.joined = result.joined.of[s];
+    if (result.joined.parts[at(surface.joined)].size() > 1)
+      add_place_in_whole(scene.surfaces[s], result.joined.sound.surfaces[at(surface.joined)],
+                         surface);
+    result.surfaces.push_back(std::move(surface));
+  }
   const ElementTable& roots = result.reflecting.roots;
   for (int root = 0; root < roots.count(); ++root) {
     SightSurface& surface = result.surfaces[at(roots.surface[at(root)])];
@@ -89,32 +165,55 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
   return result;
 }
 
-Sight sight_between(const SightScene& scene, int a, int b) {
+bool may_see(const SightScene& scene, int a, int b) {
   const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
-  if (!face_each_other(p, q) || !share_a_cell(p, q)) return Sight::none;
+  return face_each_other(p, q) && share_a_cell(p, q);
+}
+
+Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, int a,
+                           std::span<const Vec3> other, int b, const Between* known,
+                           Between& found) {
+  const PlaneFrame &p = scene.surfaces[at(a)].frame, &q = scene.surfaces[at(b)].frame;
+  const Polygon3 seen = clip_to_front(part, q.origin, q.normal);
+  const Polygon3 seeing = clip_to_front(other, p.origin, p.normal);
+  if (seen.empty() || seeing.empty()) return Sight::none;
+  if (known) {
+    if (hides_all(scene, *known, seen, seeing)) return Sight::none;
+    if (are_all_beside(scene, *known, seen, seeing)) return Sight::clear;
+  }
+  found = triangles_between(scene, seen, a, seeing, b);
+  if (found.empty()) return Sight::clear;
+  if ((known && *known == found)) return Sight::partial;
+  return hides_all(scene, found, seen, seeing) ? Sight::none : Sight::partial;
+}
+
+Sight sight_between(const SightScene& scene, int a, int b) {
+  if (!may_see(scene, a, b)) return Sight::none;
+  const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
   const bool is_simple = p.pieces.size() * q.pieces.size() <= most_pairs;
-  const auto parts = [&](const SightSurface& surface, const SightSurface& other) {
-    return facing(is_simple ? std::span(surface.pieces) : std::span(&surface.outline, 1),
-                  other.frame);
+  const auto parts = [&](const SightSurface& surface) {
+    return is_simple ? std::span(surface.pieces) : std::span(&surface.outline, 1);
   };
-  const std::vector<Polygon3> others = parts(q, p);
-  for (const Polygon3& part : parts(p, q))
-    for (const Polygon3& other : others)
-      if (!roots_between(scene, part, a, other, b).empty()) return Sight::partial;
+  Between found;
+  if (parts(p).size() * parts(q).size() == 1)
+    return sight_between_convex(scene, parts(p).front(), a, parts(q).front(), b, nullptr, found);
+  for (const Polygon3& part : facing(parts(p), q.frame))
+    for (const Polygon3& other : facing(parts(q), p.frame))
+      if (!triangles_between(scene, part, a, other, b).empty()) return Sight::partial;
   return Sight::clear;
 }
 
-std::vector<int> roots_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                               std::span<const Vec3> other, int b) {
-  const VisibilityIndex& visibility = scene.reflecting.visibility;
+std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                                   std::span<const Vec3> other, int b) {
+  const VisibilityIndex& visibility = scene.between;
   const int p = scene.surfaces[at(a)].plane, q = scene.surfaces[at(b)].plane;
-  std::vector<int> roots = visibility.candidates(part, other);
+  std::vector<int> triangles = visibility.candidates(part, other);
   // Light that leaves a plane does not cross it again.
-  std::erase_if(roots, [&](int r) {
-    const int plane = visibility.soup().plane[at(r)];
+  std::erase_if(triangles, [&](int t) {
+    const int plane = visibility.soup().plane[at(t)];
     return plane == p || plane == q;
   });
-  return roots;
+  return triangles;
 }
 
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {

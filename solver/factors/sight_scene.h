@@ -2,7 +2,9 @@
 
 #include "meshing/core/progress.h"
 #include "solver/direct/direct_light.h"
+#include "solver/factors/convex_bodies.h"
 #include "solver/factors/factor_scene.h"
+#include "solver/factors/joined_scene.h"
 #include "solver/reflected/reflecting_scene.h"
 
 #include <array>
@@ -14,22 +16,47 @@ namespace halfshade {
 using Polygon3 = std::vector<Vec3>;
 using Triangle3 = std::array<Vec3, 3>;
 
+/// A convex polygon in the frame of its plane, counter-clockwise.
+struct FlatPiece {
+  Ring corners;
+  std::vector<Vec2> sides;  ///< unit length, from each corner to the next
+  double size = 0;          ///< the longest side
+};
+
 /// A surface as form factors need it.
 struct SightSurface {
   Polygon3 outline;              ///< the outer ring
+  std::vector<Polygon3> rings;   ///< the outer one, then the holes
   std::vector<Polygon3> pieces;  ///< convex, together the surface
   PlaneFrame frame;
   LocalScale scale;
   double area = 0;  ///< squared scene units
   int plane = 0;
   std::vector<int> roots, cells;  ///< its coarse triangles, and the cells of space before them
+  int joined = 0;                 ///< what it is a part of
+  // Of surfaces that are not all of what they are a part of:
+  std::vector<FlatPiece> flat_pieces;  ///< in the frame
+  double magnitude_in_plane = 0;       ///< the largest coordinate of what it is a part of
+};
+
+/// A convex polygon that hides things.
+struct Blocker {
+  Polygon3 corners;
+  Vec3 normal;          ///< unit length
+  double rounding = 0;  ///< of heights above its plane
+  int body = -1;        ///< that it is a side of; −1: none
 };
 
 /// A scene with all that is asked of it for form factors. All calls may run concurrently.
 struct SightScene {
   std::vector<SightSurface> surfaces;
   ReflectingScene reflecting;
-  DirectLightIndex light;  ///< exact point factors to any surface
+  JoinedScene joined;       ///< what hides things
+  VisibilityIndex between;  ///< its triangles, each its own owner
+  std::vector<Blocker> blockers;
+  std::vector<ConvexBody> bodies;
+  std::vector<int> blocker_of;  ///< triangle of `between` → what it is a part of
+  DirectLightIndex light;       ///< what points see of joined surfaces, exactly
 };
 
 /// `scene` must outlive the result. Cost: that of ReflectingScene and DirectLightIndex.
@@ -37,15 +64,29 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress = 
 
 enum class Sight { none, clear, partial };
 
+/// Whether neither lies behind the other's plane, and both are in one cell of space.
+bool may_see(const SightScene& scene, int a, int b);
+
 /// What two surfaces can see of each other: nothing, for they lie behind each other's plane or in
-/// different cells of space; everything, for nothing reaches into the hull of their parts that face
-/// each other; or something in between. Cost: a shaft through the tree of the scene.
+/// different cells of space, or one convex polygon hides all from all; everything, for nothing
+/// reaches into the hull of their parts that face each other; or something in between. Cost: a
+/// shaft through the tree of the scene.
 Sight sight_between(const SightScene& scene, int a, int b);
 
-/// Roots that reach into the hull of a convex polygon on surface `a` and a convex part of surface
-/// `b`, both before the plane of the other. Sorted.
-std::vector<int> roots_between(const SightScene& scene, std::span<const Vec3> part, int a,
-                               std::span<const Vec3> other, int b);
+/// Triangles of SightScene::between that may lie between two polygons. Sorted.
+using Between = std::vector<int>;
+
+/// The same of two convex polygons in the planes of surfaces `a` and `b`, whatever their cells.
+/// `known`, if any, are triangles among which all lie that are between them; those that do are left
+/// in `found` if sight is partial.
+Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, int a,
+                           std::span<const Vec3> other, int b, const Between* known,
+                           Between& found);
+
+/// Triangles of SightScene::between that reach into the hull of a convex polygon on surface `a` and
+/// a convex part of surface `b`, both before the plane of the other. Sorted.
+std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
+                                   std::span<const Vec3> other, int b);
 
 /// The parts of surface `a` that light from `b` may reach: triangles before the plane of `b`, and
 /// in a cell of space that `b` is in. `is_all` tells whether none is left out because of its cell.

@@ -1,54 +1,33 @@
 #include "solver/factors/surface_exchange.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/factors/pair_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace halfshade {
 namespace {
 
-struct Pair {
-  int other;
-  Sight sight;
-};
-
-/// For each surface with a row, those it may see: others with rows only once, and then all that
-/// have none.
-std::vector<std::vector<Pair>> find_pairs(const FactorScene& scene, const SightScene& sight,
-                                          const Progress& progress) {
-  const std::size_t count = sight.surfaces.size();
-  std::vector<std::vector<Pair>> pairs(count);
-  parallel_for(
-      count,
-      [&](std::size_t a) {
-        if (scene.row[a] < 0) return;
-        for (std::size_t b = 0; b < count; ++b) {
-          if (scene.row[b] >= 0 && b <= a) continue;
-          const int p = static_cast<int>(a), q = static_cast<int>(b);
-          const Sight seen = sight_between(sight, p, q);
-          if (seen != Sight::none) pairs[a].push_back({q, seen});
-        }
-      },
-      progress, "what surfaces see of each other");
-  return pairs;
+/// What entries are off by adds up like the root of their number, if there are many; estimates are
+/// at least twice that. Where there are few, they count as more.
+double parts_of_row(double entries) {
+  constexpr double few = 0.25, many = 0.5, overestimated = 2;
+  return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
-
-/// Estimates are several times what entries are off by, and these add up like the root of their
-/// number: shares that fall like its fourth root keep rows of thousands near the tolerance.
-constexpr double root_of_row = 0.25;
 
 /// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
 /// entries are off independently of each other, hardly by more.
 class ErrorShares {
  public:
-  ErrorShares(const FactorScene& scene, const std::vector<std::vector<Pair>>& pairs)
+  ErrorShares(const FactorScene& scene, const std::vector<std::vector<SightPair>>& pairs)
       : scene_(scene), of_row_(at(scene.rows())), of_entry_(at(scene.rows())) {
     for (std::size_t a = 0; a < pairs.size(); ++a)
-      for (const Pair& pair : pairs[a]) {
+      for (const SightPair& pair : pairs[a]) {
         if (pair.sight != Sight::partial) continue;
         const int row = scene.row[a], other = scene.row[at(pair.other)];
         of_row_[at(row)] += 1;
@@ -66,7 +45,7 @@ class ErrorShares {
     }
     const auto found = of_entry_[at(key(row, other)[0])].find(key(row, other)[1]);
     const double in_entry = found == of_entry_[at(key(row, other)[0])].end() ? 1 : found->second;
-    return tolerance * area / std::max({1., in_entry, std::pow(in_row, root_of_row)});
+    return tolerance * area / std::max({1., in_entry, parts_of_row(in_row)});
   }
 
  private:
@@ -82,6 +61,41 @@ class ErrorShares {
   std::vector<double> of_row_;
   std::vector<std::map<int, double>> of_entry_;
 };
+
+/// A pair that something may come between, and where its result belongs.
+struct HardPair {
+  int low, high;
+  std::size_t place;
+  int own, other;  ///< the same two: what is integrated over first, and what it looks at
+};
+
+HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place) {
+  // From the smaller one the larger looks more alike.
+  const bool is_swapped = sight.surfaces[at(high)].area < sight.surfaces[at(low)].area;
+  return {low, high, place, is_swapped ? high : low, is_swapped ? low : high};
+}
+
+/// So many surfaces of one plane are looked from at another plane before what was seen is
+/// forgotten: what these look back at is then found once for all of them.
+constexpr int surfaces_of_task = 16;
+
+/// Puts pairs of the same two joined surfaces next to each other. Returns where tasks end.
+std::vector<std::size_t> sort_into_tasks(const SightScene& sight, std::vector<HardPair>& hard) {
+  std::vector<int> place(sight.surfaces.size());
+  for (const auto& parts : sight.joined.parts)
+    for (std::size_t k = 0; k < parts.size(); ++k) place[at(parts[k])] = static_cast<int>(k);
+  const auto task_of = [&](const HardPair& pair) {
+    return std::array{sight.surfaces[at(pair.own)].joined, sight.surfaces[at(pair.other)].joined,
+                      place[at(pair.own)] / surfaces_of_task};
+  };
+  std::sort(hard.begin(), hard.end(), [&](const HardPair& a, const HardPair& b) {
+    return std::tuple(task_of(a), a.own, a.other) < std::tuple(task_of(b), b.own, b.other);
+  });
+  std::vector<std::size_t> ends;
+  for (std::size_t h = 1; h <= hard.size(); ++h)
+    if (h == hard.size() || task_of(hard[h]) != task_of(hard[h - 1])) ends.push_back(h);
+  return ends;
+}
 
 }  // namespace
 
@@ -110,11 +124,12 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
   const auto pairs = find_pairs(scene, sight, progress);
   const ErrorShares shares(scene, pairs);
   std::vector<std::vector<MutualSight>> found(pairs.size());
-  std::vector<std::array<std::size_t, 2>> hard;  // surface and number of its pair
+  std::vector<HardPair> hard;
   for (std::size_t a = 0; a < pairs.size(); ++a) {
     found[a].resize(pairs[a].size());
     for (std::size_t k = 0; k < pairs[a].size(); ++k)
-      if (pairs[a][k].sight == Sight::partial) hard.push_back({a, k});
+      if (pairs[a][k].sight == Sight::partial)
+        hard.push_back(hard_pair(sight, static_cast<int>(a), pairs[a][k].other, k));
   }
   // Half for pairs that are clear, and half for those that are not.
   const double half = 0.5 * options.tolerance;
@@ -124,20 +139,21 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
         found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
                                   {half, 0, options.max_points});
   };
-  const auto see_partial = [&](std::size_t h) {
-    const auto [a, k] = hard[h];
-    int own = static_cast<int>(a), other = pairs[a][k].other;
-    const double share = shares.share(scene.row[a], scene.row[at(other)], half);
-    // From the smaller one the larger looks more alike.
-    if (sight.surfaces[at(other)].area < sight.surfaces[at(own)].area) std::swap(own, other);
-    found[a][k] =
-        partial_sight(sight, own, other, {half, share, options.max_points}, progress.stop);
+  const auto see_partial = [&](const HardPair& pair, PointLooks& looks) {
+    const double share = shares.share(scene.row[at(pair.low)], scene.row[at(pair.high)], half);
+    found[at(pair.low)][pair.place] = partial_sight(
+        sight, looks, pair.own, pair.other, {half, share, options.max_points}, progress.stop);
+  };
+  const std::vector<std::size_t> ends = sort_into_tasks(sight, hard);
+  const auto see_task = [&](std::size_t task) {
+    PointLooks looks(sight);
+    for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
+      see_partial(hard[h], looks);
   };
   RowExchange exchange(scene.rows());
   exchange.report.is_complete =
       parallel_for(pairs.size(), see_clear, progress, "form factors") &&
-      parallel_for(hard.size(), see_partial, progress, "hidden form factors") &&
-      !progress.stopped();
+      parallel_for(ends.size(), see_task, progress, "hidden form factors") && !progress.stopped();
   for (std::size_t a = 0; a < pairs.size(); ++a)
     for (std::size_t k = 0; k < found[a].size(); ++k)
       exchange.add(scene.row[a], scene.row[at(pairs[a][k].other)], pairs[a][k].sight, found[a][k]);

@@ -1,0 +1,116 @@
+#include "solver/factors/one_blocker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace halfshade {
+namespace {
+
+/// Clearly before (1) or behind (−1) the plane of a blocker, or neither.
+int side_of(const Blocker& blocker, std::span<const Vec3> polygon, double margin) {
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const Vec3& p : polygon) {
+    const double height = blocker.normal.dot(p - blocker.corners.front());
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  return least > margin ? 1 : most < -margin ? -1 : 0;
+}
+
+/// Whether every line from a corner of one to a corner of the other passes through the blocker: so
+/// do all lines between them then, for what a point sees of a plane through a convex polygon is
+/// convex, from either end.
+bool hides_all(const Blocker& blocker, std::span<const Vec3> part, std::span<const Vec3> other) {
+  const auto& corners = blocker.corners;
+  const double margin =
+      tolerance_of(scale_of(corners)).length + tolerance_of(scale_of(part)).length;
+  const int side = side_of(blocker, part, margin);
+  if (side == 0 || side_of(blocker, other, margin) != -side) return false;
+  for (const Vec3& p : part)
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      // The plane through p and an edge, as seen from where the blocker is counter-clockwise.
+      const Vec3 out = (corners[k] - p).cross(corners[(k + 1) % corners.size()] - p) * side;
+      for (const Vec3& q : other)
+        if (!(out.dot(q - p) < 0)) return false;
+    }
+  return true;
+}
+
+/// Whether a segment passes through a body, not only along it.
+bool passes(const ConvexBody& body, const Vec3& from, const Vec3& to) {
+  // What is shorter than this, relative to the segment, may be rounding.
+  constexpr double touching = 1e-9;
+  double enter = 0, leave = 1;
+  for (const ConvexBody::Side& side : body.sides) {
+    const double a = side.normal.dot(from - side.corner), b = side.normal.dot(to - side.corner);
+    if (a > 0 && b > 0) return false;
+    if (a > 0) enter = std::max(enter, a / (a - b));
+    if (b > 0) leave = std::min(leave, a / (a - b));
+    if (!(leave - enter > touching)) return false;
+  }
+  return enter > 0 && leave < 1;
+}
+
+/// The same of a body: what it hides from a point is convex, too.
+bool hides_all(const ConvexBody& body, std::span<const Vec3> part, std::span<const Vec3> other) {
+  for (const Vec3& p : part)
+    for (const Vec3& q : other)
+      if (!passes(body, p, q)) return false;
+  return true;
+}
+
+/// With more in between, one thing that hides all is rather found for smaller parts.
+constexpr std::size_t most_blockers = 64;
+
+}  // namespace
+
+bool hides_all(const SightScene& scene, const Between& triangles, std::span<const Vec3> part,
+               std::span<const Vec3> other) {
+  if (triangles.size() > most_blockers) return false;
+  int last = -1;
+  return std::any_of(triangles.begin(), triangles.end(), [&](int t) {
+    const int blocker = scene.blocker_of[at(t)];
+    const bool is_new = blocker != last;
+    last = blocker;
+    if (!is_new) return false;
+    const int body = scene.blockers[at(blocker)].body;
+    return body >= 0 ? hides_all(scene.bodies[at(body)], part, other)
+                     : hides_all(scene.blockers[at(blocker)], part, other);
+  });
+}
+
+bool are_all_beside(const SightScene& scene, const Between& triangles, std::span<const Vec3> part,
+                    std::span<const Vec3> other) {
+  constexpr std::size_t most = 24;
+  if (triangles.size() > most) return false;
+  const TriangleSoup& soup = scene.between.soup();
+  std::uint32_t left = (std::uint32_t{1} << triangles.size()) - 1;
+  int last = -1;
+  for (std::size_t i = 0; i < triangles.size() && left != 0; ++i) {
+    const int id = scene.blocker_of[at(triangles[i])];
+    if (id == last) continue;
+    last = id;
+    const Blocker& blocker = scene.blockers[at(id)];
+    double least = HUGE_VAL, most_high = -HUGE_VAL;
+    for (const auto& polygon : {part, other})
+      for (const Vec3& p : polygon) {
+        const double height = blocker.normal.dot(p - blocker.corners.front());
+        least = std::min(least, height);
+        most_high = std::max(most_high, height);
+      }
+    if (least < 0 && most_high > 0) continue;
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+      if ((left >> k & 1) == 0) continue;
+      const auto is_beside = [&](int corner) {
+        const double height = blocker.normal.dot(soup.points[at(corner)] - blocker.corners.front());
+        return least >= 0 ? height <= blocker.rounding : height >= -blocker.rounding;
+      };
+      const auto& corners = soup.triangles[at(triangles[k])];
+      if (std::all_of(corners.begin(), corners.end(), is_beside)) left &= ~(std::uint32_t{1} << k);
+    }
+  }
+  return left == 0;
+}
+
+}  // namespace halfshade

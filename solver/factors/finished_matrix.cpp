@@ -26,9 +26,12 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
 void fill_report(double tolerance, FactorMatrix& result) {
   FactorReport& report = result.report;
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
+    const double missing = std::abs(result.row_sum[i] - 1);
+    // Space is found on its own: what a sum of many good entries misses is in one that is not.
+    if (missing > 2 * tolerance) result.error[i] = std::max(result.error[i], missing);
     const bool is_off = result.error[i] > tolerance;
     report.rows_not_reached += is_off ? 1 : 0;
-    report.row_sum_error_max = std::max(report.row_sum_error_max, std::abs(result.row_sum[i] - 1));
+    report.row_sum_error_max = std::max(report.row_sum_error_max, missing);
     if (result.backs[i] <= report.backs_max) continue;
     report.backs_max = result.backs[i];
     report.backs_row = static_cast<int>(i);

@@ -28,7 +28,7 @@ void be_quiet() {
 
 }  // namespace
 
-bool survives(const std::function<void()>& work, int seconds) {
+bool survives(const std::function<void()>& work, const TrialLimits& limits) {
   const pid_t parent = getpid();
   const pid_t child = fork();
   if (child < 0) return true;
@@ -37,7 +37,7 @@ bool survives(const std::function<void()>& work, int seconds) {
     if (getppid() != parent) _exit(1);
     for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGXCPU, SIGINT, SIGTERM})
       std::signal(signal, SIG_DFL);
-    limit_time(seconds);
+    limit_time(limits.seconds);
     be_quiet();
     try {
       work();
@@ -46,9 +46,13 @@ bool survives(const std::function<void()>& work, int seconds) {
     _exit(0);
   }
   int status = 0;
-  while (waitpid(child, &status, 0) < 0)
+  rusage used{};
+  while (wait4(child, &status, 0, &used) < 0)
     if (errno != EINTR) return true;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  rusage own{};
+  getrusage(RUSAGE_SELF, &own);
+  const double more = 1e-3 * static_cast<double>(used.ru_maxrss - own.ru_maxrss);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 && more <= limits.megabytes;
 }
 
 }  // namespace halfshade

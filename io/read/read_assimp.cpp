@@ -189,16 +189,18 @@ const aiScene* load(Assimp::Importer& importer, const std::filesystem::path& pat
 /// Assimp's older importers crash or hang on some damaged files. That of glTF checks what it reads.
 void require_harmless(const std::filesystem::path& path) {
   if (is_gltf(path)) return;
-  constexpr double a_megabyte = 1e6;
-  const auto size = static_cast<double>(std::filesystem::file_size(path));
-  const int seconds = 3 + static_cast<int>(2 * std::min(size / a_megabyte, 1e4));
+  const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
+  TrialLimits limits;
+  limits.seconds = 3 + static_cast<int>(2 * std::min(megabytes, 1e4));
+  limits.megabytes = 200 + 100 * megabytes;
   const auto try_import = [&] {
     Assimp::Importer importer;
     load(importer, path);
   };
-  if (!survives(try_import, seconds))
+  if (!survives(try_import, limits))
     fail(path, 0,
-         fmt::format("the file is damaged: reading it crashes or takes over {} s", seconds));
+         fmt::format("the file is damaged: reading it crashes, or takes over {} s or {:.0f} MB",
+                     limits.seconds, limits.megabytes));
 }
 
 }  // namespace

@@ -173,16 +173,6 @@ std::vector<SurfaceEdge> edges_in_plane(const SurfaceDraft& draft,
   return result;
 }
 
-/// Whether a surface is hardly wider than its border may be bent to the ends of lines that it
-/// passes. Bent to those inside, it would come to cross itself.
-bool is_needle(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
-  constexpr double times = 4;
-  std::vector<Vec3> corners;
-  for (const int p : draft.rings[0]) corners.push_back(points[at(p)]);
-  return area_vector(corners).norm() <
-         times * tolerance_of(draft.scale).planarity * draft.scale.size;
-}
-
 /// Lines in one surface cross each other, so that the pieces grow with the square of their number.
 void require_few_crossings(const std::vector<std::vector<std::array<int, 2>>>& cuts) {
   double pairs = 0;
@@ -213,7 +203,6 @@ void find_contacts(std::vector<SurfaceDraft>& drafts, std::vector<Vec3>& points,
   require_few_crossings(cuts);
   double pieces = 0;
   for (std::size_t i = 0; i < drafts.size(); ++i) {
-    if (is_needle(drafts[i], points)) continue;
     std::vector<SurfaceEdge> lines = edges_in_plane(drafts[i], edges, tree, points);
     for (const Link& cut : cuts[i]) lines.push_back({cut, drafts[i].scale});
     if (!lines.empty()) ContactFinder(drafts[i], points).run(lines);

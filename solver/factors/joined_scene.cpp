@@ -13,7 +13,7 @@ namespace halfshade {
 namespace {
 
 /// Joined surfaces must be as large as their parts together, relative to that.
-constexpr double same_area = 1e-9;
+constexpr double as_large = 1e-9;
 
 auto key_of(const Vec3& v) { return std::tuple(v.x(), v.y(), v.z()); }
 
@@ -106,7 +106,7 @@ std::optional<std::vector<Joined>> joined(const SoundScene& scene, const Side& s
     const double together =
         std::transform_reduce(one.parts.begin(), one.parts.end(), 0., std::plus<>(),
                               [&](int s) { return area(scene.surfaces[at(s)]); });
-    if (!(std::abs(area(one.surface) - together) <= same_area * together)) return std::nullopt;
+    if (!(std::abs(area(one.surface) - together) <= as_large * together)) return std::nullopt;
     parts += one.parts.size();
     result.push_back(std::move(one));
   }

@@ -22,7 +22,7 @@ constexpr double nearness_of_whole = 1e-13;
 // What a border lies on: a side of the piece, the joined surface's own edge or the horizon, or
 // an edge that hides things.
 constexpr std::uint32_t first_side = 0xffff0000, own_edge = 0xfffffffe, horizon = 0xfffffffd;
-constexpr std::uint64_t lit_signature = 0x5b1f3c9d70e2a846, dark_signature = 0xc24e9076ad3815fb;
+constexpr std::uint64_t whole_signature = 0x5b1f3c9d70e2a846, none_signature = 0xc24e9076ad3815fb;
 
 bool hides(std::uint32_t border) { return border < first_side; }
 
@@ -125,7 +125,7 @@ PointFactor PointLooks::factor(const SurfacePoint& point, int surface) {
   const auto all_or_nothing = [&](bool is_lit) {
     factor.region = is_lit ? Region::lit : Region::umbra;
     factor.visible = is_lit ? factor.unobstructed : 0;
-    factor.signature = is_lit ? lit_signature : dark_signature;
+    factor.signature = is_lit ? whole_signature : none_signature;
     return factor;
   };
   if (seen.region != Region::penumbra) return all_or_nothing(seen.region == Region::lit);

@@ -73,6 +73,9 @@ VisibilityIndex index_of(TriangleSoup soup) {
   return VisibilityIndex(std::move(soup));
 }
 
+/// What corners may be off a plane, of their largest coordinate.
+constexpr double off_plane = 1e-13;
+
 /// A joined surface, or each of its triangles where it is not convex.
 void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
                   const std::vector<int>& body_of, SightScene& scene) {
@@ -83,7 +86,7 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
     int& known = whole[at(owner[t])];
     if (known < 0) {
       Blocker blocker{
-          {}, surface.frame.normal, 1e-13 * surface.scale.magnitude, body_of[at(owner[t])]};
+          {}, surface.frame.normal, off_plane * surface.scale.magnitude, body_of[at(owner[t])]};
       if (is_convex(surface))
         for (const Vec2& p : surface.rings.front())
           blocker.corners.push_back(surface.frame.to_space(p));

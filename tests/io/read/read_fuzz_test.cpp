@@ -190,8 +190,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Seed{"Gltf", "scene.gltf", "scene.gltf", test::gltf_triangle().dump(1), 1500},
                     Seed{"Glb", "scene.glb", "scene.glb", test::as_glb(test::gltf_triangle()),
                          1500},
-                    Seed{"Collada", "scene.dae", "scene.dae", test::collada("Y_UP", "1"), 1500},
-                    Seed{"ThreeDs", "scene.3ds", "scene.3ds", test::three_ds(), 1500},
+                    Seed{"Collada", "scene.dae", "scene.dae", test::collada("Y_UP", "1"), 500},
+                    Seed{"ThreeDs", "scene.3ds", "scene.3ds", test::three_ds(), 500},
                     Seed{"Points", "points.csv", "points.csv", points, 1500}),
     [](const auto& param) { return param.param.name; });
 

@@ -51,8 +51,9 @@ bool survives(const std::function<void()>& work, const TrialLimits& limits) {
     if (errno != EINTR) return true;
   rusage own{};
   getrusage(RUSAGE_SELF, &own);
-  const double more = 1e-3 * static_cast<double>(used.ru_maxrss - own.ru_maxrss);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 && more <= limits.megabytes;
+  constexpr double kilobytes = 1000;  // of a megabyte
+  const auto more = static_cast<double>(used.ru_maxrss - own.ru_maxrss);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 && more <= kilobytes * limits.megabytes;
 }
 
 }  // namespace halfshade

@@ -189,7 +189,8 @@ const aiScene* load(Assimp::Importer& importer, const std::filesystem::path& pat
 /// Assimp's older importers crash or hang on some damaged files. That of glTF checks what it reads.
 void require_harmless(const std::filesystem::path& path) {
   if (is_gltf(path)) return;
-  const double megabytes = 1e-6 * static_cast<double>(std::filesystem::file_size(path));
+  constexpr double bytes = 1e6;  // of a megabyte
+  const double megabytes = static_cast<double>(std::filesystem::file_size(path)) / bytes;
   TrialLimits limits;
   limits.seconds = 3 + static_cast<int>(2 * std::min(megabytes, 1e4));
   limits.megabytes = 200 + 100 * megabytes;

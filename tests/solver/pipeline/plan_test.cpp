@@ -128,12 +128,12 @@ TEST(ForcedStages, GiveTheSameAnswer) {
             1e-12);
 }
 
-/// The same by fields, whose elements need not be the same: the difference of the mean irradiance
-/// of surfaces, in the L2 norm, relative to it.
+/// The same by fields, whose elements need not be the same: the difference of the powers that
+/// arrive at the surfaces, in the L2 norm, relative to them.
 double forced_difference_of_fields(const Scene& scene, const ForcedStages& force,
                                    const std::string& name) {
   SolveOptions options;
-  const auto means = [&](const SolveResult& result) {
+  const auto powers = [&](const SolveResult& result) {
     Eigen::MatrixX3d power =
         Eigen::MatrixX3d::Zero(static_cast<Eigen::Index>(result.scene.surfaces.size()), 3);
     for (int e = 0; e < result.elements.count(); ++e)
@@ -146,7 +146,7 @@ double forced_difference_of_fields(const Scene& scene, const ForcedStages& force
   options.force = force;
   const SolveResult forced = solve(scene, options);
   EXPECT_FALSE(is_left_out(forced, name)) << name;
-  return (means(planned) - means(forced)).norm() / means(forced).norm();
+  return (powers(planned) - powers(forced)).norm() / powers(forced).norm();
 }
 
 TEST(ForcedStages, GiveTheSameAnswerByFields) {

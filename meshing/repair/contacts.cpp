@@ -6,12 +6,14 @@
 #include "meshing/geometry/flat_tree.h"
 #include "meshing/repair/intersections.h"
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 
 namespace halfshade {
 namespace {
@@ -47,6 +49,17 @@ std::vector<SurfaceEdge> all_edges(const std::vector<SurfaceDraft>& drafts) {
   return edges;
 }
 
+/// How far two segments reach through each other; 0 if they only touch.
+double crossing_depth(const Segment2& s, const Segment2& t) {
+  const Vec2 u = s[1] - s[0], v = t[1] - t[0];
+  const double a = cross_2d(u, t[0] - s[0]), b = cross_2d(u, t[1] - s[0]);
+  const double c = cross_2d(v, s[0] - t[0]), d = cross_2d(v, s[1] - t[0]);
+  const auto are_opposite = [](double x, double y) { return (x > 0 && y < 0) || (x < 0 && y > 0); };
+  if (!are_opposite(a, b) || !are_opposite(c, d)) return 0;
+  return std::min(std::min(std::abs(a), std::abs(b)) / u.norm(),
+                  std::min(std::abs(c), std::abs(d)) / v.norm());
+}
+
 // One surface with the edges that lie in its plane.
 class ContactFinder {
  public:
@@ -66,13 +79,15 @@ class ContactFinder {
     arrangement_ = arrange(flat_, segments, {tolerance_.length, tolerance_.planarity});
     collect(edges.size());
     if (inner_.empty()) return;
+    bend_border();
+    straighten_crossings();
     for (std::size_t k = ids_.size(); k < arrangement_.points.size(); ++k) {
       ids_.push_back(static_cast<int>(points_.size()));
       points_.push_back(draft_.frame.to_space(arrangement_.points[k]));
     }
     update_rings();
     for (const Link& link : inner_)
-      draft_.contacts.push_back(sorted_link(ids_[at(link[0])], ids_[at(link[1])]));
+      draft_.contacts.push_back(sorted_link(end_of_contact(link[0]), end_of_contact(link[1])));
     std::sort(draft_.contacts.begin(), draft_.contacts.end());
   }
 
@@ -116,21 +131,98 @@ class ContactFinder {
     return odd && !(near_a && near_b && near_middle);
   }
 
-  // Border points at which contact lines end become corners of the rings.
-  void update_rings() {
+  // Border points at which contact lines end become corners of the rings, which bends them by up
+  // to the planarity tolerance.
+  void bend_border() {
     std::set<int> ends;
     for (const Link& link : inner_) ends.insert(link.begin(), link.end());
+    for (std::size_t s = 0; s < border_.size(); ++s) {
+      const auto& chain = arrangement_.chains[s];
+      std::vector<int> bent = {border_[s][0]};
+      for (std::size_t i = 1; i + 1 < chain.size(); ++i)
+        if (ends.contains(chain[i])) bent.push_back(chain[i]);
+      bent.push_back(border_[s][1]);
+      bent_.push_back(std::move(bent));
+    }
+  }
+
+  // Where the sides of a needle are bent, they may come to cross. There, contact lines end beside
+  // the points of others, on straight sides.
+  void straighten_crossings() {
+    std::set<std::size_t> straight;
+    for (bool is_done = false; !is_done;) {
+      is_done = true;
+      for (const std::size_t s : crossing_sides())
+        if (bent_[s].size() > 2 && straight.insert(s).second) {
+          straighten(s);
+          is_done = false;
+        }
+    }
+  }
+
+  // Of the border: those with pieces that another side crosses.
+  std::set<std::size_t> crossing_sides() const {
+    std::set<std::size_t> found;
+    for (std::size_t s = 0; s < bent_.size(); ++s) {
+      if (bent_[s].size() == 2) continue;
+      for (std::size_t t = 0; t < bent_.size(); ++t)
+        if (s != t && sides_cross(bent_[s], bent_[t])) found.insert({s, t});
+    }
+    return found;
+  }
+
+  bool sides_cross(const std::vector<int>& side, const std::vector<int>& other) const {
+    const auto& p = arrangement_.points;
+    const auto box = [&](std::span<const int> run) {
+      Eigen::AlignedBox2d around;
+      for (const int k : run) around.extend(p[at(k)]);
+      return around;
+    };
+    const Eigen::AlignedBox2d around_other = box(other);
+    for (std::size_t i = 1; i < side.size(); ++i) {
+      if (!around_other.intersects(box(std::span(side).subspan(i - 1, 2)))) continue;
+      for (std::size_t j = 1; j < other.size(); ++j)
+        if (crossing_depth({p[at(side[i - 1])], p[at(side[i])]},
+                           {p[at(other[j - 1])], p[at(other[j])]}) > tolerance_.length)
+          return true;
+    }
+    return false;
+  }
+
+  void straighten(std::size_t s) {
+    std::vector<int>& side = bent_[s];
+    const Vec2 start = arrangement_.points[at(side.front())];
+    const Vec2 along = arrangement_.points[at(side.back())] - start;
+    double last = 0;
+    std::vector<int> straight = {side.front()};
+    for (std::size_t i = 1; i + 1 < side.size(); ++i) {
+      const double t = along.dot(arrangement_.points[at(side[i])] - start) / along.squaredNorm();
+      if (t <= last || t >= 1) continue;
+      last = t;
+      moved_.emplace(side[i], static_cast<int>(arrangement_.points.size()));
+      straight.push_back(static_cast<int>(arrangement_.points.size()));
+      arrangement_.points.push_back(start + t * along);
+    }
+    straight.push_back(side.back());
+    side = std::move(straight);
+  }
+
+  void update_rings() {
     std::size_t s = 0;
     for (auto& ring : draft_.rings) {
       std::vector<int> longer;
       for (std::size_t k = 0; k < ring.size(); ++k, ++s) {
-        const auto& chain = arrangement_.chains[s];
         longer.push_back(ring[k]);
-        for (std::size_t i = 1; i + 1 < chain.size(); ++i)
-          if (ends.contains(chain[i])) longer.push_back(ids_[at(chain[i])]);
+        for (std::size_t i = 1; i + 1 < bent_[s].size(); ++i)
+          longer.push_back(ids_[at(bent_[s][i])]);
       }
       ring = std::move(longer);
     }
+  }
+
+  int end_of_contact(int point) const {
+    const auto moved = moved_.find(point);
+    return ids_[at(moved == moved_.end() ? point : moved->second)];
   }
 
   SurfaceDraft& draft_;
@@ -142,6 +234,8 @@ class ContactFinder {
   std::vector<Link> border_;
   Arrangement arrangement_;
   std::set<Link> inner_;
+  std::vector<std::vector<int>> bent_;  // of each side of the border: its points
+  std::map<int, int> moved_;            // point of the arrangement → where a straight side has it
 };
 
 // Edges other than the surface's own that lie in its plane and may reach into it.

@@ -38,7 +38,12 @@ Bounds box_about(const Vec3& p, double reach) {
   return {p - Vec3::Constant(reach), p + Vec3::Constant(reach)};
 }
 
-/// Maps each corner to a vertex.
+bool comes_first(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+/// Maps each corner to a vertex. Corners that are joined differ by the digits of the file; which of
+/// them is the vertex follows from where they are, so that the order of faces does not matter.
 std::vector<int> join(const SoundScene& scene, const Corners& corners,
                       std::vector<Vec3>& vertices) {
   std::vector<Bounds> boxes;
@@ -54,8 +59,11 @@ std::vector<int> join(const SoundScene& scene, const Corners& corners,
       const Vec3 offset = corners.position[at(j)] - corners.position[i];
       if (vertex[at(j)] < 0 && offset.norm() <= std::min(corners.reach[i], corners.reach[at(j)]) &&
           planes_explain(offset, scene.surfaces[at(corners.surface[i])],
-                         scene.surfaces[at(corners.surface[at(j)])]))
+                         scene.surfaces[at(corners.surface[at(j)])])) {
         vertex[at(j)] = vertex[i];
+        if (comes_first(corners.position[at(j)], vertices.back()))
+          vertices.back() = corners.position[at(j)];
+      }
     });
   }
   return vertex;

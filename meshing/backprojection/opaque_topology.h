@@ -68,9 +68,9 @@ struct OpaqueTopology {
 /// O(n log n) in the number of corners.
 OpaqueTopology make_opaque_topology(const SoundScene& scene);
 
-/// The surfaces' ring vertices as points in space, those that are the same joined: each keeps the
-/// position of the first. Every vertex that lies on a ring edge becomes part of that ring. Fills
-/// vertices, surfaces, rings, outline and magnitude.
+/// The surfaces' ring vertices as points in space, those that are the same joined: of
+/// their positions the first by x, y and z is taken. Every vertex that lies on a ring edge becomes
+/// part of that ring. Fills vertices, surfaces, rings, outline and magnitude.
 void join_outlines(const SoundScene& scene, OpaqueTopology& out);
 
 /// Cuts the outlines into triangles. Fills triangles, except their edges.

@@ -209,9 +209,8 @@ TEST_P(Laws, DirectLightFollowsExitance) {
 
 TEST_P(Laws, TheOrderOfFacesAndVerticesDoesNotMatter) {
   const std::vector<SurfacePoint> points = places();
-  // In hundred_lights it moves by 6e-12, and why is not known.
   expect_same(direct_light(scene_, points), direct_light(test::turned_round(scene_), points),
-              share(is_large() ? 1e-11 : 1e-12), "turned round");
+              share(1e-12), "turned round");
 }
 
 TEST_P(Laws, WhatIsElsewhereDoesNotMatter) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 
 namespace halfshade::detail {
 namespace {
@@ -17,19 +16,14 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-std::string ply_head(const Provenance& provenance, const std::string& unit) {
+std::string ply_head(const char* format, const Provenance& provenance, const std::string& unit) {
   return fmt::format(
       "ply\n"
-      "format binary_little_endian 1.0\n"
+      "format {} 1.0\n"
       "comment halfshade {}\n"
       "comment command line: {}\n"
       "comment unit: {}\n",
-      one_line(provenance.version), one_line(provenance.command_line), one_line(unit));
-}
-
-void put_triangle(std::string& bytes, const std::array<int, 3>& corners) {
-  put(bytes, std::uint8_t{3});
-  for (const int p : corners) put(bytes, static_cast<std::int32_t>(p));
+      format, one_line(provenance.version), one_line(provenance.command_line), one_line(unit));
 }
 
 }  // namespace halfshade::detail

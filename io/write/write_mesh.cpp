@@ -12,6 +12,8 @@
 #include <vtkFieldData.h>
 #include <vtkPointSet.h>
 
+#include <iterator>
+
 namespace halfshade {
 namespace {
 
@@ -51,6 +53,8 @@ std::string vtk(const MeshResult& result, std::string_view extension) {
   return vtk_bytes(grid, "write_mesh");
 }
 
+/// As text, because meshio reads numbers of faces beside their corners in no other form.
+/// Coordinates keep all their digits.
 std::string ply(const MeshResult& result, const Provenance& provenance) {
   const ElementTable& elements = result.elements;
   std::string bytes = fmt::format(
@@ -61,16 +65,14 @@ std::string ply(const MeshResult& result, const Provenance& provenance) {
       "property list uchar int vertex_indices\n"
       "property int surface\nproperty uchar region\n"
       "end_header\n",
-      ply_head(provenance, result.unit),
+      ply_head(text_ply, provenance, result.unit),
       result.interrupted ? "comment interrupted: the mesh is not complete\n" : "",
       elements.points.size(), elements.count());
-  for (const Vec3& p : elements.points)
-    for (const double x : p) put(bytes, x);
-  for (std::size_t e = 0; e < elements.corners.size(); ++e) {
-    put_triangle(bytes, elements.corners[e]);
-    put(bytes, static_cast<std::int32_t>(elements.surface[e]));
-    put(bytes, static_cast<std::uint8_t>(result.region[e]));
-  }
+  const auto out = std::back_inserter(bytes);
+  for (const Vec3& p : elements.points) fmt::format_to(out, "{} {} {}\n", p.x(), p.y(), p.z());
+  for (std::size_t e = 0; e < elements.corners.size(); ++e)
+    fmt::format_to(out, "3 {} {} {}\n", fmt::join(elements.corners[e], " "), elements.surface[e],
+                   static_cast<int>(result.region[e]));
   return bytes;
 }
 

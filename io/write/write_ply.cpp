@@ -1,3 +1,4 @@
+#include "io/files/little_endian.h"
 #include "io/picture/tone_map.h"
 #include "io/write/ply_file.h"
 #include "io/write/result_bytes.h"
@@ -42,7 +43,7 @@ std::string header(const SolveResult& result, const ElementTable& elements,
       "element face {}\n"
       "property list uchar int vertex_indices\n"
       "end_header\n",
-      ply_head(provenance, result.unit), exposure,
+      ply_head(binary_ply, provenance, result.unit), exposure,
       result.interrupted ? "comment interrupted: the solution is not complete\n" : "",
       elements.points.size(), elements.count());
 }
@@ -66,7 +67,10 @@ std::string ply_bytes(const SolveResult& result, const Provenance& provenance) {
     for (const std::uint8_t c : encode_srgb(tone_map(value, exposure))) put(bytes, c);
     for (const double v : value) put(bytes, to_float(v));
   }
-  for (const auto& corners : elements.corners) put_triangle(bytes, corners);
+  for (const auto& corners : elements.corners) {
+    put(bytes, std::uint8_t{3});
+    for (const int p : corners) put(bytes, static_cast<std::int32_t>(p));
+  }
   return bytes;
 }
 

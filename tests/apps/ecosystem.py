@@ -40,7 +40,7 @@ def check_meshio(name):
 
 for file in sys.argv[1:]:
     check_vtk(file)
-    # meshio knows no .vtp, and takes numbers of faces in a .ply for lists.
-    if file.endswith((".vtu", "s.ply")):
+    # meshio knows no .vtp.
+    if file.endswith((".vtu", ".ply")):
         check_meshio(file)
 print("read", len(sys.argv) - 1)

@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <vtkCellData.h>
 
-#include <cstring>
+#include <array>
+#include <sstream>
+#include <string>
 
 namespace halfshade {
 namespace {
@@ -105,14 +107,21 @@ TEST(WriteMeshPly, HoldsEveryCoordinateToTheLastBit) {
   EXPECT_NE(bytes.find("comment command line: two lines\n"), std::string::npos);
   EXPECT_NE(bytes.find("element vertex 4\n"), std::string::npos);
   EXPECT_NE(bytes.find("element face 2\n"), std::string::npos);
-  const std::size_t body = bytes.find("end_header\n") + 11;
-  ASSERT_EQ(bytes.size(), body + 4 * 24 + 2 * (1 + 12 + 4 + 1));
-  for (std::size_t k = 0; k < 4; ++k) {
-    Vec3 p;
-    std::memcpy(p.data(), bytes.data() + body + 24 * k, 24);
-    EXPECT_EQ(p, result.elements.points[k]);
+  std::istringstream body(bytes.substr(bytes.find("end_header\n") + 11));
+  for (const Vec3& expected : result.elements.points) {
+    std::string x, y, z;
+    body >> x >> y >> z;
+    EXPECT_EQ(Vec3(std::stod(x), std::stod(y), std::stod(z)), expected);
   }
-  EXPECT_EQ(bytes.back(), 1) << "the second element's region";
+  for (std::size_t e = 0; e < 2; ++e) {
+    int count = 0, a = 0, b = 0, c = 0, surface = 0, region = 0;
+    body >> count >> a >> b >> c >> surface >> region;
+    EXPECT_EQ(count, 3);
+    EXPECT_EQ((std::array{a, b, c}), result.elements.corners[e]);
+    EXPECT_EQ(surface, result.elements.surface[e]);
+    EXPECT_EQ(region, static_cast<int>(result.region[e]));
+  }
+  EXPECT_TRUE(body.good() && body.get() == '\n' && body.peek() == EOF);
 }
 
 TEST(WriteMeshErrors, RefusesWhatItCannotWrite) {

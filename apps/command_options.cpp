@@ -107,15 +107,22 @@ CLI::Option* add_words(CLI::App& app, const char* name, const std::vector<std::s
 
 void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary) {
   add_words(
-      app, "--events", {"contact", "face", "ev", "eee"},
+      app, "--events", {"contact", "face", "ev", "eee", "horizon"},
       [&events](const std::vector<bool>& asked) {
-        events = {asked[0], asked[1], asked[2], asked[3]};
+        events = {asked[0], asked[1], asked[2], asked[3], asked[4]};
       },
-      "Only curves of these kinds, separated by commas: contact, face, ev, eee (default: all)")
+      "Only curves of these kinds, separated by commas: contact, face, ev, eee, horizon (default: "
+      "all)")
       ->type_name("KIND,…");
   add_whole(app, "--secondary", secondary, {0, 1000000},
             "Also look for the curves of the N brightest reflecting surfaces")
       ->capture_default_str();
+}
+
+void add_deviation(CLI::App& app, double& deviation) {
+  add_number(app, "--deviation", deviation, {1e-9, 0.1},
+             "How far mesh edges may be off curved discontinuities, as a share of the surface\n"
+             "(default: what the tolerance allows, 1e-4 without one)");
 }
 
 CLI::Option* add_choice(CLI::App& app, const char* name, const std::vector<std::string>& words,

@@ -37,6 +37,7 @@ void add_elements(CLI::App& app, int& elements, const char* help);
 
 /// Which discontinuities to look for.
 void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary);
+void add_deviation(CLI::App& app, double& deviation);
 
 /// --flip and --orient, of commands that read a scene; --visibility and --force, of those that
 /// solve it or say how.

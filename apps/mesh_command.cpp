@@ -56,17 +56,18 @@ bool draw(const MeshCommand& command, const PreparedScene& prepared, const MeshR
 }
 
 void print_curves(const Discontinuities& found, std::FILE* out) {
-  std::array<std::size_t, 4> kinds{};
-  std::array<std::size_t, 3> orders{};
+  std::array<std::size_t, curve_kinds> kinds{};
+  std::array<std::size_t, 4> orders{};
   for (const DiscontinuityCurve& curve : found.curves) {
     ++kinds.at(static_cast<std::size_t>(curve.kind));
-    ++orders.at(static_cast<std::size_t>(std::clamp(curve.order, 0, 2)));
+    ++orders.at(static_cast<std::size_t>(std::clamp(curve.order, 0, 3)));
   }
   fmt::print(out, "curves       {} of {} source{}\n", found.curves.size(), found.sources.size(),
              found.sources.size() == 1 ? "" : "s");
-  fmt::print(out, "kinds        {} contact, {} face, {} ev, {} eee\n", kinds[0], kinds[1], kinds[2],
-             kinds[3]);
-  fmt::print(out, "orders       {} D0, {} D1, {} D2\n", orders[0], orders[1], orders[2]);
+  fmt::print(out, "kinds        {} contact, {} face, {} ev, {} eee, {} horizon\n", kinds[0],
+             kinds[1], kinds[2], kinds[3], kinds[4]);
+  fmt::print(out, "orders       {} D0, {} D1, {} D2, {} D3\n", orders[0], orders[1], orders[2],
+             orders[3]);
 }
 
 void print_summary(const MeshResult& result, bool with_elements, const Context& context) {

@@ -18,7 +18,7 @@ void add_picture(CLI::App& app, MeshCommand& command) {
         command.picture_options.colour = k == 0 ? CurveColour::order : CurveColour::kind;
       },
       "By 'order' (D0 red, D1 blue, D2 pink, D2 of three edges yellow) or by 'kind'\n"
-      "(contact red, face green, ev pink, eee yellow)")
+      "(contact red, face green, ev pink, eee yellow, horizon teal)")
       ->needs(picture);
   add_whole(app, "--pixels", command.picture_options.pixels, {least_curve_pixels, most_pixels},
             "Longer side of the picture")
@@ -45,6 +45,7 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
   add_positive(app, "--max-length", command.options.max_length,
                "Longest element edge in scene units (default: no limit)");
   add_events(app, command.options.events, command.options.secondary);
+  add_deviation(app, command.options.deviation);
   add_picture(app, command);
   add_orientation(app, common.orientation);
   add_common(app, common);

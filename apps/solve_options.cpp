@@ -13,7 +13,7 @@ constexpr const char* needless_with_saved_factors[] = {
     "--tolerance", "--order",     "--refine",       "--method",           "--elements",
     "--regions",   "--rays",      "--visibility",   "--hemicube",         "--closure",
     "--force",     "--events",    "--direct-light", "--no-discontinuity", "--progressive",
-    "--goal",      "--subdivide", "--gradient",     "--interpolate"};
+    "--goal",      "--subdivide", "--gradient",     "--interpolate",      "--deviation"};
 
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
@@ -105,6 +105,7 @@ void add_curves(CLI::App& app, SolveOptions& options) {
       "--no-discontinuity", [&options] { options.discontinuities = false; },
       "Do not mesh along the curves where the light breaks");
   add_events(app, options.events, options.secondary);
+  add_deviation(app, options.deviation);
 }
 
 }  // namespace

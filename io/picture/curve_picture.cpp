@@ -19,7 +19,7 @@ constexpr double least_better = 1e-6;
 using Bytes = std::array<std::uint8_t, 3>;
 
 constexpr Bytes red = {235, 60, 50}, blue = {70, 130, 255}, pink = {255, 105, 190},
-                yellow = {250, 215, 50}, green = {80, 200, 110};
+                yellow = {250, 215, 50}, green = {80, 200, 110}, teal = {60, 200, 215};
 constexpr Bytes page = {24, 24, 27}, outline = {150, 150, 155};
 /// Light is drawn between these greys, so that curves of any colour stand out.
 constexpr double darkest = 40, brightest = 205;
@@ -175,6 +175,8 @@ std::array<std::uint8_t, 3> curve_colour(const DiscontinuityCurve& curve, CurveC
       return pink;
     case CurveKind::eee:
       return yellow;
+    case CurveKind::horizon:
+      return teal;
   }
   return red;
 }

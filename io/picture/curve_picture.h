@@ -11,7 +11,7 @@
 namespace halfshade {
 
 /// What the colour of a curve says. Order: D0 red, D1 blue, D2 pink, D2 of three edges yellow, as
-/// the literature draws them. Kind: contact red, face green, ev pink, eee yellow.
+/// the literature draws them. Kind: contact red, face green, ev pink, eee yellow, horizon teal.
 enum class CurveColour { order, kind };
 
 inline constexpr int least_curve_pixels = 16;

@@ -36,8 +36,9 @@ std::vector<OverlaidCurve> read_curves(const std::filesystem::path& file) {
   std::vector<OrderedCurve> curves;
   for (vtkIdType i = 0; i < grid->GetNumberOfCells(); ++i) {
     DiscontinuityCurve curve;
-    curve.order = static_cast<int>(std::clamp(orders->GetComponent(i, 0), 0., 2.));
-    curve.kind = static_cast<CurveKind>(std::clamp(kinds->GetComponent(i, 0), 0., 3.));
+    curve.order = static_cast<int>(std::clamp(orders->GetComponent(i, 0), 0., 3.));
+    curve.kind =
+        static_cast<CurveKind>(std::clamp(kinds->GetComponent(i, 0), 0., curve_kinds - 1.));
     OverlaidCurve line;
     line.colour = curve_colour(curve, CurveColour::order);
     for (const int p : detail::nodes_of(grid, i, file)) line.points.push_back(points[at(p)]);

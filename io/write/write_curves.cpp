@@ -19,7 +19,8 @@
 namespace halfshade {
 namespace {
 
-constexpr std::array<const char*, 4> kind_names = {"contact", "face", "ev", "eee"};
+constexpr std::array<const char*, curve_kinds> kind_names = {"contact", "face", "ev", "eee",
+                                                             "horizon"};
 
 const Surface& surface_of(const SoundScene& scene, int id, const char* what) {
   if (id < 0 || id >= static_cast<int>(scene.surfaces.size()))

@@ -44,6 +44,7 @@ void add_field_data(const MeshResult& result, vtkFieldData* data) {
   add_cameras(data, result.cameras);
   add_sources(data, result.found.sources);
   add_numbers(data, "irradiance_tolerance", {result.irradiance_tolerance});
+  add_numbers(data, "curve_deviation", {result.mesh.deviation});
 }
 
 std::string vtk(const MeshResult& result, std::string_view extension) {

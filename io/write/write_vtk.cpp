@@ -62,6 +62,7 @@ void add_field_data(const SolveResult& result, vtkFieldData* data) {
   add_cameras(data, result.cameras);
   if (!result.regions.empty()) add_sources(data, result.emitters);
   add_numbers(data, "tolerance", {result.discontinuity_tolerance});
+  add_numbers(data, "curve_deviation", {result.mesh.deviation});
   add_numbers(data, "achieved_error", {result.relative_error});
 }
 

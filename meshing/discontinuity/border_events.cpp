@@ -3,6 +3,7 @@
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/planar.h"
 #include "meshing/discontinuity/margins.h"
+#include "meshing/discontinuity/stretches.h"
 #include "meshing/events/margins.h"
 
 #include <algorithm>
@@ -16,23 +17,6 @@ namespace {
 
 // Places along a contact line at which a jump is looked for.
 constexpr int contact_samples = 8;
-
-/// Parameters along the line origin + t·along inside a receiver, as pairs.
-std::vector<std::array<double, 2>> stretches(const Surface& receiver, const Vec2& origin,
-                                             const Vec2& along) {
-  std::vector<double> hits;
-  for (const Ring& ring : receiver.rings)
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 a = ring[k] - origin, b = ring[(k + 1) % ring.size()] - origin;
-      const double sa = cross_2d(along, a), sb = cross_2d(along, b);
-      if ((sa > 0) == (sb > 0)) continue;
-      hits.push_back(along.dot(a + sa / (sa - sb) * (b - a)) / along.squaredNorm());
-    }
-  std::sort(hits.begin(), hits.end());
-  std::vector<std::array<double, 2>> result;
-  for (std::size_t k = 1; k < hits.size(); k += 2) result.push_back({hits[k - 1], hits[k]});
-  return result;
-}
 
 /// Points of the emitter's plane, in its frame, that can limit what is seen along it.
 std::vector<Vec2> limits_in_plane(const OpaqueTopology& opaque, const EmitterScene& emitter_scene) {

@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "meshing/discontinuity/border_events.h"
+#include "meshing/discontinuity/horizon_events.h"
 #include "meshing/discontinuity/merge_curves.h"
 #include "meshing/discontinuity/predict_jump.h"
 #include "meshing/discontinuity/search_budget.h"
@@ -54,7 +55,8 @@ class Search {
           return SwathTracer(scene_, opaque_, emitter_scene_,
                              {options_.irradiance_tolerance / exitance_, options_.max_length});
         }),
-        borders_([this] { return BorderSearch(scene_, opaque_, emitter_scene_); }) {
+        borders_([this] { return BorderSearch(scene_, opaque_, emitter_scene_); }),
+        horizons_([this] { return HorizonSearch(scene_, opaque_, emitter_scene_); }) {
     if (budget_.is_limited()) sampled_ = sample_lines();
   }
 
@@ -75,6 +77,7 @@ class Search {
             });
     if (options_.eee) find_triples();
     append(std::move(on_borders), curves_);
+    if (options_.horizon && !(options_.irradiance_tolerance > 0)) append(find_horizons(), curves_);
     const TraceCounts counts = counts_so_far();
     report_.swaths += counts.swaths;
     report_.pieces += counts.pieces;
@@ -152,6 +155,24 @@ class Search {
                      find(&BorderSearch::add_contact_curves)),
              found);
     return found;
+  }
+
+  Curves find_horizons() {
+    const std::size_t count = scene_.surfaces.size();
+    std::size_t cut = 0;
+    for (std::size_t r = 0; r < count; ++r)
+      cut += horizons_.local().is_cut(static_cast<int>(r)) ? 1 : 0;
+    const double for_each = SearchBudget::of_test *
+                            static_cast<double>(cut * emitter_scene_.edges.size()) /
+                            static_cast<double>(count);
+    return run_all(CurveKind::horizon, {count, for_each, "horizon"},
+                   [this](std::size_t receiver, double most, Curves& found) {
+                     HorizonSearch& horizons = horizons_.local();
+                     const double before = horizons.work();
+                     const bool is_done =
+                         horizons.add_curves(static_cast<int>(receiver), most, found);
+                     return Done{horizons.work() - before, is_done};
+                   });
   }
 
   /// What lines of sight from the emitter to some of the surfaces meet, so that it is known how
@@ -299,6 +320,7 @@ class Search {
   TraceCounts sampled_;  ///< of lines cast to know the scene; none if work is not limited
   PerThread<SwathTracer> tracers_;
   PerThread<BorderSearch> borders_;
+  PerThread<HorizonSearch> horizons_;
   Curves curves_;
 };
 

@@ -42,6 +42,9 @@ inline double element_size(double receiver_size, double max_length) {
 
 struct DiscontinuityOptions {
   bool contact = true, face = true, ev = true, eee = true;  ///< which events to look for
+  /// Along planes of receivers that cut the emitter. Their jumps are of the third order, so that
+  /// they are looked for only if `irradiance_tolerance` is 0.
+  bool horizon = true;
   /// Lines of sight along which the irradiance can change by less than this (W/m²) over an element
   /// are not followed; those that can change its slope only where the source gives
   /// less than this. 0: all are.
@@ -54,15 +57,16 @@ struct DiscontinuityOptions {
 
 /// How the curves came about.
 struct DiscontinuityReport {
-  std::size_t silhouette_edges = 0;    ///< edge–emitter pairs worth looking at
-  std::size_t swaths = 0;              ///< one-parameter families of lines that could be events
-  std::size_t pieces = 0;              ///< of swaths between critical lines, each decided exactly
-  std::array<std::size_t, 4> found{};  ///< curves by kind, before merging
-  double most_work = 0;                ///< as DiscontinuityOptions has it
-  double work = 0;                     ///< done
-  std::array<double, 4> left_out{};    ///< work that kinds would have taken, about; 0: none is
-  std::size_t merged = 0;              ///< curves that lay on others
-  bool interrupted = false;            ///< stopped early: curves are missing
+  std::size_t silhouette_edges = 0;  ///< edge–emitter pairs worth looking at
+  std::size_t swaths = 0;            ///< one-parameter families of lines that could be events
+  std::size_t pieces = 0;            ///< of swaths between critical lines, each decided exactly
+  std::array<std::size_t, curve_kinds> found{};  ///< curves by kind, before merging
+  double most_work = 0;                          ///< as DiscontinuityOptions has it
+  double work = 0;                               ///< done
+  std::array<double, curve_kinds>
+      left_out{};            ///< work that kinds would have taken, about; 0: none is
+  std::size_t merged = 0;    ///< curves that lay on others
+  bool interrupted = false;  ///< stopped early: curves are missing
 };
 
 struct Discontinuities {
@@ -72,7 +76,8 @@ struct Discontinuities {
 };
 
 /// All curves across which the irradiance from one of `sources`, or one of its first two
-/// derivatives, jumps. See discontinuity.md. Deterministic for any number of threads.
+/// derivatives, jumps, and of the third order those across which what is seen changes. See
+/// discontinuity.md. Deterministic for any number of threads.
 Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene& opaque,
                                      std::span<const LightSource> sources,
                                      const DiscontinuityOptions& options = {},

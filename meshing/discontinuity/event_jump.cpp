@@ -72,6 +72,49 @@ double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
   return kernel * det * det / sines;
 }
 
+// On the emitter, with y relative to where the lines meet, the horizon is m·y = 0 at height
+// z = sin φ m·y, φ being the angle between receiver and emitter, and does not move; the lines are
+// n·y + g t = 0 as above. They meet at n₁·y = −g₁ t, n₂·y = −g₂ t, at m·y = h t, and meet the
+// horizon a distance b t apart, so that ∫ κ z dA = κ sin φ b h² t³/6 over the triangle.
+double horizon_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
+                    const std::array<Line3, 2>& lines) {
+  const Vec3 first = sight_plane(at.position, lines[0]),
+             second = sight_plane(at.position, lines[1]);
+  // Both lines pass the point's horizon where they meet: of them the one that crosses it best.
+  const Vec3 w1 = first.cross(at.normal), w2 = second.cross(at.normal);
+  const Vec3 w =
+      (w1.squaredNorm() * second.squaredNorm() > w2.squaredNorm() * first.squaredNorm() ? w1 : w2)
+          .stableNormalized();
+  const double towards = -emitter.normal.dot(w), height = emitter.height(at.position);
+  const Vec2 m(emitter.e1.dot(at.normal), emitter.e2.dot(at.normal));
+  const double sine = m.norm();
+  if (!(towards != 0 && height > 0 && sine > 0)) return 0;
+  const double distance = height / std::abs(towards);
+  const Vec3 meeting = at.position + (towards < 0 ? -distance : distance) * w;
+
+  std::array<Vec2, 2> n;
+  std::array<double, 2> rate{}, place{};
+  const Vec2 along(-m.y() / sine, m.x() / sine);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vec3 plane = i == 0 ? first : second;
+    const Vec2 in_emitter(emitter.e1.dot(plane), emitter.e2.dot(plane));
+    const double size = in_emitter.norm();
+    if (!(size > 0)) return 0;
+    n[i] = in_emitter / size;
+    rate[i] = at.across.dot(lines[i].direction.cross(lines[i].point - meeting)) / size;
+    const double crossing = n[i].dot(along);
+    if (std::abs(crossing) < margins::parallel_sine) return 0;  // runs along the horizon
+    place[i] = -rate[i] / crossing;
+  }
+  const double between = cross_2d(n[0], n[1]);
+  if (std::abs(between) < margins::parallel_sine) return std::numeric_limits<double>::infinity();
+  const Vec2 apex((rate[1] * n[0].y() - rate[0] * n[1].y()) / between,
+                  (rate[0] * n[1].x() - rate[1] * n[0].x()) / between);
+  const double h = m.dot(apex) / sine;
+  const double kernel = std::abs(towards) / (std::numbers::pi * std::pow(distance, 3));
+  return kernel * sine * std::abs(place[0] - place[1]) * h * std::abs(h);
+}
+
 // With r the distance from the point to the edge, R that to the emitter behind it, w the direction
 // and m the unit normal of the plane of point and edge (to the right of the piece), the image moves
 // so that K v dl = (n·w) (u·m) (1/R − 1/r) dφ/π, φ the angle along the piece. Moreover

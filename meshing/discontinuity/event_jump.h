@@ -25,6 +25,14 @@ struct ReceivingPoint {
 double triangle_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
                      const std::array<Line3, 3>& lines);
 
+/// Size of the jump of the third derivative of the form factor along `across`, at a point in whose
+/// horizon two lines meet on the emitter: over the triangle between them and the horizon the kernel
+/// grows from zero as κ times the height over the horizon. The sign is that of this height on the
+/// left. Infinite if the lines coincide as seen from the point; 0 if they meet behind it, or if the
+/// emitter faces away.
+double horizon_jump(const ReceivingPoint& at, const PlaneFrame& emitter,
+                    const std::array<Line3, 2>& lines);
+
 /// What a straight piece of the visible part's boundary adds to the first derivative of the form
 /// factor by moving: ∫ K v dl, where v is how fast the piece's image on the emitter moves to the
 /// right of the piece, for a point that moves along `across` at unit speed. `from` and `to` are

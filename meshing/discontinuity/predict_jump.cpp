@@ -24,13 +24,13 @@ JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
     : scene_(scene), opaque_(opaque), emitter_scene_(emitter_scene), finder_(opaque) {}
 
 void JumpPredictor::predict(DiscontinuityCurve& curve) {
-  for (; curve.order < 3; ++curve.order) {
+  for (;; ++curve.order) {
     bool jumps = false;
     for (std::size_t k = 0; k < samples.size(); ++k) {
       curve.jump[k] = jump_at(curve, samples[k]);
       jumps = jumps || curve.jump[k] != 0;
     }
-    if (jumps || curve.order == 2) return;
+    if (jumps || curve.order >= 2) return;
   }
 }
 
@@ -40,6 +40,7 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
   const Vec3 point = plane.to_space(point_at(curve.arc, s));
   const Vec3 left = -tangent.y() * plane.e1 + tangent.x() * plane.e2;
   if (curve.order == 2) return curvature_jump(curve, point, left, plane.normal);
+  if (curve.order == 3) return third_order_jump(curve, point, left, plane.normal);
   const auto at_step = [&](double step) {
     finder_.find(point + step * left, plane.normal, emitter_scene_.emitter, left_);
     finder_.find(point - step * left, plane.normal, emitter_scene_.emitter, right_);
@@ -96,11 +97,26 @@ double JumpPredictor::curvature_jump(const DiscontinuityCurve& curve, const Vec3
                                      const Vec3& left, const Vec3& normal) const {
   double jump = 0;
   for (const EdgeTriple& triple : curve.triples) {
+    if (triple.edges[0] == EdgeId::horizon()) continue;  // of the third order
     const double size =
         triangle_jump({point, normal, left}, emitter_scene_.frame,
                       {line_of(emitter_scene_, opaque_.topology(), triple.edges[0]),
                        line_of(emitter_scene_, opaque_.topology(), triple.edges[1]),
                        line_of(emitter_scene_, opaque_.topology(), triple.edges[2])});
+    if (std::isfinite(size)) jump += triple.sign * size;
+  }
+  return jump;
+}
+
+double JumpPredictor::third_order_jump(const DiscontinuityCurve& curve, const Vec3& point,
+                                       const Vec3& left, const Vec3& normal) const {
+  double jump = 0;
+  for (const EdgeTriple& triple : curve.triples) {
+    if (triple.edges[0] != EdgeId::horizon()) continue;
+    const double size =
+        horizon_jump({point, normal, left}, emitter_scene_.frame,
+                     {line_of(emitter_scene_, opaque_.topology(), triple.edges[1]),
+                      line_of(emitter_scene_, opaque_.topology(), triple.edges[2])});
     if (std::isfinite(size)) jump += triple.sign * size;
   }
   return jump;

@@ -25,6 +25,8 @@ class JumpPredictor {
                     const Vec3& normal) const;
   double curvature_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
                         const Vec3& normal) const;
+  double third_order_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& left,
+                          const Vec3& normal) const;
   bool lies_in_sight_plane(const DiscontinuityCurve& curve, const Vec3& point, EdgeId edge) const;
 
   const SoundScene& scene_;

@@ -44,12 +44,12 @@ class SearchBudget {
   double most_for_one(std::size_t count) const;
 
   double used() const { return used_; }
-  const std::array<double, 4>& left_out() const { return left_out_; }
+  const std::array<double, curve_kinds>& left_out() const { return left_out_; }
 
  private:
   double most_, used_ = 0;
   std::size_t edges_;  ///< that can be silhouettes
-  std::array<double, 4> left_out_{};
+  std::array<double, curve_kinds> left_out_{};
 };
 
 }  // namespace halfshade

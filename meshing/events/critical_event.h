@@ -4,6 +4,7 @@
 
 #include <array>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
 
 namespace halfshade {
@@ -11,10 +12,12 @@ namespace halfshade {
 /// What makes a discontinuity.
 enum class CurveKind : std::uint8_t {
   contact,  ///< surfaces touch or cut each other: the irradiance itself jumps
-  face,  ///< the plane of a face, or of two edges, that cuts the emitter; the emitter's own plane
-  ev,    ///< a vertex and an edge in line
-  eee    ///< three edges in line
+  face,    ///< the plane of a face, or of two edges, that cuts the emitter; the emitter's own plane
+  ev,      ///< a vertex and an edge in line
+  eee,     ///< three edges in line
+  horizon  ///< two edges in line along the receiver's plane, which cuts the emitter
 };
+inline constexpr std::size_t curve_kinds = 5;
 
 /// A part of the scene that takes part in making a curve.
 struct Feature {

@@ -26,6 +26,7 @@ bool is_negligible(const DiscontinuityCurve& curve, double h, double irradiance_
 
 double flattening_deviation(const DiscontinuityCurve& curve, double surface_size,
                             const DiscontinuityMeshOptions& options) {
+  if (options.deviation > 0) return options.deviation * surface_size;
   if (!(options.irradiance_tolerance > 0) || curve.order == 0)
     return margins::default_deviation * surface_size;
   // Without a jump infinite, and cut off below.

@@ -24,6 +24,8 @@ void check(const SoundScene& scene, const Discontinuities& found,
   if (!(options.irradiance_tolerance >= 0 && std::isfinite(options.irradiance_tolerance)))
     refuse(fmt::format("irradiance_tolerance is {}; it must be finite and not negative",
                        options.irradiance_tolerance));
+  if (!(options.deviation >= 0 && options.deviation < 1))
+    refuse(fmt::format("deviation is {}; it must be in [0, 1)", options.deviation));
   for (std::size_t i = 0; i < found.curves.size(); ++i) {
     const DiscontinuityCurve& curve = found.curves[i];
     if (curve.receiver < 0 || at(curve.receiver) >= scene.surfaces.size())
@@ -38,9 +40,12 @@ CurveMeshOptions curve_mesh_options(const Surface& surface,
   const double size = size_of(surface);
   CurveMeshOptions result;
   result.quality = {options.max_length, options.min_angle, options.max_triangles};
-  result.snap = std::max(tolerance_of(surface).length,
-                         std::min(margins::snap_of_magnitude * surface.scale.magnitude,
-                                  margins::snap_of_surface * size));
+  result.snap = std::min(margins::snap_of_magnitude * surface.scale.magnitude,
+                         margins::snap_of_surface * size);
+  // What is drawn more closely must not be snapped away again.
+  if (options.deviation > 0)
+    result.snap = std::min(result.snap, margins::snap_of_deviation * options.deviation * size);
+  result.snap = std::max(result.snap, tolerance_of(surface).length);
   result.shortest = margins::shortest_with_curves * size;
   if (options.max_length > 0)
     result.shortest = std::min(result.shortest, margins::shortest_of_longest * options.max_length);

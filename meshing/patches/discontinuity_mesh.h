@@ -14,6 +14,9 @@ struct DiscontinuityMeshOptions {
   /// Curves whose damage J_k h^k / k! stays below this irradiance (W/m²) for elements of size h
   /// are left out, and curves are flattened so that the misplacement stays below it. 0: complete.
   double irradiance_tolerance = 0;
+  /// How far chords may be off the conics they stand for, as a share of the surface, below 1; 0:
+  /// what the tolerance allows, or 1e-4 without one.
+  double deviation = 0;
 };
 
 struct DiscontinuityMeshReport {

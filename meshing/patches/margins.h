@@ -14,6 +14,8 @@ inline constexpr double largest_deviation = 0.1;
 // what anyone can see; and of the surface's size, so that those that are tiny keep their shape.
 inline constexpr double snap_of_magnitude = 1e-7;
 inline constexpr double snap_of_surface = 1e-4;
+// And of the deviation, where one is asked for.
+inline constexpr double snap_of_deviation = 0.05;
 
 // The shortest edge that refinement makes. Parts of the surface's size: with curves, which come
 // close to each other everywhere, and without, where strips of 1 : 1000 still get good angles, by

@@ -169,6 +169,7 @@ class DirectFieldSearch {
     mesh_options.min_angle = least_angle;
     mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
     mesh_options.irradiance_tolerance = events.irradiance_tolerance;
+    mesh_options.deviation = options_.deviation;
     found_.discontinuities = curves.report;
     found_.curves = curves.curves.size();
     add(search_warnings(curves.report, options_.tolerance), found_.warnings);

@@ -23,11 +23,13 @@ constexpr double share_to_label = 0.2;
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
-  if (!is_usable(options.tolerance) || !is_usable(options.max_length) || options.secondary < 0)
-    throw Error(ErrorCode::contract, "mesh_scene",
-                fmt::format("tolerance ({}), max_length ({}) and secondary ({}) must be finite and "
-                            "not negative",
-                            options.tolerance, options.max_length, options.secondary));
+  if (!is_usable(options.tolerance) || !is_usable(options.max_length) || options.secondary < 0 ||
+      !(options.deviation >= 0 && options.deviation < 1))
+    throw Error(
+        ErrorCode::contract, "mesh_scene",
+        fmt::format("tolerance ({}), max_length ({}) and secondary ({}) must be finite and "
+                    "not negative, and deviation ({}) in [0, 1)",
+                    options.tolerance, options.max_length, options.secondary, options.deviation));
 }
 
 /// Work that it takes to see what an element sees of a source: the mean of some surfaces.
@@ -142,6 +144,7 @@ MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,
   });
   DiscontinuityMeshOptions mesh_options;
   mesh_options.max_length = options.max_length;
+  mesh_options.deviation = options.deviation;
   if (options.with_elements) {
     mesh_options.max_triangles = most_elements(prepared, sources, options);
     if (least_elements(prepared.scene()) > mesh_options.max_triangles)

@@ -21,6 +21,7 @@ struct MeshOptions {
   /// conics are flattened accordingly; see mean_direct_irradiance. 0: the mesh is complete.
   double tolerance = 0;
   double max_length = 0;      ///< no element edge longer than this, scene units; 0: no limit
+  double deviation = 0;       ///< of chords from conics, as DiscontinuityMeshOptions has it
   bool with_elements = true;  ///< false: find the curves only
 };
 

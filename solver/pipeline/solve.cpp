@@ -21,6 +21,9 @@ void check(const SolveOptions& options) {
         fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
                     "not negative",
                     options.elements, options.max_elements, options.max_length));
+  if (!(options.deviation >= 0 && options.deviation < 1))
+    throw Error(ErrorCode::contract, "solve",
+                fmt::format("deviation ({}) must be in [0, 1)", options.deviation));
   if (options.method == SolveMethod::fields && options.tolerance == 0)
     throw Error(ErrorCode::usage, "solve",
                 "no error at all cannot be reached; give a tolerance above 0");

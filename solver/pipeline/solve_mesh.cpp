@@ -195,6 +195,7 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found,
   std::optional<SolveMesh> best;
   DiscontinuityMeshOptions mesh_options;
   mesh_options.min_angle = plain.min_angle;
+  mesh_options.deviation = options.deviation;
   // Some more than would do, so that a mesh that ended early is known by its size.
   mesh_options.max_triangles = 4 * static_cast<std::size_t>(options.max_elements);
   for (bool again = true; again;) {

@@ -23,7 +23,8 @@ constexpr double noticeable = 1e-3;
 constexpr double noticeable_excess = 0.25;
 
 /// In the order of CurveKind, as --events has them.
-constexpr std::array<const char*, 4> kind_names = {"contact", "face", "ev", "eee"};
+constexpr std::array<const char*, curve_kinds> kind_names = {"contact", "face", "ev", "eee",
+                                                             "horizon"};
 
 const char* const way_out =
     "surfaces take part on the side where their corners run counter-clockwise; if they look the "

@@ -50,6 +50,23 @@ TEST_F(Mesh, WritesMeshCurvesPictureAndReport) {
   EXPECT_GE(report.at("mesh").at("area_quality").at("good"), 0.99);
 }
 
+TEST_F(Mesh, DrawsConicsAsCloselyAsAsked) {
+  std::size_t elements = 0;
+  for (const char* deviation : {"1e-3", "1e-5", "1e-7"}) {
+    const test::Outcome outcome =
+        mesh({skew_bars, "-q", "-o", "m.vtu", "--deviation", deviation, "--json", "r.json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = json("r.json").at("mesh");
+    // Of a floor whose diagonal is below 10, with what snapping adds.
+    EXPECT_LT(report.at("deviation").get<double>(), 12 * std::stod(deviation));
+    EXPECT_GT(report.at("deviation"), 0);
+    EXPECT_NE(file("m.vtu").find("Name=\"curve_deviation\""), std::string::npos);
+    EXPECT_GT(report.at("elements"), elements);
+    elements = report.at("elements");
+  }
+  EXPECT_EQ(mesh({skew_bars, "--deviation", "0.2"}).exit_code, 2);
+}
+
 TEST_F(Mesh, FindsTheLimitsOfS1) {
   // Four lines limit the umbra, |x|, |y| = 0.25, four the penumbra, |x|, |y| = 1.25, each D1.
   ASSERT_EQ(mesh({s1, "--curves", "c.vtp", "--json", "r.json", "-q"}).exit_code, 0);

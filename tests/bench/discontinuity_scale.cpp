@@ -35,7 +35,7 @@ struct Row {
   double find = 0, mesh = 0;  ///< seconds
   double megabytes = 0;
   std::size_t silhouettes = 0, swaths = 0, curves = 0, merged = 0, kept = 0, culled = 0;
-  std::array<std::size_t, 4> found{};
+  std::array<std::size_t, curve_kinds> found{};
   int elements = 0;
 };
 

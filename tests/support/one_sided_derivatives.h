@@ -12,9 +12,9 @@
 namespace halfshade::test {
 
 struct MeasuredJump {
-  std::array<double, 3> jump{};  ///< of F, F′ and F″, from the right of the line to its left
+  std::array<double, 4> jump{};  ///< of F, F′, F″ and F‴, from the right of the line to its left
   std::array<double, 3> from_values{};  ///< the same of nothing but values of F, less precise
-  std::array<double, 3> scale{};        ///< the largest |F|, |F′| and |F″| met
+  std::array<double, 4> scale{};        ///< the largest |F|, |F′|, |F″| and |F‴| met
   double reach = 0;                     ///< how far the samples go
 };
 
@@ -100,6 +100,10 @@ class JumpMeter {
       for (std::size_t i = 0; i < nodes; ++i)
         result.scale[k] = std::max({result.scale[k], std::abs(left[k][i]), std::abs(right[k][i])});
     }
+    // By the slope of F″; along the right side it is taken backwards.
+    const double ahead = at_zero(left[2])[1] / reach, behind = at_zero(right[2])[1] / reach;
+    result.jump[3] = ahead + behind;
+    result.scale[3] = std::max(std::abs(ahead), std::abs(behind));
     return result;
   }
 

@@ -54,7 +54,7 @@ inline bool cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 struct SegmentAudit {
   std::size_t segments = 0, evaluations = 0, changes = 0;
   std::vector<SignatureChange> misses;
-  std::vector<SignatureChange> at_horizon;  ///< no curve near, and none needed
+  std::vector<SignatureChange> at_horizon;  ///< misses of the third order
 };
 
 /// Looks at one scene with given curves.
@@ -131,7 +131,7 @@ class SegmentAuditor {
     int receiver, emitter;
   };
 
-  /// Whether a change may be without a curve: if it is due to the horizon and two other edges that
+  /// Whether a change is of the third order: if it is due to the horizon and two other edges that
   /// cross on it. Along the horizon the kernel vanishes with the cosine, and for points of one
   /// plane the horizon cuts the emitter always along the same line, so that what comes and goes
   /// there is a triangle along one side of which the kernel vanishes: third order. Edges that

@@ -50,7 +50,7 @@ TEST(SearchBudget, LeavesOutKindsThatTakeTooMuchAndNothingElse) {
   const SoundScene scene = make_sound(test::unit_soup(12, 5));
   const Discontinuities all = find(scene, 0), enough = find(scene, 1e12);
   ASSERT_GT(all.report.found[static_cast<std::size_t>(CurveKind::eee)], 0u);
-  EXPECT_EQ(all.report.left_out, (std::array<double, 4>{}));
+  EXPECT_EQ(all.report.left_out, (std::array<double, curve_kinds>{}));
   EXPECT_EQ(enough.report.left_out, all.report.left_out);
   EXPECT_EQ(enough.report.found, all.report.found) << "a sample first changes nothing";
   ASSERT_EQ(enough.curves.size(), all.curves.size());

@@ -135,7 +135,7 @@ class ObjReader {
     if (!exists(file)) {
       draft_.missing.push_back(
           {place(file_, line_), fmt::format("mtllib names {}, but there is no file '{}'",
-                                            in_quotes(name), file.string())});
+                                            in_quotes(name), place(file, 0))});
       return;
     }
     if (!libraries_.insert(file).second) return;

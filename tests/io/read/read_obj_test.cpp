@@ -242,6 +242,7 @@ const BadFile bad_files[] = {
     {"IndexWord", square + "f 1 2 x\n", {"scene.obj:5: 'x' in face 1"}},
     {"IndexReal", square + "f 1 2 3.5\n", {"scene.obj:5", "'3.5'"}},
     {"IndexTail", square + "f 1 2 3/a\n", {"scene.obj:5", "'3/a'"}},
+    {"LibraryMissingWithALongName", "mtllib " + std::string(1200, 'm') + "\n", {"…mmm", "no file"}},
     {"LibraryMissing", "mtllib none.mtl\n", {"scene.obj:1", "'none.mtl'", "no file"}},
     {"LibraryUnnamed", "mtllib\n", {"scene.obj:1"}},
     {"LibraryIsFolder", "mtllib .\n", {"directory"}},

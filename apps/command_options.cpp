@@ -111,8 +111,8 @@ void add_events(CLI::App& app, DiscontinuityOptions& events, int& secondary) {
       [&events](const std::vector<bool>& asked) {
         events = {asked[0], asked[1], asked[2], asked[3], asked[4]};
       },
-      "Only curves of these kinds, separated by commas: contact, face, ev, eee, horizon (default: "
-      "all)")
+      "Only curves of these kinds, separated by commas: contact, face, ev, eee and, in complete\n"
+      "meshes, horizon (default: all)")
       ->type_name("KIND,…");
   add_whole(app, "--secondary", secondary, {0, 1000000},
             "Also look for the curves of the N brightest reflecting surfaces")

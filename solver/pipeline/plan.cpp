@@ -16,6 +16,8 @@ namespace {
 
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
+/// Narrow surfaces draw elements of their own: no more of them than this are places.
+constexpr int most_places = 4 * places;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
@@ -41,12 +43,12 @@ Places mesh_places(const SoundScene& scene, const Progress& progress) {
   return {element_centres(elements), std::move(elements.area)};
 }
 
-/// As many places for equal areas, whatever the lines between them.
-Places spread_places(const SoundScene& scene) {
+/// So many places for equal areas, whatever the lines between them.
+Places spread_places(const SoundScene& scene, int count) {
   Places result;
   double all = 0;
   for (const Surface& surface : scene.surfaces) all += area(surface);
-  const double each = all / few_places;
+  const double each = all / count;
   double passed = 0;
   for (const Surface& surface : scene.surfaces) {
     std::vector<Vec2> corners;
@@ -152,8 +154,9 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  const Places at_places =
-      has_many_lines(scene) ? spread_places(scene) : mesh_places(scene, progress);
+  Places at_places =
+      has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
+  if (at_places.points.size() > at(most_places)) at_places = spread_places(scene, places);
   const std::vector<DirectLight> light =
       prepared.direct_light().irradiance(at_places.points, progress);
   double power = 0, reached = 0;

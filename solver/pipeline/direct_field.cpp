@@ -26,8 +26,8 @@ constexpr double share_of_curves = 0.5;
 constexpr double least_angle = 10;
 
 /// Looks at faces and crossings for each unknown that there may be, where very many faces lie
-/// before an emitter: by default some ten seconds on two cores.
-constexpr double crowd_work_for_one = 6;
+/// before an emitter: by default some ten to twenty seconds on two cores.
+constexpr double crowd_work_for_one = 60;
 
 /// Adds to `crowd_work`.
 FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {

@@ -21,6 +21,8 @@ constexpr int most_places = 4 * places;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
+/// The same where a place's light takes more than so much, see DirectLight::crowd_work.
+constexpr std::size_t much_work = 500;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
@@ -157,15 +159,30 @@ double mean_direct_irradiance(const PreparedScene& prepared, const Progress& pro
   Places at_places =
       has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
   if (at_places.points.size() > at(most_places)) at_places = spread_places(scene, places);
-  const std::vector<DirectLight> light =
-      prepared.direct_light().irradiance(at_places.points, progress);
+  // Some of them first, which tell what all would take.
+  const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));
   double power = 0, reached = 0;
-  for (std::size_t e = 0; e < light.size(); ++e) {
-    const double irradiance = light[e].irradiance.maxCoeff();
-    if (!(irradiance > 0)) continue;
-    power += at_places.area[e] * irradiance;
-    reached += at_places.area[e];
-  }
+  std::size_t work = 0;
+  const auto add = [&](bool is_first) {
+    std::vector<SurfacePoint> points;
+    std::vector<double> areas;
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((k % step == 0) != is_first) continue;
+      points.push_back(at_places.points[k]);
+      areas.push_back(at_places.area[k]);
+    }
+    const std::vector<DirectLight> light = prepared.direct_light().irradiance(points, progress);
+    for (std::size_t k = 0; k < light.size(); ++k) {
+      work += light[k].crowd_work;
+      const double irradiance = light[k].irradiance.maxCoeff();
+      if (!(irradiance > 0)) continue;
+      power += areas[k] * irradiance;
+      reached += areas[k];
+    }
+    return points.size();
+  };
+  const std::size_t first = add(true);
+  if (work <= much_work * first || !(reached > 0)) add(false);
   return reached > 0 ? power / reached : 0;
 }
 

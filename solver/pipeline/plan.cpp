@@ -1,5 +1,6 @@
 #include "solver/pipeline/plan.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/triangulation/ring_triangles.h"
@@ -17,7 +18,7 @@ namespace {
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
 /// Narrow surfaces draw elements of their own: no more of them than this are places.
-constexpr int most_places = 4 * places;
+constexpr std::size_t most_places = 4 * places;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
@@ -36,13 +37,6 @@ bool has_many_lines(const SoundScene& scene) {
   std::size_t lines = scene.surfaces.size();
   for (const Surface& surface : scene.surfaces) lines += surface.contacts.size();
   return lines > many_lines;
-}
-
-Places mesh_places(const SoundScene& scene, const Progress& progress) {
-  PlanarMeshOptions coarse;
-  coarse.max_length = length_for_count(scene, places);
-  ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
-  return {element_centres(elements), std::move(elements.area)};
 }
 
 /// So many places for equal areas, whatever the lines between them.
@@ -67,6 +61,20 @@ Places spread_places(const SoundScene& scene, int count) {
     }
   }
   return result;
+}
+
+/// In equal parts of surfaces, unless narrow ones make that too many.
+Places mesh_places(const SoundScene& scene, const Progress& progress) {
+  PlanarMeshOptions coarse;
+  coarse.max_length = length_for_count(scene, places);
+  coarse.max_triangles = most_places;
+  try {
+    ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
+    return {element_centres(elements), std::move(elements.area)};
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    return spread_places(scene, places);
+  }
 }
 
 }  // namespace
@@ -156,9 +164,8 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  Places at_places =
+  const Places at_places =
       has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
-  if (at_places.points.size() > at(most_places)) at_places = spread_places(scene, places);
   // Some of them first, which tell what all would take.
   const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));
   double power = 0, reached = 0;

@@ -118,6 +118,8 @@ void EmitterOutline::make_pyramid(const PointView& view) {
         (out.x() * frame.e1 + out.y() * frame.e2 + limit / view.distance() * frame.normal)
             .normalized());
   }
+  pyramid.spans.clear();
+  for (const Vec3& side : pyramid.sides) pyramid.spans.push_back(side.cwiseAbs());
 }
 
 void EmitterOutline::copy_ends(std::vector<int>& ends) const {

@@ -26,7 +26,7 @@ Vec3 scatter(std::int64_t rank, double length, double attempt) {
 }
 
 double reach(const Bounds& box, const Vec3& normal) {
-  return 0.5 * normal.cwiseAbs().dot(box.high - box.low);
+  return normal.cwiseAbs().dot(box.half_size());
 }
 
 }  // namespace
@@ -37,13 +37,11 @@ double SightPyramid::margin(const Bounds& box) const {
 }
 
 bool SightPyramid::is_outside(const Bounds& box) const {
-  const Vec3 centre = 0.5 * (box.low + box.high);
+  const Vec3 offset = box.centre() - eye, half = box.half_size();
   const double allowed = margin(box);
-  if (normal.dot(centre - plane_point) + reach(box, normal) < -allowed) return true;
-  const Vec3 offset = centre - eye;
-  for (const Vec3& side : sides)
-    if (side.dot(offset) - reach(box, side) > allowed) return true;
-  return false;
+  for (std::size_t k = sides.size(); k-- > 0;)
+    if (sides[k].dot(offset) - spans[k].dot(half) > allowed) return true;
+  return normal.dot(box.centre() - plane_point) + normal.cwiseAbs().dot(half) < -allowed;
 }
 
 bool SightPyramid::is_outside(const Vec3& from, const Vec3& to) const {
@@ -206,23 +204,28 @@ int PointView::face_sign(int triangle) {
 
 int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
   const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
+  std::array<int, 3> c{};
+  bool is_beyond = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    polygon[k] = c[k] = corner_of_vertex(face.corner[k]);
+    is_beyond = is_beyond || corners[at(c[k])].side == PlaneSide::beyond;
+  }
+  if (!is_beyond) return 3;
   int count = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const int a = corner_of_vertex(face.corner[k]);
-    const int b = corner_of_vertex(face.corner[(k + 1) % 3]);
-    const auto from = static_cast<int>(corners[at(a)].side);
-    const auto to = static_cast<int>(corners[at(b)].side);
-    if (from <= 0) polygon[at(count++)] = a;
+    const auto from = static_cast<int>(corners[at(c[k])].side);
+    const auto to = static_cast<int>(corners[at(c[(k + 1) % 3])].side);
+    if (from <= 0) polygon[at(count++)] = c[k];
     if (from * to < 0) polygon[at(count++)] = corner_of_cut(face.edge[k]);
   }
   return count;
 }
 
-int PointView::winding(int a, int b, int c, const DirectionBeside& direction) const {
+int PointView::winding(int a, int b, int c, const DirectionBeside& direction, int sign) const {
   const auto [v, w, side] = direction;
-  if (v == b) return winding(b, c, a, direction);
-  if (v == c) return winding(c, a, b, direction);
-  const int sign = turn(a, b, c);
+  if (v == b) return winding(b, c, a, direction, sign);
+  if (v == c) return winding(c, a, b, direction, sign);
+  if (sign == 0) sign = turn(a, b, c);
   if (v == a) {
     if (w == b) return side == sign ? sign : 0;
     if (w == c) return side == -sign ? sign : 0;
@@ -236,8 +239,13 @@ int PointView::layers_of(int triangle, const DirectionBeside& direction) {
   if (sign == 0) return 0;
   std::array<int, 4> p{};
   const int count = clipped(triangle, p);
+  // A face that is not clipped runs as its sign says.
+  const int known = count == 3 && !corners[at(p[0])].is_cut && !corners[at(p[1])].is_cut &&
+                            !corners[at(p[2])].is_cut
+                        ? sign
+                        : 0;
   int sum = 0;
-  for (int k = 2; k < count; ++k) sum += winding(p[0], p[at(k - 1)], p[at(k)], direction);
+  for (int k = 2; k < count; ++k) sum += winding(p[0], p[at(k - 1)], p[at(k)], direction, known);
   if (sum != 0) layer_surfaces_.push_back(topology_.triangles[at(triangle)].surface);
   return sign * sum;
 }

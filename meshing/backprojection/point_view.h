@@ -34,6 +34,7 @@ struct DirectionBeside {
 /// The directions from one point towards one emitter that are worth looking at.
 struct SightPyramid {
   std::vector<Vec3> sides;  ///< unit length, outwards; planes through the point
+  std::vector<Vec3> spans;  ///< [side] how far half a box's size along each axis reaches outwards
   Vec3 eye = Vec3::Zero(), normal = Vec3::Zero(), plane_point = Vec3::Zero();
   double slack = 0;   ///< rounding of a distance near the pyramid
   double spread = 0;  ///< rounding as a share of how far a box reaches
@@ -102,7 +103,9 @@ class PointView {
   /// The surfaces that the last call of layers_over found, perhaps repeatedly.
   std::span<const int> layer_surfaces() const { return layer_surfaces_; }
   /// How often triangle abc, as it runs, winds round the direction: ±1 or 0.
-  int winding(int a, int b, int c, const DirectionBeside& direction) const;
+  int winding(int a, int b, int c, const DirectionBeside& direction) const {
+    return winding(a, b, c, direction, 0);
+  }
 
  private:
   struct Kept {
@@ -113,6 +116,8 @@ class PointView {
   bool is_edge_on(int surface);
   bool touches(int surface) const;
   int layers_of(int triangle, const DirectionBeside& direction);
+  /// The same where it is known how the triangle runs; 0: it is not.
+  int winding(int a, int b, int c, const DirectionBeside& direction, int sign) const;
   int add_corner(const Vec3& position, std::int64_t rank);
 
   const OpaqueTopology& topology_;

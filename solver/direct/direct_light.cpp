@@ -191,7 +191,7 @@ DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
   return impl_->gather(worker, point, impl_->emitters);
 }
 
-Region DirectLightIndex::region(const SurfacePoint& point) const {
+int DirectLightIndex::strongest_emitter(const SurfacePoint& point) const {
   int strongest = -1;
   double most = 0;
   for (const int emitter : impl_->emitters) {
@@ -203,6 +203,11 @@ Region DirectLightIndex::region(const SurfacePoint& point) const {
     most = light;
     strongest = emitter;
   }
+  return strongest;
+}
+
+Region DirectLightIndex::region(const SurfacePoint& point) const {
+  const int strongest = strongest_emitter(point);
   if (strongest < 0) return Region::away;
   return impl_->gather(impl_->workers.local(), point, {&strongest, 1}).region;
 }

@@ -78,6 +78,9 @@ class DirectLightIndex {
   /// The same for one point on the calling thread.
   DirectLight irradiance(const SurfacePoint& point) const;
 
+  /// The emitter that gives a point the most light if nothing is in between; −1 if none does.
+  int strongest_emitter(const SurfacePoint& point) const;
+
   /// DirectLight::region alone, which takes one emitter's visible part.
   Region region(const SurfacePoint& point) const;
 

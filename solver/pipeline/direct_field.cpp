@@ -24,10 +24,12 @@ constexpr double samples_for_curves = 12, power_of_edges = 1.7;
 constexpr double share_of_curves = 0.5;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
 constexpr double least_angle = 10;
+/// Of the elements that there may be, this share may be there before any is divided.
+constexpr double share_at_first = 0.5;
 
 /// Looks at faces and crossings for each unknown that there may be, where very many faces lie
-/// before an emitter: by default some ten seconds on two cores.
-constexpr double crowd_work_for_one = 6;
+/// before an emitter: by default some ten to twenty seconds on two cores.
+constexpr double crowd_work_for_one = 60;
 
 /// Adds to `crowd_work`.
 FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
@@ -64,11 +66,32 @@ bool has_budget(const SolveOptions& options) {
   return options.refine == Refinement::uniform && options.max_length == 0;
 }
 
+/// Elements that are to be divided: where narrow surfaces would take too many, they are narrow,
+/// too.
+PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& options,
+                              const Progress& progress) {
+  PlanarMeshOptions mesh_options;
+  mesh_options.max_triangles =
+      static_cast<std::size_t>(share_at_first * static_cast<double>(options.max_elements));
+  for (const double angle : {least_angle, 3., 1.}) {
+    mesh_options.min_angle = angle;
+    try {
+      return PatchMesh(scene, mesh_options, progress);
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::too_large) throw;
+    }
+  }
+  mesh_options.min_angle = 0;
+  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
+  return mesh_plainly(scene, mesh_options, options, progress);
+}
+
 /// Elements that follow no curves.
 PatchMesh mesh_without_curves(const SoundScene& scene, const SolveOptions& options,
                               const Progress& progress) {
   if (has_budget(options))
     return *std::move(make_solve_mesh(scene, options, progress, least_angle).patches);
+  if (options.refine == Refinement::adaptive) return mesh_for_adaptation(scene, options, progress);
   PlanarMeshOptions mesh_options;
   mesh_options.max_length = length_of(scene, options);
   mesh_options.min_angle = least_angle;

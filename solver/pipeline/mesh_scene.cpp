@@ -2,6 +2,7 @@
 
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
 #include "meshing/discontinuity/search_budget.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/middle.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace halfshade {
 namespace {
@@ -99,21 +101,49 @@ DiscontinuityMesh make_mesh(const PreparedScene& prepared, const Discontinuities
   }
 }
 
+/// Whether nothing was left out, so that all of a cell between curves sees the same of a source.
+bool is_complete(const MeshResult& result, const DiscontinuityOptions& events) {
+  const DiscontinuityReport& search = result.found.report;
+  return events.contact && events.face && events.ev && events.eee && !search.interrupted &&
+         result.irradiance_tolerance == 0 && result.mesh.culled == 0 &&
+         result.mesh.unfinished_surfaces == 0 &&
+         std::all_of(search.left_out.begin(), search.left_out.end(),
+                     [](double work) { return work == 0; });
+}
+
+/// Labels of each element with respect to the strongest emitter there, which is among the sources.
+std::vector<Region> strongest_regions(const DirectLightIndex& index, const MeshResult& result,
+                                      const Progress& progress) {
+  const std::vector<LightSource>& sources = result.found.sources;
+  std::map<int, std::size_t> column;
+  for (std::size_t s = 0; s < sources.size(); ++s) column.emplace(sources[s].surface, s);
+  const std::vector<SurfacePoint> centres = element_centres(result.elements);
+  std::vector<Region> strongest(centres.size(), Region::away);
+  parallel_for(
+      centres.size(),
+      [&](std::size_t e) {
+        const int emitter = index.strongest_emitter(centres[e]);
+        if (emitter >= 0) strongest[e] = result.regions[e * sources.size() + column.at(emitter)];
+      },
+      progress, "regions");
+  return strongest;
+}
+
 /// Meshes and labels what was found.
-void make_elements(const PreparedScene& prepared, const DiscontinuityMeshOptions& options,
-                   const Progress& progress, Stages& stages, MeshResult& result) {
+void make_elements(const PreparedScene& prepared, const DiscontinuityMeshOptions& mesh_options,
+                   const DiscontinuityOptions& events, const Progress& progress, Stages& stages,
+                   MeshResult& result) {
   stages.run("mesh", [&] {
-    const DiscontinuityMesh mesh = make_mesh(prepared, result.found, options, progress);
+    const DiscontinuityMesh mesh = make_mesh(prepared, result.found, mesh_options, progress);
     result.mesh = mesh.report;
     result.elements = mesh.patches.elements();
     return result.elements.corners.size();
   });
   stages.run("regions", [&] {
-    result.regions = label_elements(prepared.scene(), prepared.opaque(), result.elements,
-                                    result.found.sources, progress);
-    for (const DirectLight& light :
-         prepared.direct_light().irradiance(element_centres(result.elements), progress))
-      result.region.push_back(light.region);
+    const auto label = is_complete(result, events) ? label_cells : label_elements;
+    result.regions =
+        label(prepared.scene(), prepared.opaque(), result.elements, result.found.sources, progress);
+    result.region = strongest_regions(prepared.direct_light(), result, progress);
     return result.regions.size();
   });
 }
@@ -153,7 +183,8 @@ MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,
   find_curves(prepared, sources, options, progress, stages, result);
   mesh_options.irradiance_tolerance = result.irradiance_tolerance;
   add(search_warnings(result.found.report, options.tolerance), result.warnings);
-  if (options.with_elements) make_elements(prepared, mesh_options, progress, stages, result);
+  if (options.with_elements)
+    make_elements(prepared, mesh_options, options.events, progress, stages, result);
   stages.leave_out_if(!options.with_elements, "mesh", "only the curves were asked for");
   result.interrupted = progress.stopped();
   return result;

@@ -1,5 +1,6 @@
 #include "solver/pipeline/plan.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/triangulation/ring_triangles.h"
@@ -16,9 +17,13 @@ namespace {
 
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
+/// Narrow surfaces draw elements of their own: no more of them than this are places.
+constexpr std::size_t most_places = 4 * places;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
+/// The same where a place's light takes more than so much, see DirectLight::crowd_work.
+constexpr std::size_t much_work = 500;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
@@ -34,19 +39,12 @@ bool has_many_lines(const SoundScene& scene) {
   return lines > many_lines;
 }
 
-Places mesh_places(const SoundScene& scene, const Progress& progress) {
-  PlanarMeshOptions coarse;
-  coarse.max_length = length_for_count(scene, places);
-  ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
-  return {element_centres(elements), std::move(elements.area)};
-}
-
-/// As many places for equal areas, whatever the lines between them.
-Places spread_places(const SoundScene& scene) {
+/// So many places for equal areas, whatever the lines between them.
+Places spread_places(const SoundScene& scene, int count) {
   Places result;
   double all = 0;
   for (const Surface& surface : scene.surfaces) all += area(surface);
-  const double each = all / few_places;
+  const double each = all / count;
   double passed = 0;
   for (const Surface& surface : scene.surfaces) {
     std::vector<Vec2> corners;
@@ -63,6 +61,20 @@ Places spread_places(const SoundScene& scene) {
     }
   }
   return result;
+}
+
+/// In equal parts of surfaces, unless narrow ones make that too many.
+Places mesh_places(const SoundScene& scene, const Progress& progress) {
+  PlanarMeshOptions coarse;
+  coarse.max_length = length_for_count(scene, places);
+  coarse.max_triangles = most_places;
+  try {
+    ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
+    return {element_centres(elements), std::move(elements.area)};
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large) throw;
+    return spread_places(scene, places);
+  }
 }
 
 }  // namespace
@@ -153,16 +165,31 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
   const Places at_places =
-      has_many_lines(scene) ? spread_places(scene) : mesh_places(scene, progress);
-  const std::vector<DirectLight> light =
-      prepared.direct_light().irradiance(at_places.points, progress);
+      has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
+  // Some of them first, which tell what all would take.
+  const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));
   double power = 0, reached = 0;
-  for (std::size_t e = 0; e < light.size(); ++e) {
-    const double irradiance = light[e].irradiance.maxCoeff();
-    if (!(irradiance > 0)) continue;
-    power += at_places.area[e] * irradiance;
-    reached += at_places.area[e];
-  }
+  std::size_t work = 0;
+  const auto add = [&](bool is_first) {
+    std::vector<SurfacePoint> points;
+    std::vector<double> areas;
+    for (std::size_t k = 0; k < count; ++k) {
+      if ((k % step == 0) != is_first) continue;
+      points.push_back(at_places.points[k]);
+      areas.push_back(at_places.area[k]);
+    }
+    const std::vector<DirectLight> light = prepared.direct_light().irradiance(points, progress);
+    for (std::size_t k = 0; k < light.size(); ++k) {
+      work += light[k].crowd_work;
+      const double irradiance = light[k].irradiance.maxCoeff();
+      if (!(irradiance > 0)) continue;
+      power += areas[k] * irradiance;
+      reached += areas[k];
+    }
+    return points.size();
+  };
+  const std::size_t first = add(true);
+  if (work <= much_work * first || !(reached > 0)) add(false);
   return reached > 0 ? power / reached : 0;
 }
 

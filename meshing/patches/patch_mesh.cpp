@@ -4,6 +4,7 @@
 #include "meshing/patches/build_element_mesh.h"
 #include "meshing/patches/detail/element_mesh.h"
 #include "meshing/patches/make_element_table.h"
+#include "meshing/patches/merge_elements.h"
 #include "meshing/patches/refine_elements.h"
 #include "meshing/patches/surface_meshes.h"
 
@@ -65,6 +66,10 @@ void PatchMesh::split_in_four(std::span<const int> elements) {
 
 void PatchMesh::bisect(std::span<const int> elements) {
   halfshade::bisect(impl_->elements, elements);
+}
+
+std::vector<int> PatchMesh::merge(std::span<const int> elements) {
+  return merge_parts(impl_->elements, elements);
 }
 
 double length_for_count(const SoundScene& scene, int element_count) {

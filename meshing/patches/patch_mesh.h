@@ -13,7 +13,7 @@ namespace halfshade {
 
 class SharedEdges;
 
-/// Every element that ever was, as a forest: leaves are the present elements.
+/// The present elements, which are the leaves, and all that they are parts of.
 struct PatchHierarchy {
   std::vector<int> parent;   ///< node → node; −1 at roots
   std::vector<int> level;    ///< node → number of ancestors
@@ -55,6 +55,11 @@ class PatchMesh {
 
   /// Bisects each named element at its longest edge, with the same closure (Rivara 1984).
   void bisect(std::span<const int> elements);
+
+  /// Undoes splits: where all parts of an element are named, and those of all others that got
+  /// points on common edges with it, also on other surfaces, the wholes take their places. Returns
+  /// node of the hierarchy before → node now, −1 for parts that are gone.
+  std::vector<int> merge(std::span<const int> elements);
 
  private:
   struct Impl;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -57,6 +58,14 @@ PatchHierarchy PatchMesh::hierarchy() const {
   int element = 0;
   for (const auto face : ordered_faces(impl_->elements))
     result.element[at(impl_->elements.triangles.data(face).node)] = element++;
+  return result;
+}
+
+std::array<Vec3, 3> PatchMesh::triangle(int node) const {
+  auto corners = impl_->elements.forest.corners.at(at(node));
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  std::array<Vec3, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = position(impl_->elements.triangles, corners[k]);
   return result;
 }
 

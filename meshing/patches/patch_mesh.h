@@ -47,6 +47,9 @@ class PatchMesh {
 
   PatchHierarchy hierarchy() const;
 
+  /// Corners of a node that has parts, in the order that its element would have.
+  std::array<Vec3, 3> triangle(int node) const;
+
   /// Splits each named element into four at its edge midpoints. Neighbours are split as far as it
   /// takes to stay conforming: an element with a split edge also has its longest edge split
   /// (red–green–blue refinement; Carstensen 2004), which keeps angles bounded below for any number

@@ -96,8 +96,11 @@ void expect_met(const SolveResult& result, double tolerance) {
   const double actual = true_error(result, 2000);
   EXPECT_LE(actual, tolerance);
   EXPECT_GE(result.relative_error, 0.9 * actual);
-  EXPECT_LE(result.relative_error, 3 * actual);
-  EXPECT_LE(fine_error(result, 2), tolerance);
+  const double fine = fine_error(result, 2);
+  EXPECT_LE(fine, tolerance);
+  EXPECT_GE(result.relative_error, 0.9 * fine);
+  // What is wrong within a corner, few points find.
+  EXPECT_LE(result.relative_error, 3 * std::max(actual, fine));
 }
 
 /// Power that arrives on each surface of the strongest channel, and its area.

@@ -37,11 +37,31 @@ Words adaptive_constant(double tolerance) {
   return adaptive(tolerance, {"--no-discontinuity", "--order", "0"});
 }
 
+Words curves(double tolerance) { return adaptive(tolerance, {"--force", "discontinuities"}); }
+
+Words curves_constant(double tolerance) {
+  return adaptive(tolerance, {"--force", "discontinuities", "--order", "0"});
+}
+
 /// Errors of elements that do not know the curves fall a little faster than their number grows.
 Words uniform(double tolerance) {
   const double elements = std::max(1., std::round(4 / tolerance));
   if (elements > most_elements) return {};
   return adaptive(tolerance, {"--no-discontinuity", "--order", "2", "--refine", "uniform",
+                              "--elements", fmt::format("{:.0f}", elements)});
+}
+
+Words uniform_hp(double tolerance) {
+  const double elements = std::max(1., std::round(2 / tolerance));
+  if (elements > most_elements) return {};
+  return adaptive(tolerance, {"--no-discontinuity", "--refine", "uniform", "--elements",
+                              fmt::format("{:.0f}", elements)});
+}
+
+Words uniform_constant(double tolerance) {
+  const double elements = std::max(1., std::round(1 / (tolerance * tolerance)));
+  if (elements > most_elements) return {};
+  return adaptive(tolerance, {"--no-discontinuity", "--order", "0", "--refine", "uniform",
                               "--elements", fmt::format("{:.0f}", elements)});
 }
 
@@ -117,7 +137,14 @@ const std::vector<StudyMethod>& study_methods() {
       {"southwell", "as matrix, solved by shooting: the element with most power left to send first",
        [](double tolerance) { return solved_by("southwell", tolerance); }, true},
       {"southwell-ambient", "the same, with an ambient term for what is left to send",
-       [](double tolerance) { return solved_by("southwell-ambient", tolerance); }, true}};
+       [](double tolerance) { return solved_by("southwell-ambient", tolerance); }, true},
+      {"curves", "as fields, along the curves whether that pays or not", curves},
+      {"curves-constant", "constant elements along the curves, halved where the error is",
+       curves_constant},
+      {"uniform-hp", "elements of one size, 2 / tolerance of them, each of the order it takes",
+       uniform_hp},
+      {"uniform-constant", "constant elements of one size, 1 / tolerance squared of them",
+       uniform_constant}};
   return methods;
 }
 

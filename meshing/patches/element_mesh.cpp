@@ -1,6 +1,9 @@
 #include "meshing/patches/detail/element_mesh.h"
 
+#include "meshing/core/error.h"
 #include "meshing/geometry/link.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
@@ -11,6 +14,8 @@ int ElementForest::add_root(int of_surface) {
   parent.push_back(-1);
   level.push_back(0);
   surface.push_back(of_surface);
+  corners.push_back({-1, -1, -1});
+  edge_order.push_back({-1, -1, -1});
   return count() - 1;
 }
 
@@ -18,6 +23,8 @@ int ElementForest::add_child(int of_node) {
   parent.push_back(of_node);
   level.push_back(level[at(of_node)] + 1);
   surface.push_back(surface[at(of_node)]);
+  corners.push_back({-1, -1, -1});
+  edge_order.push_back({-1, -1, -1});
   return count() - 1;
 }
 
@@ -88,6 +95,18 @@ std::vector<FaceHandle> ordered_faces(const ElementMesh& mesh) {
     return std::pair(mesh.forest.surface[at(m)], m) < std::pair(mesh.forest.surface[at(n)], n);
   });
   return faces;
+}
+
+std::vector<FaceHandle> named_faces(const ElementMesh& mesh, std::span<const int> elements) {
+  const std::vector<FaceHandle> faces = ordered_faces(mesh);
+  std::vector<FaceHandle> named;
+  for (const int e : elements) {
+    if (e < 0 || e >= static_cast<int>(faces.size()))
+      throw Error(ErrorCode::contract, "PatchMesh",
+                  fmt::format("element {} is named, but there are {}", e, faces.size()));
+    named.push_back(faces[at(e)]);
+  }
+  return named;
 }
 
 }  // namespace halfshade

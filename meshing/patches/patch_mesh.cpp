@@ -4,11 +4,13 @@
 #include "meshing/patches/build_element_mesh.h"
 #include "meshing/patches/detail/element_mesh.h"
 #include "meshing/patches/make_element_table.h"
+#include "meshing/patches/merge_elements.h"
 #include "meshing/patches/refine_elements.h"
 #include "meshing/patches/surface_meshes.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -59,12 +61,24 @@ PatchHierarchy PatchMesh::hierarchy() const {
   return result;
 }
 
+std::array<Vec3, 3> PatchMesh::triangle(int node) const {
+  auto corners = impl_->elements.forest.corners.at(at(node));
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  std::array<Vec3, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = position(impl_->elements.triangles, corners[k]);
+  return result;
+}
+
 void PatchMesh::split_in_four(std::span<const int> elements) {
   halfshade::split_in_four(impl_->elements, elements);
 }
 
 void PatchMesh::bisect(std::span<const int> elements) {
   halfshade::bisect(impl_->elements, elements);
+}
+
+std::vector<int> PatchMesh::merge(std::span<const int> elements) {
+  return merge_parts(impl_->elements, elements);
 }
 
 double length_for_count(const SoundScene& scene, int element_count) {

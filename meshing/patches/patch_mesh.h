@@ -13,7 +13,7 @@ namespace halfshade {
 
 class SharedEdges;
 
-/// Every element that ever was, as a forest: leaves are the present elements.
+/// The present elements, which are the leaves, and all that they are parts of.
 struct PatchHierarchy {
   std::vector<int> parent;   ///< node → node; −1 at roots
   std::vector<int> level;    ///< node → number of ancestors
@@ -47,6 +47,9 @@ class PatchMesh {
 
   PatchHierarchy hierarchy() const;
 
+  /// Corners of a node that has parts, in the order that its element would have.
+  std::array<Vec3, 3> triangle(int node) const;
+
   /// Splits each named element into four at its edge midpoints. Neighbours are split as far as it
   /// takes to stay conforming: an element with a split edge also has its longest edge split
   /// (red–green–blue refinement; Carstensen 2004), which keeps angles bounded below for any number
@@ -55,6 +58,11 @@ class PatchMesh {
 
   /// Bisects each named element at its longest edge, with the same closure (Rivara 1984).
   void bisect(std::span<const int> elements);
+
+  /// Undoes splits: where all parts of an element are named, and those of all others that got
+  /// points on common edges with it, also on other surfaces, the wholes take their places. Returns
+  /// node of the hierarchy before → node now, −1 for parts that are gone.
+  std::vector<int> merge(std::span<const int> elements);
 
  private:
   struct Impl;

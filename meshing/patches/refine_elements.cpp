@@ -1,10 +1,7 @@
 #include "meshing/patches/refine_elements.h"
 
-#include "meshing/core/error.h"
 #include "meshing/geometry/link.h"
 #include "meshing/patches/detail/element_mesh.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -12,18 +9,6 @@
 
 namespace halfshade {
 namespace {
-
-std::vector<FaceHandle> named_faces(const ElementMesh& mesh, std::span<const int> elements) {
-  const std::vector<FaceHandle> faces = ordered_faces(mesh);
-  std::vector<FaceHandle> named;
-  for (const int e : elements) {
-    if (e < 0 || e >= static_cast<int>(faces.size()))
-      throw Error(ErrorCode::contract, "PatchMesh",
-                  fmt::format("element {} is to be split, but there are {}", e, faces.size()));
-    named.push_back(faces[at(e)]);
-  }
-  return named;
-}
 
 // A strict order of all edges, so that both triangles at an edge agree and the closure ends.
 bool is_longer(const TriangleMesh& mesh, EdgeHandle a, EdgeHandle b) {
@@ -74,6 +59,7 @@ class MarkedSplitter {
         bool all = true;
         for (const auto e : mesh_.fe_range(face)) all = all && mesh_.data(e).marked;
         is_red_[mesh_.data(face).node] = all;
+        remember(face);
       }
   }
 
@@ -89,6 +75,16 @@ class MarkedSplitter {
   }
 
  private:
+  // What it takes to make the whole again.
+  void remember(FaceHandle face) {
+    const auto node = at(mesh_.data(face).node);
+    auto half = mesh_.halfedge_handle(face);
+    for (std::size_t k = 0; k < 3; ++k, half = mesh_.next_halfedge_handle(half)) {
+      out_.forest.corners[node][k] = mesh_.from_vertex_handle(half).idx();
+      out_.forest.edge_order[node][k] = mesh_.data(mesh_.edge_handle(half)).order;
+    }
+  }
+
   void split(EdgeHandle edge) {
     for (unsigned side = 0; side < 2; ++side) {
       const auto half = mesh_.halfedge_handle(edge, side);

@@ -1,8 +1,12 @@
 #include "solver/adapt/adaptive_field.h"
 
 #include "meshing/core/error.h"
+#include "solver/adapt/element_choices.h"
 #include "solver/adapt/element_fit.h"
 #include "solver/adapt/field_beginnings.h"
+#include "solver/adapt/fitted_element.h"
+#include "solver/adapt/near_looks.h"
+#include "solver/adapt/possible_wholes.h"
 #include "solver/adapt/watched_errors.h"
 #include "solver/elements/balancing_scale.h"
 
@@ -10,40 +14,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <queue>
 #include <unordered_map>
+#include <utility>
 
 namespace halfshade {
 namespace {
 
 constexpr int most_rounds = 60;
-/// Coefficients that shrink faster from degree to degree are worth more of them: with this decay,
-/// one more order and four smaller elements gain alike per unknown.
-constexpr double smooth = 0.45;
-constexpr double most_orders_at_once = 3;
 /// Of the square of the error allowed: what may come of elements left alone, and of dropping
 /// orders.
-constexpr double share_left_alone = 0.25, share_after_dropping = 0.8;
+constexpr double share_left_alone = 0.25, share_after_merging = 0.7, share_after_dropping = 0.8;
+constexpr int most_merges = 20;
 /// Places of an element at which its estimate is checked, and by how much it may be off there.
 constexpr int checks = 4;
 constexpr double noticeably = 2;
+/// Close to corners and edges: so many samples, and half of what all others take.
+constexpr std::size_t least_near_looks = 20000;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth = 2.5;
-
-struct Element {
-  std::array<Vec3, 3> triangle;
-  Vec3 normal;
-  int surface = 0;
-  double area = 0;
-  double weight = 1;
-  ElementFit fit;
-  bool is_fitted = false, is_checked = false;
-  bool is_broken = false;  ///< its samples overlook something
-
-  double square_error() const { return area * weight * fit.error * fit.error; }
-};
 
 void check(const AdaptiveFieldOptions& options) {
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.order < -1 ||
@@ -60,13 +49,12 @@ void check(const AdaptiveFieldOptions& options) {
 class Adaptation {
  public:
   Adaptation(PatchMesh& mesh, const FieldAt& field, const AdaptiveFieldOptions& options,
-             const Progress& progress, std::span<const WatchedPlace> watched)
+             const Progress& progress, const Watched& watched)
       : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
-    double area = 0;
-    for (const Element& element : elements_) area += element.area;
-    for (Element& element : elements_) {
-      const double share = element.area * static_cast<double>(elements_.size()) / area;
+    for (const FittedElement& element : elements_) total_area_ += element.area;
+    for (FittedElement& element : elements_) {
+      const double share = element.area * static_cast<double>(elements_.size()) / total_area_;
       element.fit.order =
           options.order >= 0 ? options.order : std::max(first_order(options) - modesty(share), 0);
       element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
@@ -75,6 +63,15 @@ class Adaptation {
 
   AdaptiveField run() {
     fit_new();
+    refine();
+    if (options_.merge && report_.limit == FieldLimit::none && merge_parts()) refine();
+    if (options_.order < 0 && report_.limit == FieldLimit::none)
+      drop_orders(elements_, share_after_dropping * allowed());
+    return result();
+  }
+
+ private:
+  void refine() {
     while (report_.limit == FieldLimit::none) {
       if (progress_.stopped()) {
         report_.limit = FieldLimit::stopped;
@@ -86,11 +83,36 @@ class Adaptation {
       if (!improve()) break;
       fit_new();
     }
-    if (options_.order < 0 && report_.limit == FieldLimit::none) drop_orders();
-    return result();
   }
 
- private:
+  /// Where elements are smaller than they need be, the whole takes the place of its parts, as far
+  /// as the error allows it, and has to prove itself. False if there are none.
+  bool merge_parts() {
+    bool is_changed = false;
+    for (int round = 0; round < most_merges; ++round) {
+      std::vector<int> parts;
+      double square_error = square_error_;
+      const double each = allowed() / static_cast<double>(unknowns_);  // unknown may err so much
+      for (const PossibleWhole& whole :
+           possible_wholes(mesh_, elements_, options_.order, options_.highest_order)) {
+        square_error += whole.more;
+        if (square_error > share_after_merging * allowed() || whole.more > each * whole.fewer)
+          break;
+        parts.insert(parts.end(), whole.parts.begin(), whole.parts.end());
+        whole_fits_[whole.node] = whole.fit;
+      }
+      const std::size_t before = elements_.size();
+      if (!parts.empty()) take_elements(mesh_.merge(parts));
+      if (elements_.size() == before || progress_.stopped()) break;
+      is_changed = true;
+      merging_ = true;
+      fit_new();
+      sum_up();
+      check_new();
+    }
+    return is_changed;
+  }
+
   /// Square of the error.
   double allowed() const { return options_.tolerance * options_.tolerance * square_norm(); }
 
@@ -105,7 +127,7 @@ class Adaptation {
   void sum_up() {
     square_error_ = square_ = 0;
     unknowns_ = 0;
-    for (const Element& element : elements_) {
+    for (const FittedElement& element : elements_) {
       square_error_ += element.square_error();
       square_ += element.area * element.fit.coefficients.matrix().squaredNorm();
       unknowns_ += static_cast<std::size_t>(basis_size(element.fit.order));
@@ -113,11 +135,18 @@ class Adaptation {
   }
 
   /// Reads the mesh; elements that are parts of others begin with what those knew.
-  void take_elements() {
+  void take_elements(std::span<const int> node_now = {}) {
     table_ = mesh_.elements();
     const PatchHierarchy hierarchy = mesh_.hierarchy();
-    std::vector<Element> before = std::move(elements_);
-    const std::unordered_map<int, int> index_before = std::move(index_of_node_);
+    std::vector<FittedElement> before = std::move(elements_);
+    std::unordered_map<int, int> index_before = std::move(index_of_node_);
+    std::unordered_map<int, ElementFit> whole_fits;
+    if (!node_now.empty()) {
+      for (const auto& [node, e] : std::exchange(index_before, {}))
+        if (const int now = node_now[at(node)]; now >= 0) index_before[now] = e;
+      for (auto& [node, fit] : std::exchange(whole_fits_, {}))
+        whole_fits[node_now[at(node)]] = std::move(fit);
+    }
     elements_.assign(table_.corners.size(), {});
     index_of_node_.clear();
     for (int node = 0; node < static_cast<int>(hierarchy.element.size()); ++node) {
@@ -126,14 +155,16 @@ class Adaptation {
       index_of_node_[node] = e;
       int known = node;
       while (known >= 0 && !index_before.contains(known)) known = hierarchy.parent[at(known)];
-      Element& element = elements_[at(e)];
+      FittedElement& element = elements_[at(e)];
       element.triangle = table_.triangle(e);
       element.normal = table_.normal[at(e)];
       element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
       element.weight = mean_weight(options_.weight, element.surface, element.triangle);
+      if (const auto whole = whole_fits.find(node); known < 0 && whole != whole_fits.end())
+        element.fit = std::move(whole->second);
       if (known < 0) continue;
-      const Element& whole = before[at(index_before.at(known))];
+      const FittedElement& whole = before[at(index_before.at(known))];
       if (known == node) {
         element.fit = whole.fit;
         element.is_fitted = whole.is_fitted;
@@ -158,13 +189,13 @@ class Adaptation {
     return values;
   }
 
-  FieldPoint point_at(const Element& element, const TrianglePlace& place) const {
+  FieldPoint point_at(const FittedElement& element, const TrianglePlace& place) const {
     return {{position(element.triangle, place), element.normal}, element.surface};
   }
 
   void fit_new() {
     std::vector<FieldPoint> points;
-    for (const Element& element : elements_)
+    for (const FittedElement& element : elements_)
       if (!element.is_fitted)
         for (const TrianglePlace& place : sampling_rule(element.fit.order).places)
           points.push_back(point_at(element, place));
@@ -172,7 +203,7 @@ class Adaptation {
     if (values.empty()) return;
     ++report_.rounds;
     std::size_t next = 0;
-    for (Element& element : elements_) {
+    for (FittedElement& element : elements_) {
       if (element.is_fitted) continue;
       ChannelArray samples(sampling_rule(element.fit.order).weights.size(), 3);
       for (Eigen::Index k = 0; k < samples.rows(); ++k) samples.row(k) = values[next++];
@@ -182,26 +213,21 @@ class Adaptation {
     }
   }
 
-  static Rgb fitted_at(const Element& element, const TrianglePlace& place) {
-    Eigen::VectorXd phi(element.fit.coefficients.rows());
-    basis_at(element.fit.order, place, phi);
-    return (element.fit.coefficients.matrix().transpose() * phi).array();
-  }
-
   /// Looks at places that the fits do not know. True if the estimates stand.
   bool check_new() {
     std::vector<FieldPoint> points;
     std::vector<TrianglePlace> places;
-    for (const Element& element : elements_)
+    for (const FittedElement& element : elements_)
       for (int k = 0; !element.is_checked && k < checks; ++k) {
         places.push_back(spread_place(next_check_++));
         points.push_back(point_at(element, places.back()));
       }
     const std::vector<Rgb> values = sample(points);
     if (values.empty() && !points.empty()) return false;
+    if (!check_near()) return false;
     const double before = square_error_;
     std::size_t next = 0;
-    for (Element& element : elements_) {
+    for (FittedElement& element : elements_) {
       if (element.is_checked) continue;
       double square = 0;
       for (int k = 0; k < checks; ++k, ++next)
@@ -215,19 +241,37 @@ class Adaptation {
     return square_error_ <= std::max(before, allowed());
   }
 
+  /// The same close to corners and edges that are watched. False if it was stopped.
+  bool check_near() {
+    const std::size_t most = least_near_looks + report_.samples / 2;
+    if (near_looks_ > most) return true;
+    const std::vector<NearLook> looks =
+        near_looks(elements_, watched_, square_ / total_area_, most - near_looks_);
+    if (looks.empty()) return true;
+    std::vector<FieldPoint> points;
+    for (const NearLook& look : looks)
+      points.push_back(point_at(elements_[at(look.element)], look.place));
+    const std::vector<Rgb> values = sample(points);
+    if (values.size() < points.size()) return false;
+    near_looks_ += looks.size();
+    take_near_looks(looks, values, elements_);
+    return true;
+  }
+
   /// The same at the places that are watched. False if it was stopped.
   bool check_watched() {
-    if (watched_values_.empty() && !watched_.empty()) {
+    if (watched_values_.empty() && !watched_.places.empty()) {
       std::vector<FieldPoint> points;
-      for (const WatchedPlace& watched : watched_) points.push_back(watched.place);
+      for (const WatchedPlace& watched : watched_.places) points.push_back(watched.place);
       watched_values_ = sample(points);
       if (watched_values_.empty()) return false;
     }
-    if (watched_.empty()) return true;
+    if (watched_.places.empty()) return true;
     const auto fitted = [this](int e, const TrianglePlace& place) {
       return fitted_at(elements_[at(e)], place);
     };
-    for (const auto& [e, found] : watched_errors(table_, watched_, watched_values_, fitted)) {
+    for (const auto& [e, found] :
+         watched_errors(table_, watched_.places, watched_values_, fitted)) {
       ElementFit& fit = elements_[at(e)].fit;
       const double error = std::sqrt(found.square);
       // One place may be off by chance.
@@ -238,40 +282,10 @@ class Adaptation {
     return true;
   }
 
-  /// The elements that matter most, the worst first.
-  std::vector<int> worst_elements() const {
-    std::vector<int> order(elements_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-      return elements_[at(a)].square_error() > elements_[at(b)].square_error();
-    });
-    double left = square_error_;
-    std::size_t count = 0;
-    while (count < order.size() && left > share_left_alone * allowed())
-      left -= elements_[at(order[count++])].square_error();
-    order.resize(count);
-    return order;
-  }
-
-  /// The order that an element should have; its own if it should be split.
-  int better_order(const Element& element) const {
-    const double shrinks = decay(element.fit);
-    if (options_.order >= 0 || element.fit.order >= options_.highest_order || element.is_broken)
-      return element.fit.order;
-    if (element.fit.order < first_order(options_)) return first_order(options_);
-    // Without coefficients there is nothing that shrinks: something was overlooked.
-    if (shrinks > smooth || shrinks == 0) return element.fit.order;
-    const double target =
-        std::sqrt(share_left_alone * allowed() / static_cast<double>(elements_.size()));
-    const double missing =
-        std::log(std::sqrt(element.square_error()) / target) / -std::log(shrinks);
-    const double more = std::clamp(std::ceil(missing), 1., most_orders_at_once);
-    return std::min(element.fit.order + static_cast<int>(more), options_.highest_order);
-  }
-
   /// False, with a limit set, if nothing can be done.
   bool improve() {
-    if (options_.max_samples > 0 && static_cast<double>(report_.samples) > options_.max_samples) {
+    if (options_.max_samples > 0 && !merging_ &&
+        static_cast<double>(report_.samples) > options_.max_samples) {
       report_.limit = FieldLimit::samples;
       return false;
     }
@@ -285,12 +299,15 @@ class Adaptation {
     }
     std::vector<int> to_split;
     auto unknowns = static_cast<double>(unknowns_);
-    auto count = static_cast<double>(elements_.size());
+    const auto count_before = static_cast<double>(elements_.size());
+    double count = count_before;
     bool is_changed = false;
     FieldLimit limit = FieldLimit::fixed;
-    for (const int e : worst_elements()) {
-      Element& element = elements_[at(e)];
-      const int order = better_order(element), size = basis_size(element.fit.order);
+    const double may_stay = share_left_alone * allowed();
+    for (const int e : worst_elements(elements_, may_stay)) {
+      FittedElement& element = elements_[at(e)];
+      const int order = better_order(element, options_, may_stay / count_before),
+                size = basis_size(element.fit.order);
       const bool split = order == element.fit.order;
       if (split && !options_.split) continue;
       const double more = split ? (growth - 1) * size : basis_size(order) - size;
@@ -328,34 +345,11 @@ class Adaptation {
     return true;
   }
 
-  /// Top degrees go where the error allows it, those first that matter least for an unknown.
-  void drop_orders() {
-    using Candidate = std::pair<double, int>;  // square of the layer for an unknown, element
-    const auto candidate = [&](int e) {
-      const Element& element = elements_[at(e)];
-      const double layer = element.fit.layer[at(element.fit.order)];
-      return Candidate(element.area * element.weight * layer * layer / (element.fit.order + 1), e);
-    };
-    std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
-    for (int e = 0; e < static_cast<int>(elements_.size()); ++e)
-      if (elements_[at(e)].fit.order > 0) queue.push(candidate(e));
-    while (!queue.empty()) {
-      const auto [gain, e] = queue.top();
-      queue.pop();
-      Element& element = elements_[at(e)];
-      const double more = gain * (element.fit.order + 1);
-      if (square_error_ + more > share_after_dropping * allowed()) break;
-      square_error_ += more;
-      lower_order(element.fit);
-      if (element.fit.order > 0) queue.push(candidate(e));
-    }
-  }
-
   AdaptiveField result() {
     sum_up();
     AdaptiveField out;
     std::vector<int> order;
-    for (const Element& element : elements_) order.push_back(element.fit.order);
+    for (const FittedElement& element : elements_) order.push_back(element.fit.order);
     out.field = zero_field(std::move(order));
     out.error.resize(static_cast<Eigen::Index>(elements_.size()));
     const Rgb unscaled = scale().inverse();
@@ -375,14 +369,16 @@ class Adaptation {
   const FieldAt& field_;
   const AdaptiveFieldOptions& options_;
   const Progress& progress_;
-  std::span<const WatchedPlace> watched_;
+  const Watched& watched_;
   std::vector<Rgb> watched_values_;
   ElementTable table_;
-  std::vector<Element> elements_;
+  std::vector<FittedElement> elements_;
   std::unordered_map<int, int> index_of_node_;
+  std::unordered_map<int, ElementFit> whole_fits_;  ///< of nodes that may become elements
+  bool merging_ = false;      ///< has begun: what it takes is no limit any more
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
-  double square_error_ = 0, square_ = 0;
-  std::size_t unknowns_ = 0, next_check_ = 0;
+  double square_error_ = 0, square_ = 0, total_area_ = 0;
+  std::size_t unknowns_ = 0, next_check_ = 0, near_looks_ = 0;
   AdaptiveFieldReport report_;
 };
 
@@ -390,7 +386,7 @@ class Adaptation {
 
 AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
                              const AdaptiveFieldOptions& options, const Progress& progress,
-                             std::span<const WatchedPlace> watched) {
+                             const Watched& watched) {
   check(options);
   return Adaptation(mesh, field, options, progress, watched).run();
 }

@@ -2,7 +2,7 @@
 
 #include "meshing/core/progress.h"
 #include "meshing/patches/patch_mesh.h"
-#include "solver/direct/direct_light.h"
+#include "solver/adapt/watched.h"
 #include "solver/elements/element_field.h"
 #include "solver/elements/error_weight.h"
 
@@ -11,18 +11,6 @@
 #include <vector>
 
 namespace halfshade {
-
-/// Where a field is asked for.
-struct FieldPoint {
-  SurfacePoint point;
-  int surface;
-};
-
-/// Where something small may be that samples overlook.
-struct WatchedPlace {
-  FieldPoint place;
-  double area;  ///< of it, squared scene units
-};
 
 /// A field on surfaces, W/m²: its values at points. It must be the same for the same points.
 using FieldAt = std::function<std::vector<Rgb>(std::span<const FieldPoint>, const Progress&)>;
@@ -37,6 +25,7 @@ struct AdaptiveFieldOptions {
   int order = -1;                 ///< of all elements, 0…max_order; −1: chosen for each
   int highest_order = max_order;  ///< if orders are chosen
   bool split = true;              ///< false: elements stay as they are
+  bool merge = false;             ///< splits are undone in the end where they are not needed
   int max_elements = 40000;
   int max_unknowns = 1000000;         ///< per channel
   double max_samples = 0;             ///< gives up rather than take more; 0: no limit
@@ -61,15 +50,15 @@ struct AdaptiveField {
 
 /// Fits polynomials to a field on the elements of a mesh, until the estimated error is within the
 /// tolerance: raises the order of elements where the coefficients decay, splits the others (hp
-/// adaptivity; Babuška and Suri 1994), and lowers orders again where that costs nothing noticeable.
-/// The estimate comes of samples within each element, at Gauss's places, and is checked at others,
-/// and at those `watched`, before it is believed. Breaks that elements do not follow are met by
-/// splitting. The mesh is left as the elements are.
+/// adaptivity; Babuška and Suri 1994), and lowers orders, or merges elements again if asked to,
+/// where that costs nothing noticeable. The estimate comes of samples within each element, at
+/// Gauss's places, and is checked at others, and where the field is watched, before it is believed.
+/// Breaks that elements do not follow are met by splitting. The mesh is left as the elements are.
 ///
 /// If stopped, the elements keep what the last whole round gave. Throws Error(contract) for options
 /// out of range. The same for any number of threads.
 AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
                              const AdaptiveFieldOptions& options, const Progress& progress = {},
-                             std::span<const WatchedPlace> watched = {});
+                             const Watched& watched = {});
 
 }  // namespace halfshade

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "solver/adapt/adaptive_field.h"
+#include "meshing/patches/element_table.h"
+#include "solver/adapt/watched.h"
+#include "solver/elements/polynomial.h"
 
 #include <functional>
 #include <span>

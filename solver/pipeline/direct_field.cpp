@@ -5,6 +5,7 @@
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
+#include "solver/pipeline/near_features.h"
 #include "solver/pipeline/shadow_places.h"
 #include "solver/pipeline/solve_mesh.h"
 #include "solver/pipeline/spot_places.h"
@@ -110,10 +111,10 @@ class DirectFieldSearch {
         stages_(stages),
         goal_(goal),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
-        watched_(shadow_places(prepared.scene(), prepared.direct_light().emitters())) {
-    for (const auto& find : {corner_places, spot_places}) {
+        watched_(near_features(prepared.scene(), prepared.direct_light().emitters())) {
+    for (const auto& find : {shadow_places, corner_places, spot_places}) {
       const auto more = find(prepared.scene(), prepared.direct_light().emitters());
-      watched_.insert(watched_.end(), more.begin(), more.end());
+      watched_.places.insert(watched_.places.end(), more.begin(), more.end());
     }
   }
 
@@ -251,6 +252,7 @@ class DirectFieldSearch {
 
   void fit_on_patches(AdaptiveFieldOptions fit) {
     fit.is_too_much = [this] { return crowd_work_ > crowd_work_for_one * options_.max_unknowns; };
+    fit.merge = fit.split;
     stages_.run("direct light", [&] {
       found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched_);
       return found_.light.report.unknowns;
@@ -290,7 +292,7 @@ class DirectFieldSearch {
   const GoalWeights* goal_;
   double crowd_work_ = 0;  ///< see DirectLight
   FieldAt direct_light_;
-  std::vector<WatchedPlace> watched_;
+  Watched watched_;
   DirectField found_;
 };
 

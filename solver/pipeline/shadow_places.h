@@ -2,7 +2,7 @@
 
 #include "meshing/core/light_source.h"
 #include "meshing/core/sound_scene.h"
-#include "solver/adapt/adaptive_field.h"
+#include "solver/adapt/watched.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/sound_scene.h"
-#include "solver/adapt/adaptive_field.h"
+#include "solver/adapt/watched.h"
 
 #include <span>
 #include <vector>

@@ -5,6 +5,7 @@
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 
 #include <array>
+#include <span>
 #include <vector>
 
 /// For source files of this room only: OpenMesh stays out of what others include.
@@ -30,11 +31,13 @@ using HalfedgeHandle = TriangleMesh::HalfedgeHandle;
 using EdgeHandle = TriangleMesh::EdgeHandle;
 using FaceHandle = TriangleMesh::FaceHandle;
 
-/// Every element that ever was, one entry a node; leaves have a face of the mesh.
+/// Elements and all that they are parts of, one entry a node; leaves have a face of the mesh.
 struct ElementForest {
   std::vector<int> parent;   ///< −1 at roots
   std::vector<int> level;    ///< number of ancestors
   std::vector<int> surface;  ///< that it lies in
+  /// Of nodes that have parts: vertices, and orders of the edges from each to the next; else −1.
+  std::vector<std::array<int, 3>> corners, edge_order;
 
   int count() const { return static_cast<int>(parent.size()); }
   /// Return the new node.
@@ -65,5 +68,8 @@ void link_twins(TriangleMesh& mesh, const std::vector<EdgeHandle>& edges);
 
 /// The faces as elements are numbered: by surface, then in order of creation.
 std::vector<FaceHandle> ordered_faces(const ElementMesh& mesh);
+
+/// Faces of elements. Throws Error(contract) if there are no such elements.
+std::vector<FaceHandle> named_faces(const ElementMesh& mesh, std::span<const int> elements);
 
 }  // namespace halfshade

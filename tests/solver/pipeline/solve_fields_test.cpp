@@ -6,6 +6,7 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
+#include "tests/support/touching_lights.h"
 #include "tests/support/triangle_soups.h"
 #include "tests/support/true_error.h"
 
@@ -14,7 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -96,8 +99,11 @@ void expect_met(const SolveResult& result, double tolerance) {
   const double actual = true_error(result, 2000);
   EXPECT_LE(actual, tolerance);
   EXPECT_GE(result.relative_error, 0.9 * actual);
-  EXPECT_LE(result.relative_error, 3 * actual);
-  EXPECT_LE(fine_error(result, 2), tolerance);
+  const double fine = fine_error(result, 2);
+  EXPECT_LE(fine, tolerance);
+  EXPECT_GE(result.relative_error, 0.9 * fine);
+  // What is wrong within a corner, few points find.
+  EXPECT_LE(result.relative_error, 3 * std::max(actual, fine));
 }
 
 /// Power that arrives on each surface of the strongest channel, and its area.
@@ -288,6 +294,34 @@ TEST(SolveFields, TheCornersOfALightThatTouchesAreNotOverlooked) {
     EXPECT_LT(error, 0.7 * tolerance) << tolerance;
     expect_met(result, tolerance);
   }
+}
+
+/// Errors in most of these went unseen once: narrow gaps under lights and things, and corners that
+/// touch.
+TEST(SolveFields, NarrowGapsAndTouchingCornersAreNotOverlooked) {
+  for (const auto& [seed, tolerance] :
+       {std::pair(47, 1e-3), std::pair(22, 1e-2), std::pair(20, 1e-2), std::pair(37, 1e-4),
+        std::pair(41, 1e-2), std::pair(59, 1e-4)}) {
+    const SolveResult result =
+        solve(test::touching_light(static_cast<std::uint64_t>(seed)), within(tolerance));
+    EXPECT_EQ(result.not_reached, "") << seed;
+    const double fine = fine_error(result, 2);
+    EXPECT_LE(fine, tolerance) << seed;
+    EXPECT_GE(result.relative_error, fine) << seed;
+    EXPECT_LE(result.relative_error, 3 * fine) << seed;
+  }
+}
+
+TEST(SolveFields, ConvexOccludersGetTheAccuracyAsked) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed)
+    for (const double tolerance : {1e-2, 1e-4, 1e-6}) {
+      const SolveResult result = solve(test::convex_occluders(seed), within(tolerance));
+      EXPECT_EQ(result.not_reached, "") << seed;
+      const double fine = fine_error(result, 1);
+      EXPECT_LE(fine, tolerance) << seed;
+      EXPECT_GE(result.relative_error, 0.9 * fine) << seed;
+      EXPECT_LE(result.relative_error, 3 * fine) << seed;
+    }
 }
 
 TEST(SolveFields, FewElementsAreALimitNotAFailure) {

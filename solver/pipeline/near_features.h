@@ -1,0 +1,15 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+#include "solver/adapt/watched.h"
+
+#include <span>
+
+namespace halfshade {
+
+/// Corners and edges, of emitters (surface ids) and of what can hide them, that touch other
+/// surfaces or nearly do. Contacts themselves are lines that elements follow; narrow gaps are not,
+/// and light that comes through one changes within its width.
+Watched near_features(const SoundScene& scene, std::span<const int> sources);
+
+}  // namespace halfshade

@@ -70,11 +70,12 @@ BlockedCells::BlockedCells(const SightScene& scene, PointLooks& looks, int a, in
   if (!few_->is_applicable()) few_.reset();
 }
 
-PointFactor BlockedCells::factor_at(const Vec3& position) {
+HiddenFactor BlockedCells::factor_at(const Vec3& position) {
   ++points_;
-  const SurfacePoint point{position, scene_.surfaces[at(a_)].frame.normal};
-  PointFactor factor;
-  return few_ && few_->factor(point, factor) ? factor : looks_.factor(point, b_);
+  HiddenFactor factor;
+  if (few_ && few_->factor(position, factor)) return factor;
+  const PointFactor seen = looks_.factor({position, scene_.surfaces[at(a_)].frame.normal}, b_);
+  return {seen.unobstructed, seen.unobstructed - seen.visible, seen.visible == 0, seen.signature};
 }
 
 BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
@@ -82,14 +83,13 @@ BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
   Sum sum;
   bool is_first = true;
   for_each_node(degree, [&](double u, double v, double weight) {
-    const PointFactor factor = factor_at(corners[0] + u * along + v * across);
-    const double hidden = factor.unobstructed - factor.visible;
-    sum.hidden += weight * hidden;
+    const HiddenFactor factor = factor_at(corners[0] + u * along + v * across);
+    sum.hidden += weight * factor.hidden;
     sum.unobstructed += weight * factor.unobstructed;
-    sum.hidden_range.add(hidden);
-    sum.visible_range.add(factor.visible);
-    sum.is_lit = sum.is_lit && hidden == 0;
-    sum.is_dark = sum.is_dark && factor.visible == 0;
+    sum.hidden_range.add(factor.hidden);
+    sum.visible_range.add(factor.visible());
+    sum.is_lit = sum.is_lit && factor.hidden == 0;
+    sum.is_dark = sum.is_dark && factor.is_dark;
     if (is_first) sum.signature = factor.signature;
     sum.is_smooth = sum.is_smooth && factor.signature == sum.signature;
     is_first = false;
@@ -128,9 +128,9 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
 void BlockedCells::look_at_corners(BlockedCell& cell) {
   if (cell.hidden_at_corners.size() < 0)
     for (const Vec3& corner : cell.corners) {
-      const PointFactor factor = factor_at(inset_corner(cell.corners, corner));
-      cell.hidden_at_corners.add(factor.unobstructed - factor.visible);
-      cell.visible_at_corners.add(factor.visible);
+      const HiddenFactor factor = factor_at(inset_corner(cell.corners, corner));
+      cell.hidden_at_corners.add(factor.hidden);
+      cell.visible_at_corners.add(factor.visible());
       cell.is_smooth = cell.is_smooth && factor.signature == cell.signature;
     }
   const auto note = [&](const Range& range, const Range& at_corners) {
@@ -147,7 +147,7 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
 void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
   double seen = 0;
   for (const Vec3& corner : cell.corners)
-    seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible);
+    seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible());
   if (seen > 0) {
     cell.is_dark = cell.is_smooth = false;
     cell.error = std::max(cell.error, share_of_unseen * seen * area_of(cell.corners));

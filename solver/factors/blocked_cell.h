@@ -68,7 +68,7 @@ class BlockedCells {
  private:
   struct Sum;
 
-  PointFactor factor_at(const Vec3& point);
+  HiddenFactor factor_at(const Vec3& point);
   Sum sum_over(const Triangle3& corners, int degree);
   BlockedCell evaluate(const BlockedCell& from, int degree);
   BlockedCell raise(const BlockedCell& cell);

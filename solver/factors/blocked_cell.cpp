@@ -117,6 +117,13 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
     const double missed = share_of_unseen * std::min(most, all) - cell.value;
     cell.error = sum.is_lit ? missed : std::max(cell.error, missed);
   }
+  // The same of what may be seen.
+  const double seen = all - cell.value;
+  if (few_ && !cell.is_dark && cell.degree == degrees[0] &&
+      share_of_unseen * all - seen > cell.error) {
+    const double most = few_->seen_at_most(cell.corners) * area;
+    cell.error = std::max(cell.error, share_of_unseen * std::min(most, all) - seen);
+  }
   if (cell.is_dark)
     estimate_dark(all, cell);
   else if (cell.is_smooth && !cell.is_lit)
@@ -145,6 +152,14 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
 /// Where one convex thing hides all of `b` from the corners it hides it from all between them.
 /// Where several do, there may be gaps between them.
 void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
+  if (few_) {
+    cell.unsure = share_of_unseen * few_->seen_at_most(cell.corners) * area_of(cell.corners);
+    if (cell.unsure > 0)
+      cell.error = std::max(cell.error, cell.unsure);
+    else
+      cell.dark_levels = static_cast<int>(share_of_gaps.size());
+    return;
+  }
   double seen = 0;
   for (const Vec3& corner : cell.corners)
     seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible());
@@ -216,7 +231,7 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
   BlockedCell half = cell;
   half.is_exact = false;
   ++half.halvings;
-  const int degree = cell.is_lit ? degrees[0] : degrees[1];
+  const int degree = cell.is_lit || cell.is_dark ? degrees[0] : degrees[1];
   for (const Triangle3& corners : {Triangle3{p, middle, r}, Triangle3{middle, q, r}}) {
     half.corners = corners;
     next.push_back(evaluate(half, degree));
@@ -228,9 +243,10 @@ void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
   next.clear();
   if (cell.is_dark && !cell.is_exact && cell.dark_levels >= static_cast<int>(share_of_gaps.size()))
     return next.push_back(closed_form(cell));
+  const bool is_unsure = cell.is_dark && cell.unsure >= cell.error;
   const bool can_rise =
       cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
-  if (!cell.is_lit && !cell.is_exact && can_rise) return next.push_back(raise(cell));
+  if (!cell.is_lit && !cell.is_exact && !is_unsure && can_rise) return next.push_back(raise(cell));
   if (along_kinks && !cell.is_lit && !cell.is_smooth && add_sides_of_kink(cell, next)) return;
   add_halves(cell, next);
 }

@@ -8,12 +8,15 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t most_shades = 40;
+constexpr std::size_t most_shades = 100;
 constexpr std::size_t most_parts = 48;
 /// What is nearer to a line lies on it: relative to the target.
 constexpr double nearness_of_target = 1e-11;
 /// A point this near to a blocker's plane sees its edge: relative to the blocker.
 constexpr double edge_on = 1e-12;
+/// Targets that fill more of the view, as the sine of half the angle, are not asked what lies
+/// beside them; and balls count as larger by what rounding is.
+constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9;
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
 /// Borders of one shade are numbered from a multiple of this on.
 constexpr std::uint32_t borders_of_shade = 1024;
@@ -22,17 +25,15 @@ constexpr std::uint32_t borders_of_shade = 1024;
 double length_about(const Vec2& a) { return std::abs(a.x()) + std::abs(a.y()); }
 double length_about(const Vec3& a) { return std::abs(a.x()) + std::abs(a.y()) + std::abs(a.z()); }
 
+template <class Ball>
+Ball ball_round(const std::vector<Vec3>& points) {
+  Ball ball{Vec3::Zero(), 0};
+  for (const Vec3& p : points) ball.centre += p / static_cast<double>(points.size());
+  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.centre).norm());
+  return ball;
+}
+
 }  // namespace
-
-void FewBlockers::Parts::clear() {
-  corners.clear();
-  ends.clear();
-}
-
-void FewBlockers::Parts::add(const Corner* first, const Corner* last) {
-  corners.insert(corners.end(), first, last);
-  ends.push_back(corners.size());
-}
 
 Vec3 FewBlockers::turned(const Vec3& direction) const {
   const PlaneFrame& frame = target_.frame;
@@ -50,12 +51,13 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
   for (const Polygon3& piece : target_.pieces) {
     const Polygon3 other = clip_to_front(piece, own.frame.origin, own.frame.normal);
     if (other.empty()) continue;
-    Part part;
+    const std::size_t first = target_corners_.size();
     for (const Vec3& p : other) {
-      part.push_back({target_.frame.to_plane(p), static_cast<std::uint32_t>(part.size())});
+      const std::size_t number = target_corners_.size() - first;
+      target_corners_.push_back({target_.frame.to_plane(p), static_cast<std::uint32_t>(number)});
       size = std::max(size, (p - other.front()).norm());
     }
-    target_parts_.add(part.data(), part.data() + part.size());
+    target_parts_.push_back({first, target_corners_.size()});
     for (const Polygon3& own_piece : own.pieces) {
       const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
       if (part.empty()) continue;
@@ -63,6 +65,10 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
         blockers.push_back(scene.blocker_of[at(t)]);
     }
   }
+  std::vector<Vec3> corners;
+  for (const Corner& corner : target_corners_)
+    corners.emplace_back(corner.at.x(), corner.at.y(), 0);
+  target_ball_ = ball_round<Ball>(corners);
   std::sort(blockers.begin(), blockers.end());
   blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
   nearness_ = nearness_of_target * size;
@@ -92,13 +98,14 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
 void FewBlockers::add(const Blocker& blocker) {
   Shade shade;
   for (const Vec3& corner : blocker.corners) shade.corners.push_back(in_frame(corner));
+  shade.ball = ball_round<Ball>(shade.corners);
   shade.normal = turned(blocker.normal);
   shade.a = shade.normal.head<2>();
   shade.b = -shade.normal.dot(shade.corners.front());
   shade.steepness = shade.a.norm();
   shade.least = HUGE_VAL;
   shade.most = -HUGE_VAL;
-  for (const Corner& corner : target_parts_.corners) {
+  for (const Corner& corner : target_corners_) {
     const double height = shade.a.dot(corner.at) + shade.b;
     shade.least = std::min(shade.least, height);
     shade.most = std::max(shade.most, height);
@@ -107,8 +114,9 @@ void FewBlockers::add(const Blocker& blocker) {
 }
 
 void FewBlockers::add(const ConvexBody& body) {
-  Solid solid{&body, {}, {}, {}};
+  Solid solid{{}, &body, {}, {}, {}};
   for (const Vec3& p : body.vertices) solid.vertices.push_back(in_frame(p));
+  solid.ball = ball_round<Ball>(solid.vertices);
   for (const ConvexBody::Side& side : body.sides) {
     solid.corners.push_back(in_frame(side.corner));
     solid.normals.push_back(turned(side.normal));
@@ -128,9 +136,8 @@ bool FewBlockers::add_plane(const Vec3& from, const Vec3& to, std::uint32_t bord
   return true;
 }
 
-/// False if it hides nothing of the target.
+/// Adds the sides of its shadow. False if it hides nothing of the target.
 bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t border) {
-  shadow_.clear();
   const double side = height > 0 ? 1 : -1;
   // What is hidden lies beyond the shade's plane.
   const double nearest = side > 0 ? shade.most : -shade.least;
@@ -148,9 +155,9 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
   return true;
 }
 
-/// The cone through the edges between sides that the point sees and those that it does not.
+/// The same: the cone through the edges between sides that the point sees and those that it does
+/// not.
 bool FewBlockers::make_shadow(const Solid& solid, std::uint32_t border) {
-  shadow_.clear();
   is_front_.clear();
   for (std::size_t k = 0; k < solid.corners.size(); ++k) {
     const Vec3 towards = point_ - solid.corners[k];
@@ -185,14 +192,17 @@ void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
   }
 }
 
-/// Of one part: what lies outside of the shadow goes to the next parts, what is left is hidden.
-void FewBlockers::cut_off_shadow(const Corner* first, const Corner* last, HiddenFactor& factor) {
+/// Of one part: what lies outside of the shadow is added to the parts, what is left is hidden.
+/// False if all lies outside.
+bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
   const auto is_off = [&](const HalfPlane& plane) {
-    return std::all_of(first, last, [&](const Corner& c) { return plane.height(c.at) >= 0; });
+    for (std::size_t k = part.first; k < part.last; ++k)
+      if (plane.height(corners_[k].at) < 0) return false;
+    return true;
   };
-  if (std::any_of(shadow_.begin(), shadow_.end(), is_off)) return next_.add(first, last);
-  const std::size_t corners_before = next_.corners.size(), parts_before = next_.ends.size();
-  rest_.assign(first, last);
+  if (std::any_of(shadow_.begin(), shadow_.end(), is_off)) return false;
+  const std::size_t corners_before = corners_.size(), parts_before = parts_.size();
+  rest_.assign(corners_.data() + part.first, corners_.data() + part.last);
   for (const HalfPlane& plane : shadow_) {
     heights_.clear();
     double least = HUGE_VAL, most = -HUGE_VAL;
@@ -203,88 +213,120 @@ void FewBlockers::cut_off_shadow(const Corner* first, const Corner* last, Hidden
     }
     if (most <= 0) continue;
     if (least >= 0) {
-      next_.corners.resize(corners_before);
-      next_.ends.resize(parts_before);
-      return next_.add(first, last);
+      corners_.resize(corners_before);
+      parts_.resize(parts_before);
+      return false;
     }
     inside_.clear();
-    const std::size_t start = next_.corners.size();
-    Part& outside = next_.corners;
+    const std::size_t start = corners_.size();
     const Corner* from = &rest_.back();
     double at_from = heights_.back();
     for (std::size_t k = 0; k < rest_.size(); ++k) {
       const Corner& to = rest_[k];
       const double at_to = heights_[k];
       if (at_from <= 0) inside_.push_back(*from);
-      if (at_from >= 0) outside.push_back(*from);
+      if (at_from >= 0) corners_.push_back(*from);
       // Where the border passes over the line, the line takes it up.
       if (at_from < 0 && at_to > 0) {
         const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
         inside_.push_back({crossing, plane.border});
-        outside.push_back({crossing, from->border});
+        corners_.push_back({crossing, from->border});
       } else if (at_from > 0 && at_to < 0) {
         const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-        outside.push_back({crossing, plane.border});
+        corners_.push_back({crossing, plane.border});
         inside_.push_back({crossing, from->border});
       } else if (at_from == 0) {
         if (at_to > 0) inside_.back().border = plane.border;
-        if (at_to < 0) outside.back().border = plane.border;
+        if (at_to < 0) corners_.back().border = plane.border;
       }
       from = &to;
       at_from = at_to;
     }
-    if (outside.size() > start + 2)
-      next_.ends.push_back(outside.size());
+    if (corners_.size() > start + 2)
+      parts_.push_back({start, corners_.size()});
     else
-      outside.resize(start);
+      corners_.resize(start);
     rest_.swap(inside_);
   }
   if (rest_.size() > 2) add_hidden(rest_, factor);
+  return true;
 }
 
 void FewBlockers::cut_off_shadow(HiddenFactor& factor) {
-  next_.clear();
-  std::size_t first = 0;
-  for (const std::size_t end : parts_.ends) {
-    cut_off_shadow(parts_.corners.data() + first, parts_.corners.data() + end, factor);
-    first = end;
+  const std::size_t count = parts_.size();
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Range part = parts_[k];
+    if (!cut_off_shadow(part, factor)) parts_[kept++] = part;
   }
-  std::swap(parts_, next_);
+  parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(kept),
+               parts_.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void FewBlockers::take_all() {
+  corners_ = target_corners_;
+  parts_ = target_parts_;
+}
+
+double FewBlockers::sum_over_parts() const {
+  double sum = 0;
+  for (const auto& [first, last] : parts_)
+    sum += sum_over(corners_.data() + first, corners_.data() + last);
+  return sum;
+}
+
+void FewBlockers::look_from(const Vec3& point) {
+  point_ = in_frame(point);
+  towards_ = target_ball_.centre - point_;
+  const double distance = towards_.norm();
+  const double sine = target_ball_.radius / distance;
+  tangent_ = HUGE_VAL;
+  if (!(sine < nearly_all_round)) return;
+  secant_ = 1 / std::sqrt(1 - sine * sine);
+  tangent_ = sine * secant_;
+  towards_ /= distance;
+}
+
+/// Whether it lies outside of the cone from the point to the target's ball.
+bool FewBlockers::is_beside(const Ball& ball) const {
+  if (tangent_ == HUGE_VAL) return false;
+  const Vec3 to = ball.centre - point_;
+  const double along = towards_.dot(to);
+  const double reach = along * tangent_ + ball.radius * secant_ * slightly_more;
+  return reach < 0 || to.squaredNorm() - along * along > reach * reach;
 }
 
 bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   factor = {};
-  if (!(target_.frame.height(point) > 0) || target_parts_.ends.empty()) return true;
-  point_ = in_frame(point);
-  std::size_t first = 0;
-  for (const std::size_t end : target_parts_.ends) {
-    const Corner* corners = target_parts_.corners.data();
-    factor.unobstructed += sum_over(corners + first, corners + end);
-    first = end;
-  }
+  if (!(target_.frame.height(point) > 0) || target_parts_.empty()) return true;
+  look_from(point);
+  take_all();
+  factor.unobstructed = sum_over_parts();
   if (!(factor.unobstructed > 0)) {
     factor.unobstructed = 0;
     return true;
   }
-  parts_.corners = target_parts_.corners;
-  parts_.ends = target_parts_.ends;
-  const auto can_go_on = [&] { return !parts_.ends.empty() && parts_.ends.size() <= most_parts; };
+  const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
   std::uint32_t border = 0;
-  for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k)
-    if (make_shadow(solids_[k], border += borders_of_shade)) cut_off_shadow(factor);
+  for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
+    border += borders_of_shade;
+    if (is_beside(solids_[k].ball)) continue;
+    shadow_.clear();
+    if (make_shadow(solids_[k], border)) cut_off_shadow(factor);
+  }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
     for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
       const Shade& shade = shades_[k];
       const Vec3 towards = point_ - shade.corners.front();
       const double height = shade.normal.dot(towards);
+      if (!(height * side > edge_on * length_about(towards)) || is_beside(shade.ball)) continue;
       const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
-      if (height * side > edge_on * length_about(towards) &&
-          make_shadow(shade, height, number * borders_of_shade))
-        cut_off_shadow(factor);
+      shadow_.clear();
+      if (make_shadow(shade, height, number * borders_of_shade)) cut_off_shadow(factor);
     }
-  if (parts_.ends.size() > most_parts) return false;
-  factor.is_dark = parts_.ends.empty();
+  if (parts_.size() > most_parts) return false;
+  factor.is_dark = parts_.empty();
   if (factor.is_dark) {
     factor.signature = dark_signature;
     factor.hidden = factor.unobstructed;
@@ -293,6 +335,40 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   if (factor.signature == 0) factor.signature = lit_signature;
   factor.hidden = std::clamp(factor.hidden, 0., factor.unobstructed);
   return true;
+}
+
+double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
+  std::array<Vec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = in_frame(cell[k]);
+  take_all();
+  HiddenFactor unused;
+  // What lies in the shadows from all three corners.
+  const auto cut_off_common = [&](auto make) {
+    if (parts_.empty() || parts_.size() > most_parts) return;
+    shadow_.clear();
+    for (const Vec3& corner : corners) {
+      point_ = corner;
+      if (!make()) return;
+    }
+    cut_off_shadow(unused);
+  };
+  for (const Solid& solid : solids_) cut_off_common([&] { return make_shadow(solid, 0); });
+  for (const Shade& shade : shades_) {
+    double side = 0;  // the same for all corners, or nothing is sure
+    cut_off_common([&] {
+      const Vec3 towards = point_ - shade.corners.front();
+      const double height = shade.normal.dot(towards);
+      if (side == 0) side = height;
+      return height * side > 0 && std::abs(height) > edge_on * length_about(towards) &&
+             make_shadow(shade, height, 0);
+    });
+  }
+  double most = 0;
+  for (const Vec3& corner : corners) {
+    point_ = corner;
+    most = std::max(most, sum_over_parts());
+  }
+  return most;
 }
 
 }  // namespace halfshade

@@ -33,6 +33,10 @@ class FewBlockers {
   /// From a point of `a`. False if shadows cut the target into too many parts.
   bool factor(const Vec3& point, HiddenFactor& factor);
 
+  /// At most what some point of a triangle of `a` sees of the target, as a form factor: 0 only if
+  /// surely nothing. What a convex thing hides from all corners it hides from all between them.
+  double seen_at_most(const std::array<Vec3, 3>& cell);
+
  private:
   /// A corner of a convex part of the target, and what its edge from there lies on.
   struct Corner {
@@ -40,13 +44,9 @@ class FewBlockers {
     std::uint32_t border;
   };
   using Part = std::vector<Corner>;
-  /// Convex polygons, one after the other.
-  struct Parts {
-    Part corners;
-    std::vector<std::size_t> ends;
-
-    void clear();
-    void add(const Corner* first, const Corner* last);
+  /// Of a part's corners in `corners_`.
+  struct Range {
+    std::size_t first, last;
   };
   /// Where a·x + b ≤ 0, in the target's plane; what is nearer than `near` to 0 lies on its border.
   struct HalfPlane {
@@ -59,8 +59,13 @@ class FewBlockers {
       return std::abs(h) < near ? 0 : h;
     }
   };
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
   /// A convex polygon in between, in the target's frame.
   struct Shade {
+    Ball ball;
     std::vector<Vec3> corners;
     Vec3 normal;
     Vec2 a;
@@ -69,6 +74,7 @@ class FewBlockers {
   };
   /// A convex solid before the target, in its frame.
   struct Solid {
+    Ball ball;
     const ConvexBody* body;
     std::vector<Vec3> vertices, corners, normals;  ///< the last two of its sides
   };
@@ -80,25 +86,33 @@ class FewBlockers {
   bool make_shadow(const Shade& shade, double height, std::uint32_t border);
   bool make_shadow(const Solid& solid, std::uint32_t border);
   bool add_plane(const Vec3& from, const Vec3& to, std::uint32_t border);
+  void look_from(const Vec3& point);
+  bool is_beside(const Ball& ball) const;
+  void take_all();
   void cut_off_shadow(HiddenFactor& factor);
-  void cut_off_shadow(const Corner* first, const Corner* last, HiddenFactor& factor);
+  bool cut_off_shadow(const Range& part, HiddenFactor& factor);
   void add_hidden(const Part& part, HiddenFactor& factor) const;
   double sum_over(const Corner* first, const Corner* last) const;
+  double sum_over_parts() const;
 
   const SightSurface& target_;
   bool is_applicable_ = false;
   double nearness_ = 0;
   Vec3 normal_;  ///< of the surface that looks, in the target's frame
-  Parts target_parts_;
+  Part target_corners_;
+  std::vector<Range> target_parts_;
+  Ball target_ball_;
   std::vector<Solid> solids_;
   std::vector<Shade> shades_;
   // From one point:
-  Vec3 point_;  ///< in the target's frame
+  Vec3 point_;    ///< in the target's frame
+  Vec3 towards_;  ///< the target's ball, unit length; with the angle that it is seen at:
+  double tangent_ = 0, secant_ = 0;
   std::vector<bool> is_front_;
   std::vector<HalfPlane> shadow_;  ///< of one shade
   std::vector<double> heights_;
-  Parts parts_, next_;
-  Part inside_, rest_;
+  Part corners_, inside_, rest_;
+  std::vector<Range> parts_;
 };
 
 }  // namespace halfshade

@@ -70,11 +70,12 @@ BlockedCells::BlockedCells(const SightScene& scene, PointLooks& looks, int a, in
   if (!few_->is_applicable()) few_.reset();
 }
 
-PointFactor BlockedCells::factor_at(const Vec3& position) {
+HiddenFactor BlockedCells::factor_at(const Vec3& position) {
   ++points_;
-  const SurfacePoint point{position, scene_.surfaces[at(a_)].frame.normal};
-  PointFactor factor;
-  return few_ && few_->factor(point, factor) ? factor : looks_.factor(point, b_);
+  HiddenFactor factor;
+  if (few_ && few_->factor(position, factor)) return factor;
+  const PointFactor seen = looks_.factor({position, scene_.surfaces[at(a_)].frame.normal}, b_);
+  return {seen.unobstructed, seen.unobstructed - seen.visible, seen.visible == 0, seen.signature};
 }
 
 BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
@@ -82,14 +83,13 @@ BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
   Sum sum;
   bool is_first = true;
   for_each_node(degree, [&](double u, double v, double weight) {
-    const PointFactor factor = factor_at(corners[0] + u * along + v * across);
-    const double hidden = factor.unobstructed - factor.visible;
-    sum.hidden += weight * hidden;
+    const HiddenFactor factor = factor_at(corners[0] + u * along + v * across);
+    sum.hidden += weight * factor.hidden;
     sum.unobstructed += weight * factor.unobstructed;
-    sum.hidden_range.add(hidden);
-    sum.visible_range.add(factor.visible);
-    sum.is_lit = sum.is_lit && hidden == 0;
-    sum.is_dark = sum.is_dark && factor.visible == 0;
+    sum.hidden_range.add(factor.hidden);
+    sum.visible_range.add(factor.visible());
+    sum.is_lit = sum.is_lit && factor.hidden == 0;
+    sum.is_dark = sum.is_dark && factor.is_dark;
     if (is_first) sum.signature = factor.signature;
     sum.is_smooth = sum.is_smooth && factor.signature == sum.signature;
     is_first = false;
@@ -117,6 +117,13 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
     const double missed = share_of_unseen * std::min(most, all) - cell.value;
     cell.error = sum.is_lit ? missed : std::max(cell.error, missed);
   }
+  // The same of what may be seen.
+  const double seen = all - cell.value;
+  if (few_ && !cell.is_dark && cell.degree == degrees[0] &&
+      share_of_unseen * all - seen > cell.error) {
+    const double most = few_->seen_at_most(cell.corners) * area;
+    cell.error = std::max(cell.error, share_of_unseen * std::min(most, all) - seen);
+  }
   if (cell.is_dark)
     estimate_dark(all, cell);
   else if (cell.is_smooth && !cell.is_lit)
@@ -128,9 +135,9 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
 void BlockedCells::look_at_corners(BlockedCell& cell) {
   if (cell.hidden_at_corners.size() < 0)
     for (const Vec3& corner : cell.corners) {
-      const PointFactor factor = factor_at(inset_corner(cell.corners, corner));
-      cell.hidden_at_corners.add(factor.unobstructed - factor.visible);
-      cell.visible_at_corners.add(factor.visible);
+      const HiddenFactor factor = factor_at(inset_corner(cell.corners, corner));
+      cell.hidden_at_corners.add(factor.hidden);
+      cell.visible_at_corners.add(factor.visible());
       cell.is_smooth = cell.is_smooth && factor.signature == cell.signature;
     }
   const auto note = [&](const Range& range, const Range& at_corners) {
@@ -145,9 +152,17 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
 /// Where one convex thing hides all of `b` from the corners it hides it from all between them.
 /// Where several do, there may be gaps between them.
 void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
+  if (few_) {
+    cell.unsure = share_of_unseen * few_->seen_at_most(cell.corners) * area_of(cell.corners);
+    if (cell.unsure > 0)
+      cell.error = std::max(cell.error, cell.unsure);
+    else
+      cell.dark_levels = static_cast<int>(share_of_gaps.size());
+    return;
+  }
   double seen = 0;
   for (const Vec3& corner : cell.corners)
-    seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible);
+    seen = std::max(seen, factor_at(inset_corner(cell.corners, corner)).visible());
   if (seen > 0) {
     cell.is_dark = cell.is_smooth = false;
     cell.error = std::max(cell.error, share_of_unseen * seen * area_of(cell.corners));
@@ -216,7 +231,7 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
   BlockedCell half = cell;
   half.is_exact = false;
   ++half.halvings;
-  const int degree = cell.is_lit ? degrees[0] : degrees[1];
+  const int degree = cell.is_lit || cell.is_dark ? degrees[0] : degrees[1];
   for (const Triangle3& corners : {Triangle3{p, middle, r}, Triangle3{middle, q, r}}) {
     half.corners = corners;
     next.push_back(evaluate(half, degree));
@@ -228,9 +243,10 @@ void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
   next.clear();
   if (cell.is_dark && !cell.is_exact && cell.dark_levels >= static_cast<int>(share_of_gaps.size()))
     return next.push_back(closed_form(cell));
+  const bool is_unsure = cell.is_dark && cell.unsure >= cell.error;
   const bool can_rise =
       cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
-  if (!cell.is_lit && !cell.is_exact && can_rise) return next.push_back(raise(cell));
+  if (!cell.is_lit && !cell.is_exact && !is_unsure && can_rise) return next.push_back(raise(cell));
   if (along_kinks && !cell.is_lit && !cell.is_smooth && add_sides_of_kink(cell, next)) return;
   add_halves(cell, next);
 }

@@ -43,6 +43,7 @@ struct BlockedCell {
   bool is_dark = false;         ///< its points see nothing
   bool is_smooth = false;       ///< the same edges bound what all of its points see
   bool is_exact = false;        ///< `value` is a closed form
+  double unsure = 0;            ///< of `error`, what may be seen through gaps if it is dark
   int dark_levels = 0;          ///< times that it or what it is a part of was found dark
   std::uint64_t signature = 0;  ///< of one of its points
   /// Of its points, and of its corners once they were looked at.
@@ -68,7 +69,7 @@ class BlockedCells {
  private:
   struct Sum;
 
-  PointFactor factor_at(const Vec3& point);
+  HiddenFactor factor_at(const Vec3& point);
   Sum sum_over(const Triangle3& corners, int degree);
   BlockedCell evaluate(const BlockedCell& from, int degree);
   BlockedCell raise(const BlockedCell& cell);

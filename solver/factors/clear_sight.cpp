@@ -9,9 +9,8 @@ namespace {
 /// distant polygons cancel.
 constexpr double rounding = 1e-12;
 
-void add(MutualSight& sum, std::span<const Vec3> p, std::span<const Vec3> q,
-         const FormFactorOptions& options, const SightTolerance& tolerance) {
-  const MutualArea area = mutual_area(p, q, options);
+void add(MutualSight& sum, const MutualArea& area, const FormFactorOptions& options,
+         const SightTolerance& tolerance) {
   sum.value += area.value;
   sum.error += area.error + rounding * std::abs(area.value);
   sum.is_reached = sum.is_reached &&
@@ -28,11 +27,14 @@ FormFactorOptions options_of(const SightTolerance& tolerance, std::size_t pairs)
 }  // namespace
 
 MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance) {
-  const auto &p = scene.surfaces[at(a)].pieces, &q = scene.surfaces[at(b)].pieces;
-  const FormFactorOptions options = options_of(tolerance, p.size() * q.size());
+  const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
+  const FormFactorOptions options = options_of(tolerance, p.pieces.size() * q.pieces.size());
   MutualSight sum;
-  for (const Polygon3& piece : p)
-    for (const Polygon3& other : q) add(sum, piece, other, options, tolerance);
+  for (std::size_t k = 0; k < p.pieces.size(); ++k)
+    for (std::size_t l = 0; l < q.pieces.size(); ++l) {
+      const auto far = far_area(p.far_pieces[k], q.far_pieces[l], options);
+      add(sum, far ? *far : mutual_area(p.pieces[k], q.pieces[l], options), options, tolerance);
+    }
   return sum;
 }
 
@@ -40,7 +42,10 @@ MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
                         const SightTolerance& tolerance) {
   const auto& q = scene.surfaces[at(b)].pieces;
   MutualSight sum;
-  for (const Polygon3& other : q) add(sum, part, other, options_of(tolerance, q.size()), tolerance);
+  for (const Polygon3& other : q) {
+    const FormFactorOptions options = options_of(tolerance, q.size());
+    add(sum, mutual_area(part, other, options), options, tolerance);
+  }
   return sum;
 }
 

@@ -1,6 +1,5 @@
 #include "solver/factors/few_blockers.h"
 
-#include "meshing/backprojection/edge_sum.h"
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
@@ -9,31 +8,56 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t most_shades = 40;
+constexpr std::size_t most_shades = 100;
 constexpr std::size_t most_parts = 48;
 /// What is nearer to a line lies on it: relative to the target.
 constexpr double nearness_of_target = 1e-11;
 /// A point this near to a blocker's plane sees its edge: relative to the blocker.
 constexpr double edge_on = 1e-12;
+/// Targets that fill more of the view, as the sine of half the angle, are not asked what lies
+/// beside them; and balls count as larger by what rounding is.
+constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9;
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
 /// Borders of one shade are numbered from a multiple of this on.
 constexpr std::uint32_t borders_of_shade = 1024;
 
+/// At most √2 times the length, and a good deal quicker.
+double length_about(const Vec2& a) { return std::abs(a.x()) + std::abs(a.y()); }
+double length_about(const Vec3& a) { return std::abs(a.x()) + std::abs(a.y()) + std::abs(a.z()); }
+
+template <class Ball>
+Ball ball_round(const std::vector<Vec3>& points) {
+  Ball ball{Vec3::Zero(), 0};
+  for (const Vec3& p : points) ball.centre += p / static_cast<double>(points.size());
+  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.centre).norm());
+  return ball;
+}
+
 }  // namespace
+
+Vec3 FewBlockers::turned(const Vec3& direction) const {
+  const PlaneFrame& frame = target_.frame;
+  return {frame.e1.dot(direction), frame.e2.dot(direction), frame.normal.dot(direction)};
+}
+
+Vec3 FewBlockers::in_frame(const Vec3& point) const { return turned(point - target_.frame.origin); }
 
 FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.surfaces[at(b)]) {
   const SightSurface& own = scene.surfaces[at(a)];
   if (own.pieces.size() * target_.pieces.size() > 4) return;
+  normal_ = turned(own.frame.normal);
   std::vector<int> blockers;
   double size = 0;
   for (const Polygon3& piece : target_.pieces) {
     const Polygon3 other = clip_to_front(piece, own.frame.origin, own.frame.normal);
     if (other.empty()) continue;
-    Part& part = target_parts_.emplace_back();
+    const std::size_t first = target_corners_.size();
     for (const Vec3& p : other) {
-      part.push_back({target_.frame.to_plane(p), static_cast<std::uint32_t>(part.size())});
+      const std::size_t number = target_corners_.size() - first;
+      target_corners_.push_back({target_.frame.to_plane(p), static_cast<std::uint32_t>(number)});
       size = std::max(size, (p - other.front()).norm());
     }
+    target_parts_.push_back({first, target_corners_.size()});
     for (const Polygon3& own_piece : own.pieces) {
       const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
       if (part.empty()) continue;
@@ -41,6 +65,10 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
         blockers.push_back(scene.blocker_of[at(t)]);
     }
   }
+  std::vector<Vec3> corners;
+  for (const Corner& corner : target_corners_)
+    corners.emplace_back(corner.at.x(), corner.at.y(), 0);
+  target_ball_ = ball_round<Ball>(corners);
   std::sort(blockers.begin(), blockers.end());
   blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
   nearness_ = nearness_of_target * size;
@@ -59,199 +87,288 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
     if (body.edges.size() < borders_of_shade &&
         std::all_of(body.vertices.begin(), body.vertices.end(), is_before)) {
       bodies.push_back(blocker.body);
-      bodies_.push_back(&body);
+      add(body);
     } else
       add(blocker);
   }
-  if (shades_.size() + 3 * bodies_.size() > most_shades) return;
+  if (shades_.size() + 3 * solids_.size() > most_shades) return;
   is_applicable_ = true;
 }
 
 void FewBlockers::add(const Blocker& blocker) {
-  const PlaneFrame& frame = target_.frame;
-  Shade shade{&blocker, {blocker.normal.dot(frame.e1), blocker.normal.dot(frame.e2)},
-              0,        0,
-              HUGE_VAL, -HUGE_VAL};
-  shade.b = blocker.normal.dot(frame.origin - blocker.corners.front());
+  Shade shade;
+  for (const Vec3& corner : blocker.corners) shade.corners.push_back(in_frame(corner));
+  shade.ball = ball_round<Ball>(shade.corners);
+  shade.normal = turned(blocker.normal);
+  shade.a = shade.normal.head<2>();
+  shade.b = -shade.normal.dot(shade.corners.front());
   shade.steepness = shade.a.norm();
-  for (const Part& part : target_parts_)
-    for (const Corner& corner : part) {
-      const double height = shade.a.dot(corner.at) + shade.b;
-      shade.least = std::min(shade.least, height);
-      shade.most = std::max(shade.most, height);
-    }
-  shades_.push_back(shade);
+  shade.least = HUGE_VAL;
+  shade.most = -HUGE_VAL;
+  for (const Corner& corner : target_corners_) {
+    const double height = shade.a.dot(corner.at) + shade.b;
+    shade.least = std::min(shade.least, height);
+    shade.most = std::max(shade.most, height);
+  }
+  shades_.push_back(std::move(shade));
 }
 
-/// What lies behind the plane through the point with this normal. False if nothing of the target
-/// does.
-bool FewBlockers::add_plane(const Vec3& normal, const Vec3& point, double size,
-                            std::uint32_t border) {
-  const PlaneFrame& frame = target_.frame;
-  const Vec2 a(normal.dot(frame.e1), normal.dot(frame.e2));
-  const double b = normal.dot(frame.origin - point);
-  const double steepness = a.norm();
+void FewBlockers::add(const ConvexBody& body) {
+  Solid solid{{}, &body, {}, {}, {}};
+  for (const Vec3& p : body.vertices) solid.vertices.push_back(in_frame(p));
+  solid.ball = ball_round<Ball>(solid.vertices);
+  for (const ConvexBody::Side& side : body.sides) {
+    solid.corners.push_back(in_frame(side.corner));
+    solid.normals.push_back(turned(side.normal));
+  }
+  solids_.push_back(std::move(solid));
+}
+
+/// What lies behind the plane through the point and an edge, both ends relative to the point. False
+/// if nothing of the target does.
+bool FewBlockers::add_plane(const Vec3& from, const Vec3& to, std::uint32_t border) {
+  const Vec3 normal = from.cross(to);
+  const Vec2 a = normal.head<2>();
+  const double b = -normal.dot(point_), steepness = length_about(a);
   // Parallel to the target.
-  if (!(steepness > edge_on * size)) return b <= 0;
-  shadow_.push_back({a / steepness, b / steepness, border});
+  if (!(steepness > edge_on * length_about(normal))) return b <= 0;
+  shadow_.push_back({a, b, nearness_ * steepness, border});
   return true;
 }
 
-/// False if it hides nothing of the target.
-bool FewBlockers::make_shadow(const Shade& shade, const SurfacePoint& point, double height) {
-  shadow_.clear();
+/// Adds the sides of its shadow. False if it hides nothing of the target.
+bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t border) {
   const double side = height > 0 ? 1 : -1;
-  auto border = static_cast<std::uint32_t>(&shade - shades_.data() + 1) * borders_of_shade;
   // What is hidden lies beyond the shade's plane.
   const double nearest = side > 0 ? shade.most : -shade.least;
   const double farthest = side > 0 ? shade.least : -shade.most;
   const double near = nearness_ * shade.steepness;
   if (farthest >= -near) return false;
-  if (nearest > near)
-    shadow_.push_back({side / shade.steepness * shade.a, side / shade.steepness * shade.b, border});
-  const auto& corners = shade.blocker->corners;
-  Vec3 from = corners.back() - point.position;
-  for (const Vec3& corner : corners) {
-    const Vec3 to = corner - point.position;
-    const Vec3 normal = side * from.cross(to);
-    if (!add_plane(normal, point.position, normal.norm(), ++border)) return false;
+  if (nearest > near) shadow_.push_back({side * shade.a, side * shade.b, near, border});
+  Vec3 from = shade.corners.back() - point_;
+  for (const Vec3& corner : shade.corners) {
+    const Vec3 to = corner - point_;
+    ++border;
+    if (!(side > 0 ? add_plane(from, to, border) : add_plane(to, from, border))) return false;
     from = to;
   }
   return true;
 }
 
-/// The cone through the edges between sides that the point sees and those that it does not.
-bool FewBlockers::make_shadow(const ConvexBody& body, const SurfacePoint& point,
-                              std::uint32_t border) {
-  shadow_.clear();
+/// The same: the cone through the edges between sides that the point sees and those that it does
+/// not.
+bool FewBlockers::make_shadow(const Solid& solid, std::uint32_t border) {
   is_front_.clear();
-  for (const ConvexBody::Side& side : body.sides) {
-    const Vec3 towards = point.position - side.corner;
-    is_front_.push_back(side.normal.dot(towards) > edge_on * towards.norm());
+  for (std::size_t k = 0; k < solid.corners.size(); ++k) {
+    const Vec3 towards = point_ - solid.corners[k];
+    is_front_.push_back(solid.normals[k].dot(towards) > edge_on * length_about(towards));
   }
-  for (const auto& [ends, sides] : body.edges) {
+  for (const auto& [ends, sides] : solid.body->edges) {
     ++border;
     const bool left = is_front_[at(sides[0])], right = is_front_[at(sides[1])];
     if (left == right) continue;
-    const Vec3 from = body.vertices[at(ends[left ? 0 : 1])] - point.position;
-    const Vec3 to = body.vertices[at(ends[left ? 1 : 0])] - point.position;
-    const Vec3 normal = from.cross(to);
-    if (!add_plane(normal, point.position, normal.norm(), border)) return false;
+    if (!add_plane(solid.vertices[at(ends[left ? 0 : 1])] - point_,
+                   solid.vertices[at(ends[left ? 1 : 0])] - point_, border))
+      return false;
   }
   return !shadow_.empty();
 }
 
-void FewBlockers::split(const Part& part, const HalfPlane& plane, Part& inside,
-                        Part& outside) const {
-  inside.clear();
-  outside.clear();
-  const Corner* from = &part.back();
-  double at_from = snapped(plane.height(from->at));
+double FewBlockers::sum_over(const Corner* first, const Corner* last) const {
+  FlatSum sum(point_, normal_);
+  sum.start((last - 1)->at);
+  for (; first != last; ++first) sum.add(first->at);
+  return sum.form_factor();
+}
+
+void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
+  factor.hidden += sum_over(part.data(), part.data() + part.size());
+  std::uint32_t before = part[part.size() - 2].border, from = part.back().border;
   for (const Corner& to : part) {
-    const double at_to = snapped(plane.height(to.at));
-    if (at_from <= 0) inside.push_back(*from);
-    if (at_from >= 0) outside.push_back(*from);
-    // Where the border passes over the line, the line takes it up.
-    if (at_from < 0 && at_to > 0) {
-      const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-      inside.push_back({crossing, plane.border});
-      outside.push_back({crossing, from->border});
-    } else if (at_from > 0 && at_to < 0) {
-      const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-      outside.push_back({crossing, plane.border});
-      inside.push_back({crossing, from->border});
-    } else if (at_from == 0) {
-      if (at_to > 0) inside.back().border = plane.border;
-      if (at_to < 0) outside.back().border = plane.border;
-    }
-    from = &to;
-    at_from = at_to;
+    factor.signature +=
+        mix_bits(mix_bits((static_cast<std::uint64_t>(before) << 32) + from) + to.border);
+    before = from;
+    from = to.border;
   }
 }
 
-void FewBlockers::cut_off_shadow(Part& part) {
+/// Of one part: what lies outside of the shadow is added to the parts, what is left is hidden.
+/// False if all lies outside.
+bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
   const auto is_off = [&](const HalfPlane& plane) {
-    return std::all_of(part.begin(), part.end(),
-                       [&](const Corner& c) { return plane.height(c.at) > -nearness_; });
+    for (std::size_t k = part.first; k < part.last; ++k)
+      if (plane.height(corners_[k].at) < 0) return false;
+    return true;
   };
-  if (std::any_of(shadow_.begin(), shadow_.end(), is_off)) return next_.push_back(part);
-  cut_.clear();
-  rest_ = part;
+  if (std::any_of(shadow_.begin(), shadow_.end(), is_off)) return false;
+  const std::size_t corners_before = corners_.size(), parts_before = parts_.size();
+  rest_.assign(corners_.data() + part.first, corners_.data() + part.last);
   for (const HalfPlane& plane : shadow_) {
-    const bool is_inside = std::all_of(rest_.begin(), rest_.end(), [&](const Corner& c) {
-      return plane.height(c.at) < nearness_;
-    });
-    if (is_inside) continue;
-    const bool is_outside = std::all_of(rest_.begin(), rest_.end(), [&](const Corner& c) {
-      return plane.height(c.at) > -nearness_;
-    });
-    if (is_outside) return next_.push_back(part);
-    split(rest_, plane, inside_, outside_);
-    if (outside_.size() > 2) cut_.push_back(outside_);
+    heights_.clear();
+    double least = HUGE_VAL, most = -HUGE_VAL;
+    for (const Corner& corner : rest_) {
+      heights_.push_back(plane.height(corner.at));
+      least = std::min(least, heights_.back());
+      most = std::max(most, heights_.back());
+    }
+    if (most <= 0) continue;
+    if (least >= 0) {
+      corners_.resize(corners_before);
+      parts_.resize(parts_before);
+      return false;
+    }
+    inside_.clear();
+    const std::size_t start = corners_.size();
+    const Corner* from = &rest_.back();
+    double at_from = heights_.back();
+    for (std::size_t k = 0; k < rest_.size(); ++k) {
+      const Corner& to = rest_[k];
+      const double at_to = heights_[k];
+      if (at_from <= 0) inside_.push_back(*from);
+      if (at_from >= 0) corners_.push_back(*from);
+      // Where the border passes over the line, the line takes it up.
+      if (at_from < 0 && at_to > 0) {
+        const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
+        inside_.push_back({crossing, plane.border});
+        corners_.push_back({crossing, from->border});
+      } else if (at_from > 0 && at_to < 0) {
+        const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
+        corners_.push_back({crossing, plane.border});
+        inside_.push_back({crossing, from->border});
+      } else if (at_from == 0) {
+        if (at_to > 0) inside_.back().border = plane.border;
+        if (at_to < 0) corners_.back().border = plane.border;
+      }
+      from = &to;
+      at_from = at_to;
+    }
+    if (corners_.size() > start + 2)
+      parts_.push_back({start, corners_.size()});
+    else
+      corners_.resize(start);
     rest_.swap(inside_);
   }
-  next_.insert(next_.end(), cut_.begin(), cut_.end());
+  if (rest_.size() > 2) add_hidden(rest_, factor);
+  return true;
 }
 
-void FewBlockers::cut_off_shadow() {
-  next_.clear();
-  for (Part& part : parts_) cut_off_shadow(part);
-  parts_.swap(next_);
+void FewBlockers::cut_off_shadow(HiddenFactor& factor) {
+  const std::size_t count = parts_.size();
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Range part = parts_[k];
+    if (!cut_off_shadow(part, factor)) parts_[kept++] = part;
+  }
+  parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(kept),
+               parts_.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-bool FewBlockers::factor(const SurfacePoint& point, PointFactor& factor) {
-  factor = {};
-  if (!(target_.frame.height(point.position) > 0) || target_parts_.empty()) return true;
-  factor.unobstructed = unobstructed_factor(point.position, point.normal, target_.rings);
-  if (!(factor.unobstructed > 0)) return true;
+void FewBlockers::take_all() {
+  corners_ = target_corners_;
   parts_ = target_parts_;
-  bool is_lit = true;
+}
+
+double FewBlockers::sum_over_parts() const {
+  double sum = 0;
+  for (const auto& [first, last] : parts_)
+    sum += sum_over(corners_.data() + first, corners_.data() + last);
+  return sum;
+}
+
+void FewBlockers::look_from(const Vec3& point) {
+  point_ = in_frame(point);
+  towards_ = target_ball_.centre - point_;
+  const double distance = towards_.norm();
+  const double sine = target_ball_.radius / distance;
+  tangent_ = HUGE_VAL;
+  if (!(sine < nearly_all_round)) return;
+  secant_ = 1 / std::sqrt(1 - sine * sine);
+  tangent_ = sine * secant_;
+  towards_ /= distance;
+}
+
+/// Whether it lies outside of the cone from the point to the target's ball.
+bool FewBlockers::is_beside(const Ball& ball) const {
+  if (tangent_ == HUGE_VAL) return false;
+  const Vec3 to = ball.centre - point_;
+  const double along = towards_.dot(to);
+  const double reach = along * tangent_ + ball.radius * secant_ * slightly_more;
+  return reach < 0 || to.squaredNorm() - along * along > reach * reach;
+}
+
+bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
+  factor = {};
+  if (!(target_.frame.height(point) > 0) || target_parts_.empty()) return true;
+  look_from(point);
+  take_all();
+  factor.unobstructed = sum_over_parts();
+  if (!(factor.unobstructed > 0)) {
+    factor.unobstructed = 0;
+    return true;
+  }
   const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
-  for (std::size_t k = 0; k < bodies_.size() && can_go_on(); ++k) {
-    const std::size_t number = shades_.size() + k + 1;
-    if (make_shadow(*bodies_[k], point, static_cast<std::uint32_t>(number) * borders_of_shade))
-      cut_off_shadow();
+  std::uint32_t border = 0;
+  for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
+    border += borders_of_shade;
+    if (is_beside(solids_[k].ball)) continue;
+    shadow_.clear();
+    if (make_shadow(solids_[k], border)) cut_off_shadow(factor);
   }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
     for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
-      const Blocker& blocker = *shades_[k].blocker;
-      const Vec3 towards = point.position - blocker.corners.front();
-      const double height = blocker.normal.dot(towards);
-      if (height * side > edge_on * towards.norm() && make_shadow(shades_[k], point, height))
-        cut_off_shadow();
+      const Shade& shade = shades_[k];
+      const Vec3 towards = point_ - shade.corners.front();
+      const double height = shade.normal.dot(towards);
+      if (!(height * side > edge_on * length_about(towards)) || is_beside(shade.ball)) continue;
+      const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
+      shadow_.clear();
+      if (make_shadow(shade, height, number * borders_of_shade)) cut_off_shadow(factor);
     }
   if (parts_.size() > most_parts) return false;
-  if (parts_.empty()) {
-    factor.region = Region::umbra;
+  factor.is_dark = parts_.empty();
+  if (factor.is_dark) {
     factor.signature = dark_signature;
+    factor.hidden = factor.unobstructed;
     return true;
   }
-  for (const Part& part : parts_)
-    for (const Corner& corner : part) is_lit = is_lit && corner.border < borders_of_shade;
-  if (is_lit) {
-    factor.region = Region::lit;
-    factor.signature = lit_signature;
-    factor.visible = factor.unobstructed;
-    return true;
-  }
-  factor.region = Region::penumbra;
-  EdgeSum sum(target_.frame.to_space(parts_.front().front().at) - point.position);
-  for (const Part& part : parts_) {
-    const Corner *before = &part[part.size() - 2], *from = &part.back();
-    Vec3 a = target_.frame.to_space(from->at) - point.position;
-    for (const Corner& to : part) {
-      const Vec3 b = target_.frame.to_space(to.at) - point.position;
-      sum.add(a, b);
-      a = b;
-      factor.signature += mix_bits(
-          mix_bits((static_cast<std::uint64_t>(before->border) << 32) + from->border) + to.border);
-      before = from;
-      from = &to;
-    }
-  }
-  factor.visible = std::clamp(sum.form_factor(point.normal), 0., factor.unobstructed);
+  if (factor.signature == 0) factor.signature = lit_signature;
+  factor.hidden = std::clamp(factor.hidden, 0., factor.unobstructed);
   return true;
+}
+
+double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
+  std::array<Vec3, 3> corners;
+  for (std::size_t k = 0; k < 3; ++k) corners[k] = in_frame(cell[k]);
+  take_all();
+  HiddenFactor unused;
+  // What lies in the shadows from all three corners.
+  const auto cut_off_common = [&](auto make) {
+    if (parts_.empty() || parts_.size() > most_parts) return;
+    shadow_.clear();
+    for (const Vec3& corner : corners) {
+      point_ = corner;
+      if (!make()) return;
+    }
+    cut_off_shadow(unused);
+  };
+  for (const Solid& solid : solids_) cut_off_common([&] { return make_shadow(solid, 0); });
+  for (const Shade& shade : shades_) {
+    double side = 0;  // the same for all corners, or nothing is sure
+    cut_off_common([&] {
+      const Vec3 towards = point_ - shade.corners.front();
+      const double height = shade.normal.dot(towards);
+      if (side == 0) side = height;
+      return height * side > 0 && std::abs(height) > edge_on * length_about(towards) &&
+             make_shadow(shade, height, 0);
+    });
+  }
+  double most = 0;
+  for (const Vec3& corner : corners) {
+    point_ = corner;
+    most = std::max(most, sum_over_parts());
+  }
+  return most;
 }
 
 }  // namespace halfshade

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/direct/direct_light.h"
+#include "solver/factors/flat_sum.h"
 #include "solver/factors/sight_scene.h"
 
 #include <cstdint>
@@ -8,10 +9,20 @@
 
 namespace halfshade {
 
-/// Form factors from points of one surface to what is seen of another, where only few convex
+/// What is hidden of a surface from a point.
+struct HiddenFactor {
+  double unobstructed = 0;      ///< form factor to the whole surface above the horizon
+  double hidden = 0;            ///< the part of it that is hidden: `unobstructed` if all is
+  bool is_dark = true;          ///< nothing is seen
+  std::uint64_t signature = 0;  ///< of the edges that bound what is hidden
+
+  double visible() const { return is_dark ? 0 : unobstructed - hidden; }
+};
+
+/// Form factors from points of one surface to what is hidden of another, where only few convex
 /// polygons come between: shadows are cut off the target one after the other, in the target's
-/// plane. Five to ten times as quick as the search for silhouettes, and exact to rounding, too; but
-/// the signature tells more apart than what bounds the visible part.
+/// plane, and what is cut off is summed. Ten times and more as quick as the search for silhouettes,
+/// and exact to rounding, too; but the signature tells more apart than what bounds the hidden part.
 class FewBlockers {
  public:
   /// Nothing is applicable if there is too much in between. `scene` must outlive it.
@@ -20,7 +31,11 @@ class FewBlockers {
   bool is_applicable() const { return is_applicable_; }
 
   /// From a point of `a`. False if shadows cut the target into too many parts.
-  bool factor(const SurfacePoint& point, PointFactor& factor);
+  bool factor(const Vec3& point, HiddenFactor& factor);
+
+  /// At most what some point of a triangle of `a` sees of the target, as a form factor: 0 only if
+  /// surely nothing. What a convex thing hides from all corners it hides from all between them.
+  double seen_at_most(const std::array<Vec3, 3>& cell);
 
  private:
   /// A corner of a convex part of the target, and what its edge from there lies on.
@@ -29,40 +44,75 @@ class FewBlockers {
     std::uint32_t border;
   };
   using Part = std::vector<Corner>;
-  /// Where a·x + b ≤ 0, in the target's plane; a of unit length.
+  /// Of a part's corners in `corners_`.
+  struct Range {
+    std::size_t first, last;
+  };
+  /// Where a·x + b ≤ 0, in the target's plane; what is nearer than `near` to 0 lies on its border.
   struct HalfPlane {
     Vec2 a;
-    double b;
+    double b, near;
     std::uint32_t border;
-    double height(const Vec2& p) const { return a.dot(p) + b; }
+
+    double height(const Vec2& p) const {
+      const double h = a.dot(p) + b;
+      return std::abs(h) < near ? 0 : h;
+    }
   };
-  /// A convex polygon in between, with its own plane in that of the target: negative in front.
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+  /// A convex polygon in between, in the target's frame.
   struct Shade {
-    const Blocker* blocker;
+    Ball ball;
+    std::vector<Vec3> corners;
+    Vec3 normal;
     Vec2 a;
     double b, steepness;
     double least, most;  ///< heights of the target above its plane
   };
+  /// A convex solid before the target, in its frame.
+  struct Solid {
+    Ball ball;
+    const ConvexBody* body;
+    std::vector<Vec3> vertices, corners, normals;  ///< the last two of its sides
+  };
 
   void add(const Blocker& blocker);
-  bool make_shadow(const Shade& shade, const SurfacePoint& point, double height);
-  bool make_shadow(const ConvexBody& body, const SurfacePoint& point, std::uint32_t border);
-  bool add_plane(const Vec3& normal, const Vec3& point, double size, std::uint32_t border);
-  void cut_off_shadow();
-  void cut_off_shadow(Part& part);
-  double snapped(double height) const { return std::abs(height) < nearness_ ? 0 : height; }
-  void split(const Part& part, const HalfPlane& plane, Part& inside, Part& outside) const;
+  void add(const ConvexBody& body);
+  Vec3 in_frame(const Vec3& point) const;
+  Vec3 turned(const Vec3& direction) const;
+  bool make_shadow(const Shade& shade, double height, std::uint32_t border);
+  bool make_shadow(const Solid& solid, std::uint32_t border);
+  bool add_plane(const Vec3& from, const Vec3& to, std::uint32_t border);
+  void look_from(const Vec3& point);
+  bool is_beside(const Ball& ball) const;
+  void take_all();
+  void cut_off_shadow(HiddenFactor& factor);
+  bool cut_off_shadow(const Range& part, HiddenFactor& factor);
+  void add_hidden(const Part& part, HiddenFactor& factor) const;
+  double sum_over(const Corner* first, const Corner* last) const;
+  double sum_over_parts() const;
 
   const SightSurface& target_;
   bool is_applicable_ = false;
   double nearness_ = 0;
-  std::vector<Part> target_parts_;
-  std::vector<const ConvexBody*> bodies_;  ///< before the target
+  Vec3 normal_;  ///< of the surface that looks, in the target's frame
+  Part target_corners_;
+  std::vector<Range> target_parts_;
+  Ball target_ball_;
+  std::vector<Solid> solids_;
   std::vector<Shade> shades_;
+  // From one point:
+  Vec3 point_;    ///< in the target's frame
+  Vec3 towards_;  ///< the target's ball, unit length; with the angle that it is seen at:
+  double tangent_ = 0, secant_ = 0;
   std::vector<bool> is_front_;
-  std::vector<HalfPlane> shadow_;  ///< of one shade from one point
-  std::vector<Part> parts_, next_, cut_;
-  Part inside_, outside_, rest_;
+  std::vector<HalfPlane> shadow_;  ///< of one shade
+  std::vector<double> heights_;
+  Part corners_, inside_, rest_;
+  std::vector<Range> parts_;
 };
 
 }  // namespace halfshade

@@ -42,6 +42,7 @@ SightSurface sight_surface(const Surface& surface) {
   }
   result.outline = result.rings.front();
   result.pieces = convex_pieces(surface, result.outline);
+  for (const Polygon3& piece : result.pieces) result.far_pieces.push_back(far_piece(piece));
   result.frame = surface.frame;
   result.scale = surface.scale;
   result.area = area(surface);

@@ -4,6 +4,7 @@
 #include "solver/direct/direct_light.h"
 #include "solver/factors/convex_bodies.h"
 #include "solver/factors/factor_scene.h"
+#include "solver/factors/far_sight.h"
 #include "solver/factors/joined_scene.h"
 #include "solver/reflected/reflecting_scene.h"
 
@@ -25,9 +26,10 @@ struct FlatPiece {
 
 /// A surface as form factors need it.
 struct SightSurface {
-  Polygon3 outline;              ///< the outer ring
-  std::vector<Polygon3> rings;   ///< the outer one, then the holes
-  std::vector<Polygon3> pieces;  ///< convex, together the surface
+  Polygon3 outline;                  ///< the outer ring
+  std::vector<Polygon3> rings;       ///< the outer one, then the holes
+  std::vector<Polygon3> pieces;      ///< convex, together the surface
+  std::vector<FarPiece> far_pieces;  ///< the same
   PlaneFrame frame;
   LocalScale scale;
   double area = 0;  ///< squared scene units

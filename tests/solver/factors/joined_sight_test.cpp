@@ -127,10 +127,11 @@ TEST(PointLooks, AgreeWithExactPartsOfTiles) {
       EXPECT_EQ(looked.visible, expected.region == Region::lit ? looked.unobstructed : 0);
     }
     FewBlockers blockers(room.sight, a, b);
-    PointFactor cut;
-    if (!blockers.is_applicable() || !blockers.factor(point, cut)) continue;
+    HiddenFactor cut;
+    if (!blockers.is_applicable() || !blockers.factor(point.position, cut)) continue;
     ++few;
-    EXPECT_NEAR(cut.visible, expected.visible, 1e-13);
+    EXPECT_NEAR(cut.visible(), expected.visible, 1e-13);
+    EXPECT_NEAR(cut.hidden, expected.unobstructed - expected.visible, 1e-13);
     EXPECT_NEAR(cut.unobstructed, expected.unobstructed, 1e-13);
   }
   EXPECT_GT(partial, 100);

@@ -48,7 +48,7 @@ std::vector<Region> label_elements(const SoundScene& scene, const OpaqueScene& o
 
 /// The same for the elements of a complete mesh of these sources: what the widest element of each
 /// cell sees, all of the cell do. Some more of large cells are looked at, and all of them where
-/// those do not agree, or where a source is cut by the horizon.
+/// those do not agree.
 std::vector<Region> label_cells(const SoundScene& scene, const OpaqueScene& opaque,
                                 const ElementTable& elements, std::span<const LightSource> sources,
                                 const Progress& progress = {});

@@ -38,10 +38,6 @@ class Labeller {
   /// The same for all elements of a cell; `label` takes the element and its region.
   template <class Label>
   void look_at_cell(std::span<const int> cell, const LightSource& source, const Label& label) {
-    if (cell.size() == 1 || is_cut_by_horizon(elements_.surface[at(cell.front())], source)) {
-      for (const int e : cell) label(e, look(e, source));
-      return;
-    }
     const Surface& emitter = scene_.surfaces[at(source.surface)];
     const double rounding = tolerance_of(emitter).length;
     in_front_.clear();
@@ -61,22 +57,6 @@ class Labeller {
   Vec3 centre(int element) const {
     const auto [a, b, c] = elements_.triangle(element);
     return (a + b + c) / 3;
-  }
-
-  /// Where something comes up over the horizon beside an emitter that it cuts, labels change
-  /// without a curve.
-  bool is_cut_by_horizon(int surface, const LightSource& source) const {
-    const Surface &receiver = scene_.surfaces[at(surface)],
-                  &emitter = scene_.surfaces[at(source.surface)];
-    const double rounding = tolerance_of(receiver, emitter).length;
-    bool above = false, below = false;
-    for (const Ring& ring : emitter.rings)
-      for (const Vec2& p : ring) {
-        const double height = receiver.frame.height(emitter.frame.to_space(p));
-        above = above || height > -rounding;
-        below = below || height < rounding;
-      }
-    return above && below;
   }
 
   /// The element in front whose centre is farthest from its edges, as elements beside bent curves

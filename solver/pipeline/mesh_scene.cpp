@@ -104,8 +104,8 @@ DiscontinuityMesh make_mesh(const PreparedScene& prepared, const Discontinuities
 /// Whether nothing was left out, so that all of a cell between curves sees the same of a source.
 bool is_complete(const MeshResult& result, const DiscontinuityOptions& events) {
   const DiscontinuityReport& search = result.found.report;
-  return events.contact && events.face && events.ev && events.eee && !search.interrupted &&
-         result.irradiance_tolerance == 0 && result.mesh.culled == 0 &&
+  return events.contact && events.face && events.ev && events.eee && events.horizon &&
+         !search.interrupted && result.irradiance_tolerance == 0 && result.mesh.culled == 0 &&
          result.mesh.unfinished_surfaces == 0 &&
          std::all_of(search.left_out.begin(), search.left_out.end(),
                      [](double work) { return work == 0; });

@@ -252,7 +252,8 @@ class DirectFieldSearch {
 
   void fit_on_patches(AdaptiveFieldOptions fit) {
     fit.is_too_much = [this] { return crowd_work_ > crowd_work_for_one * options_.max_unknowns; };
-    fit.merge = fit.split;
+    // Without curves most splits are needed: what is merged there is soon split again.
+    fit.merge = fit.split && found_.discontinuity_tolerance > 0;
     stages_.run("direct light", [&] {
       found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched_);
       return found_.light.report.unknowns;

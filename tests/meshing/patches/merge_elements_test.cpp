@@ -200,8 +200,9 @@ TEST(MergeElementsOfPatches, NodesAreToldWhereTheyAre) {
     EXPECT_EQ(now[n], static_cast<int>(kept++)) << "the others keep their order";
     const int whole = before.parent[n];
     EXPECT_EQ(after.parent[at(now[n])], whole < 0 ? -1 : now[at(whole)]);
-    if (before.element[n] >= 0)
+    if (before.element[n] >= 0) {
       EXPECT_EQ(old.triangle(before.element[n]), table.triangle(after.element[at(now[n])]));
+    }
   }
   EXPECT_EQ(kept, after.parent.size());
   EXPECT_LT(mesh.element_count(), old.count());

@@ -124,7 +124,7 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
   }
   // The same of what may be seen.
   const double seen = all - cell.value;
-  if (few_ && !cell.is_dark && cell.degree == degrees[0] &&
+  if (few_ && few_->has_only_solids() && !cell.is_dark && cell.degree == degrees[0] &&
       share_of_unseen * all - seen > cell.error) {
     const double most = few_->seen_at_most(inset_corners(cell.corners)) * area;
     cell.error = std::max(cell.error, share_of_unseen * std::min(most, all) - seen);
@@ -157,9 +157,10 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
 /// Where one convex thing hides all of `b` from the corners it hides it from all between them.
 /// Where several do, there may be gaps between them.
 void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
+  const bool is_bounded = few_ && few_->has_only_solids();
   const double bound =
-      few_ ? few_->seen_at_most(inset_corners(cell.corners)) * area_of(cell.corners) : 0;
-  if (few_ && !(bound > 0)) {
+      is_bounded ? few_->seen_at_most(inset_corners(cell.corners)) * area_of(cell.corners) : 0;
+  if (is_bounded && !(bound > 0)) {
     cell.dark_levels = surely_dark;
     return;
   }
@@ -172,7 +173,7 @@ void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
     return;
   }
   // Where faces of one thing meet their common shadows leave gaps that are none.
-  if (few_ && few_->has_only_solids()) {
+  if (is_bounded) {
     cell.unsure = share_of_unseen * bound;
     cell.error = std::max(cell.error, cell.unsure);
     return;
@@ -240,7 +241,8 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
   BlockedCell half = cell;
   half.is_exact = false;
   ++half.halvings;
-  const int degree = cell.is_lit || cell.is_dark ? degrees[0] : degrees[1];
+  const bool is_unsure = cell.is_dark && cell.unsure > 0;
+  const int degree = cell.is_lit || is_unsure ? degrees[0] : degrees[1];
   for (const Triangle3& corners : {Triangle3{p, middle, r}, Triangle3{middle, q, r}}) {
     half.corners = corners;
     next.push_back(evaluate(half, degree));
@@ -252,7 +254,7 @@ void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
   next.clear();
   if (cell.is_dark && !cell.is_exact && cell.dark_levels == surely_dark)
     return next.push_back(closed_form(cell));
-  const bool is_unsure = cell.is_dark && cell.unsure >= cell.error;
+  const bool is_unsure = cell.is_dark && cell.unsure > 0 && cell.unsure >= cell.error;
   const bool can_rise =
       cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
   if (!cell.is_lit && !cell.is_exact && !is_unsure && can_rise) return next.push_back(raise(cell));

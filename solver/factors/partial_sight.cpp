@@ -7,7 +7,7 @@ namespace halfshade {
 namespace {
 
 /// At how many points each of the two surfaces is tried before the better one is gone on with.
-constexpr std::size_t points_to_try = 80;
+constexpr std::size_t points_to_try = 150;
 
 /// Errors this many times too large are worth looking for kinks, about 30 points each: without,
 /// cells grow like the root of it.

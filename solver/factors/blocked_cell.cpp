@@ -16,6 +16,7 @@ constexpr int highest_symmetric = 6;  // triangle_rule
 constexpr double share_of_unseen = 0.5;
 /// The same of what might be seen through gaps, where nothing is seen; by how often it was looked.
 constexpr std::array<double, 6> share_of_gaps = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 0};
+constexpr int surely_dark = 100;  ///< instead of such a number: nothing can be seen
 /// Of the spread of values, what a first cell may be off by, though two rules agree by chance; half
 /// of it after each halving.
 constexpr double share_of_spread = 0.1;
@@ -30,6 +31,10 @@ double area_of(const Triangle3& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0
 
 Vec3 inset_corner(const Triangle3& cell, const Vec3& corner) {
   return corner + inset * ((cell[0] + cell[1] + cell[2]) / 3 - corner);
+}
+
+Triangle3 inset_corners(const Triangle3& cell) {
+  return {inset_corner(cell, cell[0]), inset_corner(cell, cell[1]), inset_corner(cell, cell[2])};
 }
 
 int next_degree(int degree) { return *std::upper_bound(degrees.begin(), degrees.end(), degree); }
@@ -119,9 +124,9 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
   }
   // The same of what may be seen.
   const double seen = all - cell.value;
-  if (few_ && !cell.is_dark && cell.degree == degrees[0] &&
+  if (few_ && few_->has_only_solids() && !cell.is_dark && cell.degree == degrees[0] &&
       share_of_unseen * all - seen > cell.error) {
-    const double most = few_->seen_at_most(cell.corners) * area;
+    const double most = few_->seen_at_most(inset_corners(cell.corners)) * area;
     cell.error = std::max(cell.error, share_of_unseen * std::min(most, all) - seen);
   }
   if (cell.is_dark)
@@ -152,12 +157,11 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
 /// Where one convex thing hides all of `b` from the corners it hides it from all between them.
 /// Where several do, there may be gaps between them.
 void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
-  if (few_) {
-    cell.unsure = share_of_unseen * few_->seen_at_most(cell.corners) * area_of(cell.corners);
-    if (cell.unsure > 0)
-      cell.error = std::max(cell.error, cell.unsure);
-    else
-      cell.dark_levels = static_cast<int>(share_of_gaps.size());
+  const bool is_bounded = few_ && few_->has_only_solids();
+  const double bound =
+      is_bounded ? few_->seen_at_most(inset_corners(cell.corners)) * area_of(cell.corners) : 0;
+  if (is_bounded && !(bound > 0)) {
+    cell.dark_levels = surely_dark;
     return;
   }
   double seen = 0;
@@ -168,9 +172,15 @@ void BlockedCells::estimate_dark(double whole, BlockedCell& cell) {
     cell.error = std::max(cell.error, share_of_unseen * seen * area_of(cell.corners));
     return;
   }
+  // Where faces of one thing meet their common shadows leave gaps that are none.
+  if (is_bounded) {
+    cell.unsure = share_of_unseen * bound;
+    cell.error = std::max(cell.error, cell.unsure);
+    return;
+  }
   const auto level = std::min(at(cell.dark_levels), share_of_gaps.size() - 1);
   cell.error += share_of_gaps[level] * whole;
-  ++cell.dark_levels;
+  cell.dark_levels = level + 1 < share_of_gaps.size() ? cell.dark_levels + 1 : surely_dark;
 }
 
 BlockedCell BlockedCells::evaluate(const BlockedCell& from, int degree) {
@@ -231,7 +241,8 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
   BlockedCell half = cell;
   half.is_exact = false;
   ++half.halvings;
-  const int degree = cell.is_lit || cell.is_dark ? degrees[0] : degrees[1];
+  const bool is_unsure = cell.is_dark && cell.unsure > 0;
+  const int degree = cell.is_lit || is_unsure ? degrees[0] : degrees[1];
   for (const Triangle3& corners : {Triangle3{p, middle, r}, Triangle3{middle, q, r}}) {
     half.corners = corners;
     next.push_back(evaluate(half, degree));
@@ -241,9 +252,9 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
 void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
                           std::vector<BlockedCell>& next) {
   next.clear();
-  if (cell.is_dark && !cell.is_exact && cell.dark_levels >= static_cast<int>(share_of_gaps.size()))
+  if (cell.is_dark && !cell.is_exact && cell.dark_levels == surely_dark)
     return next.push_back(closed_form(cell));
-  const bool is_unsure = cell.is_dark && cell.unsure >= cell.error;
+  const bool is_unsure = cell.is_dark && cell.unsure > 0 && cell.unsure >= cell.error;
   const bool can_rise =
       cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
   if (!cell.is_lit && !cell.is_exact && !is_unsure && can_rise) return next.push_back(raise(cell));

@@ -29,6 +29,8 @@ class FewBlockers {
   FewBlockers(const SightScene& scene, int a, int b);
 
   bool is_applicable() const { return is_applicable_; }
+  /// Whether all that is in between are closed convex bodies before the target.
+  bool has_only_solids() const { return shades_.empty(); }
 
   /// From a point of `a`. False if shadows cut the target into too many parts.
   bool factor(const Vec3& point, HiddenFactor& factor);

@@ -17,7 +17,7 @@ constexpr double steepest = 0.3;
 /// What is nearer than this share of the scene is one, or touches.
 constexpr double alike = 1e-9;
 /// Of each kind.
-constexpr std::size_t most = 20000;
+constexpr std::size_t most_features = 20000;
 
 class Finder {
  public:
@@ -60,7 +60,7 @@ class Finder {
     const double reach = nearest_corner * length;
     visit_near(own, box.grown(reach), [&](int other, const PlaneFrame& plane) {
       const double height = plane.height(corner);
-      if (height < -tiny_ || height > reach || found.corners.size() >= most) return;
+      if (height < -tiny_ || height > reach || found.corners.size() >= most_features) return;
       const Vec3 foot = corner - height * plane.normal;
       if (is_new(other, foot, foot))
         found.corners.push_back({other, foot, height > tiny_ ? height : 0});
@@ -85,7 +85,7 @@ class Finder {
         std::swap(near.feet[0], near.feet[1]);
         std::swap(near.height[0], near.height[1]);
       }
-      if (found.edges.size() < most && is_new(other, near.feet[0], near.feet[1]))
+      if (found.edges.size() < most_features && is_new(other, near.feet[0], near.feet[1]))
         found.edges.push_back(near);
     });
   }

@@ -18,7 +18,7 @@ namespace {
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
 /// Narrow surfaces draw elements of their own: no more of them than this are places.
-constexpr std::size_t most_places = 4 * places;
+constexpr std::size_t most_mean_places = 4 * places;
 /// Where so many lines draw elements of their own, few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
@@ -67,7 +67,7 @@ Places spread_places(const SoundScene& scene, int count) {
 Places mesh_places(const SoundScene& scene, const Progress& progress) {
   PlanarMeshOptions coarse;
   coarse.max_length = length_for_count(scene, places);
-  coarse.max_triangles = most_places;
+  coarse.max_triangles = most_mean_places;
   try {
     ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
     return {element_centres(elements), std::move(elements.area)};

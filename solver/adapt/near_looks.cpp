@@ -20,6 +20,8 @@ constexpr double seen_by_samples = 0.1;
 /// Distances from an edge in its heights: the first place stands for those below √½; then each is
 /// twice the one before and stands for those from √½ to √2 of it.
 constexpr double first_distance = 0.35;
+/// Shares of an element's size below this are rounding, of angles, too.
+constexpr double same_place = 1e-9;
 /// Of squared errors: some places alone may be off by this much.
 constexpr double safety = 1.25;
 
@@ -35,7 +37,7 @@ std::array<double, 2> directions(const std::array<Vec2, 3>& corners) {
   double widest = 0;
   for (const Vec2& c : corners) widest = std::max(widest, c.norm());
   for (const Vec2& c : corners)
-    if (c.norm() > 1e-9 * widest) angles.push_back(std::atan2(c.y(), c.x()));
+    if (c.norm() > same_place * widest) angles.push_back(std::atan2(c.y(), c.x()));
   std::sort(angles.begin(), angles.end());
   double gap = 0, from = 0;
   for (std::size_t k = 0; k < angles.size(); ++k) {
@@ -44,7 +46,7 @@ std::array<double, 2> directions(const std::array<Vec2, 3>& corners) {
     if (next - angles[k] > gap) gap = next - angles[k], from = next;
   }
   // Seen from inside, no gap is wider than a half turn.
-  if (gap < std::numbers::pi * (1 - 1e-9)) return {0, 2 * std::numbers::pi};
+  if (gap < std::numbers::pi * (1 - same_place)) return {0, 2 * std::numbers::pi};
   return {from, from + 2 * std::numbers::pi - gap};
 }
 
@@ -99,7 +101,8 @@ class Looker {
       return;
     const Vec3 across = element_.normal.cross(way / length);
     double distance = first_distance, band = std::numbers::sqrt2 / 2;
-    for (; distance * low < farthest && distance < farthest / (1e-9 * width_); distance *= 2) {
+    for (; distance * low < farthest && distance < farthest / (same_place * width_);
+         distance *= 2) {
       if (distance < 0.5) {
         add_parallels(edge, across, distance, band);
         distance = 0.5;  // the next is 1

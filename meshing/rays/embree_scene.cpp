@@ -1,7 +1,6 @@
 #include "meshing/rays/embree_scene.h"
 
 #include "meshing/core/error.h"
-#include "meshing/rays/soup_triangle.h"
 
 #include <embree3/rtcore.h>
 #include <fmt/core.h>
@@ -50,6 +49,7 @@ void throw_on_error(RTCDevice device) {
 struct Query {
   RTCIntersectContext context;
   const TriangleSoup* soup;
+  const SoupTriangle* triangles;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
   Vec3 origin;                        // nearest hit
   const Vec3* directions = nullptr;   // nearest hit: the packet's
@@ -60,14 +60,14 @@ static_assert(std::is_standard_layout_v<Query>, "a pointer to the context must l
 bool is_between(const Query& query, const Segment& segment, std::size_t id) {
   const int plane = query.soup->plane[id];
   if (plane >= 0 && (plane == segment.from_plane || plane == segment.to_plane)) return false;
-  const SoupTriangle triangle(*query.soup, id);
+  const SoupTriangle& triangle = query.triangles[id];
   if (triangle.side(segment.from) * triangle.side(segment.to) >= 0) return false;
   const double from = triangle.height(segment.from), to = triangle.height(segment.to);
   return triangle.contains(segment.from + from / (from - to) * (segment.to - segment.from));
 }
 
 bool is_ahead(const Query& query, const Vec3& direction, std::size_t id) {
-  const SoupTriangle triangle(*query.soup, id);
+  const SoupTriangle& triangle = query.triangles[id];
   const double height = triangle.height(query.origin), rise = triangle.normal.dot(direction);
   if (query.front_only && rise >= 0) return false;
   if (!(triangle.side(query.origin) * rise < 0)) return false;
@@ -120,11 +120,13 @@ void put(const Ray& ray, std::size_t i, RTCRay16& packet) {
   packet.id[i] = static_cast<unsigned>(i);
 }
 
-Query query_of(const TriangleSoup& soup, bool coherent) {
+Query query_of(const TriangleSoup& soup, const std::vector<SoupTriangle>& triangles,
+               bool coherent) {
   Query query{};
   rtcInitIntersectContext(&query.context);
   if (coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   query.soup = &soup;
+  query.triangles = triangles.data();
   return query;
 }
 
@@ -137,6 +139,8 @@ struct EmbreeScene::Handles {
 
 EmbreeScene::EmbreeScene(const TriangleSoup& soup, const RaySpace& space)
     : soup_(soup), space_(space), handles_(std::make_unique<Handles>()) {
+  triangles_.reserve(soup.triangles.size());
+  for (std::size_t t = 0; t < soup.triangles.size(); ++t) triangles_.emplace_back(soup, t);
   auto& [device, scene] = *handles_;
   device.reset(rtcNewDevice(nullptr));
   throw_on_error(device.get());
@@ -153,7 +157,7 @@ EmbreeScene::EmbreeScene(const TriangleSoup& soup, const RaySpace& space)
   throw_on_error(device.get());
   std::iota(corners, corners + 3 * soup.triangles.size(), 0u);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (const Vec3& p : enlarged(SoupTriangle(soup, t), space.enlargement, miter_limit))
+    for (const Vec3& p : enlarged(triangles_[t], space.enlargement, miter_limit))
       for (int axis = 0; axis < 3; ++axis)
         *points++ = narrow((p[axis] - space.centre[axis]) * space.scale);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_occlusion);
@@ -172,7 +176,7 @@ EmbreeScene::~EmbreeScene() = default;
 bool EmbreeScene::blocked(const Segment& segment) const {
   const std::optional<Ray> ray = space_.ray(segment.from, segment.to);
   if (!ray) return false;
-  Query query = query_of(soup_, false);
+  Query query = query_of(soup_, triangles_, false);
   query.segments = &segment;
   RTCRay embree_ray = to_embree(*ray);
   rtcOccluded1(handles_->scene.get(), &query.context, &embree_ray);
@@ -193,7 +197,7 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
     valid[i] = -1;
     put(*r, i, rays);
   }
-  Query query = query_of(soup_, bundle);
+  Query query = query_of(soup_, triangles_, bundle);
   query.segments = segments.data();
   rtcOccluded16(valid, handles_->scene.get(), &query.context, &rays);
   for (std::size_t i = 0; i < segments.size(); ++i)
@@ -203,7 +207,7 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
 int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const {
   const std::optional<Ray> ray = space_.ray_ahead(origin, direction);
   if (!ray) return -1;
-  Query query = query_of(soup_, false);
+  Query query = query_of(soup_, triangles_, false);
   query.origin = origin;
   query.directions = &direction;
   query.front_only = sides == Sides::front_only;
@@ -226,7 +230,7 @@ void EmbreeScene::first_hits(const Vec3& origin, std::span<const Vec3> direction
     valid[i] = -1;
     put(*r, i, found.ray);
   }
-  Query query = query_of(soup_, true);
+  Query query = query_of(soup_, triangles_, true);
   query.origin = origin;
   query.directions = directions.data();
   query.front_only = sides == Sides::front_only;

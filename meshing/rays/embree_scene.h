@@ -1,11 +1,13 @@
 #pragma once
 
 #include "meshing/rays/ray_space.h"
+#include "meshing/rays/soup_triangle.h"
 #include "meshing/rays/visibility.h"
 
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace halfshade {
 
@@ -18,6 +20,8 @@ class EmbreeScene {
   /// Throws Error(too_large) if memory runs out. Precondition: there are triangles.
   EmbreeScene(const TriangleSoup& soup, const RaySpace& space);
   ~EmbreeScene();
+
+  const SoupTriangle& triangle(int index) const { return triangles_[at(index)]; }
 
   bool blocked(const Segment& segment) const;
 
@@ -36,6 +40,7 @@ class EmbreeScene {
   struct Handles;
 
   const TriangleSoup& soup_;
+  std::vector<SoupTriangle> triangles_;  ///< of it: filters ask for them most often
   const RaySpace& space_;
   std::unique_ptr<Handles> handles_;
 };

@@ -4,7 +4,6 @@
 #include "meshing/core/parallel.h"
 #include "meshing/rays/embree_scene.h"
 #include "meshing/rays/shaft_index.h"
-#include "meshing/rays/soup_triangle.h"
 
 #include <fmt/core.h>
 
@@ -52,7 +51,7 @@ struct VisibilityIndex::Impl {
 
   /// Where a ray that meets a triangle does so.
   Hit hit(const Vec3& origin, const Vec3& direction, int triangle) const {
-    const SoupTriangle corners(soup, at(triangle));
+    const SoupTriangle& corners = scene->triangle(triangle);
     Hit hit;
     hit.owner = soup.owner[at(triangle)];
     hit.triangle = triangle;

@@ -3,7 +3,6 @@
 #include "meshing/core/parallel.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace halfshade {
@@ -11,6 +10,11 @@ namespace {
 
 /// Rays from a node are two halves that tell the noise; each has at least this many squared.
 constexpr int fewest_strata = 4;
+constexpr double fewest = 16;
+/// Of the noise, for that of each element is not known well.
+constexpr double share_alike = 0.25;
+/// Fewer more than this share of those that there are already do not pay.
+constexpr double least_more = 0.25;
 
 struct ElementPass {
   const ReflectingScene& scene;
@@ -19,64 +23,83 @@ struct ElementPass {
   const QuickField leaving;
   int use;
 
-  /// The coefficients; adds to the noise.
-  Eigen::MatrixXd operator()(int element, int strata, double& noise) const {
-    thread_local std::vector<RayEnd> ends;
-    HemisphereRays caster(scene);
+  /// What arrives at the nodes by each half of the rays.
+  ChannelArray operator()(int element, const ElementNodes& nodes, int strata) const {
     const int triangle = mesh.triangle[at(element)];
-    const ElementNodes& nodes = element_nodes_of(mesh.order[at(triangle)]);
-    Eigen::MatrixXd values(static_cast<Eigen::Index>(nodes.places.size()), 3);
-    for (std::size_t k = 0; k < nodes.places.size(); ++k) {
-      const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[k]);
-      std::array<Rgb, 2> half;
-      for (int h = 0; h < 2; ++h) {
-        ends.clear();
-        const std::uint64_t seed = ray_seed(triangle, static_cast<int>(k), 2 * use + h);
-        const int rays = caster.cast(from, strata, seed, ends);
-        half[at(h)] = gathered(light, mesh, leaving, ends, rays);
-      }
-      const auto row = static_cast<Eigen::Index>(k);
-      values.row(row) = (0.5 * (half[0] + half[1])).transpose();
-      noise += nodes.spread[row] * 0.25 * (half[0] - half[1]).square().sum();
+    ChannelArray halves(2 * static_cast<Eigen::Index>(nodes.places.size()), 3);
+    for (int i = 0; i < static_cast<int>(halves.rows()); ++i) {
+      const int node = i / 2;
+      const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
+      const std::uint64_t seed = ray_seed(triangle, node, 2 * use + i % 2);
+      halves.row(i) = gathered({scene, light}, mesh, leaving, from, strata, seed).transpose();
     }
-    noise *= mesh.area(element);
-    return nodes.fit * values;
+    return halves;
   }
 };
-
-/// Noise of small elements counts less: rays as the square root of the area.
-std::vector<int> strata_of(const ReflectedMesh& mesh, int rays) {
-  double mean = 0;
-  for (int e = 0; e < mesh.count(); ++e) mean += std::sqrt(mesh.area(e)) / mesh.count();
-  std::vector<int> strata;
-  for (int e = 0; e < mesh.count(); ++e) {
-    const double wanted = 0.5 * rays * std::sqrt(mesh.area(e)) / mean;
-    strata.push_back(std::max(fewest_strata, static_cast<int>(std::lround(std::sqrt(wanted)))));
-  }
-  return strata;
-}
 
 }  // namespace
 
 FinalPass final_pass(const ReflectingScene& scene, const ReflectedMesh& mesh,
                      const FirstLight& light, const ElementField& leaving,
-                     const FinalPassOptions& options, const Progress& progress) {
-  const std::vector<int> strata = strata_of(mesh, options.rays);
-  const ElementPass pass{scene, mesh, light, QuickField(leaving), options.use};
+                     const std::vector<int>& strata, int use, const Progress& progress) {
+  const ElementPass pass{scene, mesh, light, QuickField(leaving), use};
   FinalPass result;
   result.rest = zero_field(mesh);
-  result.noise.assign(at(mesh.count()), 0);
+  result.noise.resize(at(mesh.count()));
   result.complete = parallel_for(
       at(mesh.count()),
       [&](std::size_t e) {
         const int element = static_cast<int>(e);
-        result.rest.of(element) = pass(element, strata[e], result.noise[e]).array();
+        const ElementNodes& nodes = element_nodes_of(result.rest.order[e]);
+        if (strata[e] == 0) return;
+        const ChannelArray halves = pass(element, nodes, strata[e]);
+        result.rest.of(element) = (nodes.fit * means_of_halves(halves).matrix()).array();
+        result.noise[e] = noise_of_halves(nodes, mesh.area(element), halves);
       },
       progress, "final rays of reflected light");
   for (int e = 0; e < mesh.count(); ++e)
-    result.rays += 2 * at(strata[at(e)]) * at(strata[at(e)]) *
+    result.rays += 2 * Gathering{scene, light}.rays(strata[at(e)]) *
                    element_nodes_of(result.rest.order[at(e)]).places.size();
   return result;
+}
+
+std::vector<int> share_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
+                            const std::vector<double>& weight, const RayShares& shares) {
+  double sum = 0, area = 0;
+  for (int e = 0; e < mesh.count(); ++e) {
+    sum += noise[at(e)];
+    area += weight[at(e)] * mesh.area(e);
+  }
+  std::vector<double> expected, rays;
+  double mean = 0;
+  for (int e = 0; e < mesh.count(); ++e) {
+    const double alike = area > 0 ? sum / area * weight[at(e)] * mesh.area(e) : 0;
+    const auto nodes =
+        static_cast<double>(element_nodes_of(mesh.order[at(mesh.triangle[at(e)])]).places.size());
+    expected.push_back((1 - share_alike) * noise[at(e)] + share_alike * alike);
+    rays.push_back(std::sqrt(expected.back() / nodes));
+    mean += rays.back() / mesh.count();
+  }
+  for (double& r : rays) r = mean > 0 ? r / mean : 0;
+  constexpr double step = 1.0625;
+  double all = fewest;
+  const auto is_noisy = [&] {
+    double then = 0;
+    for (std::size_t e = 0; e < rays.size(); ++e)
+      then += expected[e] *
+              std::pow(shares.rays / std::max(shares.sent[e], all * rays[e]), noise_exponent);
+    return then > shares.wanted;
+  };
+  while (all < shares.most && is_noisy()) all *= step;
+  std::vector<int> strata;
+  for (std::size_t e = 0; e < rays.size(); ++e) {
+    const double more = std::min(all, shares.most) * rays[e] - shares.sent[e];
+    const int wanted = more > least_more * shares.sent[e]
+                           ? static_cast<int>(std::lround(std::sqrt(0.5 * more)))
+                           : 0;
+    strata.push_back(wanted > 0 ? std::max(fewest_strata, wanted) : 0);
+  }
+  return strata;
 }
 
 void conserve_power(const ReflectedMesh& mesh, const LightSystems& systems,
@@ -91,6 +114,22 @@ void conserve_power(const ReflectedMesh& mesh, const LightSystems& systems,
   for (int e = 0; e < mesh.count(); ++e)
     irradiance.rest.of(e).rowwise() *= 1 + gain.row(systems.of_element[at(e)]);
   add_constants(mesh, systems, gain * irradiance.constant, nullptr, irradiance.rest);
+}
+
+void reflect_change(const ReflectedSystem& system, const ElementField& before,
+                    const ElementField& ambient, SplitIrradiance& irradiance) {
+  constexpr double tolerance = 1e-3;  // of a change that is small
+  const auto& [mesh, light, exchange, systems] = system;
+  ElementField change = irradiance.rest;
+  change.coefficients -= before.coefficients;
+  for (int e = 0; e < change.count(); ++e)
+    change.of(e).bottomRows(change.of(e).rows() - 1).setZero();
+  const std::vector<Rgb> absorbed = absorptances(light);
+  const ChannelArray power = -integrals(mesh, systems, change, &absorbed);
+  const ElementField arriving = exchange.apply(mesh, reflected_part(mesh, light, change));
+  const ReflectedSolution more = solve_reflected(system, arriving, power, tolerance, &ambient);
+  irradiance.constant += more.irradiance.constant;
+  irradiance.rest.coefficients += more.irradiance.rest.coefficients;
 }
 
 }  // namespace halfshade

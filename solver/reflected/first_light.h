@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/reflected/hot_cells.h"
 #include "solver/reflected/reflected_light.h"
 #include "solver/reflected/reflecting_scene.h"
 
@@ -13,6 +14,7 @@ struct FirstLight {
   std::vector<Rgb> rho, exitance;  ///< of each root
   DirectIrradiance direct;         ///< H_d
   bool through_operator = false;
+  HotCells hot;  ///< of what leaves; none before they are looked for
 
   /// H_d at a point of a root; 0 if direct light is found like reflected light.
   Rgb direct_at(int root, const Vec3& position) const {

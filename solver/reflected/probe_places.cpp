@@ -14,9 +14,11 @@ TrianglePlace random_place(std::uint64_t seed) {
   return {across * (1 - along), across * along};
 }
 
-/// What the numbers of probes in elements are as: the roots of their areas, but none more than so
-/// many times their mean. A sun or a plain would leave nothing to all others.
-std::vector<double> shares_of_probes(const ReflectedMesh& mesh) {
+}  // namespace
+
+std::vector<double> shares_of_probes(const ReflectedMesh& mesh,
+                                     const std::vector<double>& expected) {
+  // Of the mean: a sun or a plain would leave nothing to all others.
   constexpr double most = 20;
   std::vector<double> shares;
   for (int e = 0; e < mesh.count(); ++e) shares.push_back(std::sqrt(mesh.area(e)));
@@ -29,18 +31,21 @@ std::vector<double> shares_of_probes(const ReflectedMesh& mesh) {
       share = std::min(share, largest);
     }
   }
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
+  double roots = 0;
+  for (const double square : expected) roots += std::sqrt(square);
+  for (std::size_t e = 0; e < shares.size(); ++e) {
+    shares[e] /= sum;
+    if (roots > 0) shares[e] = 0.5 * (shares[e] + std::sqrt(expected[e]) / roots);
+  }
   return shares;
 }
 
-}  // namespace
-
 std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, const std::vector<double>& weight,
-                                      int points, int use) {
-  const std::vector<double> shares = shares_of_probes(mesh);
-  const double all = std::accumulate(shares.begin(), shares.end(), 0.);
+                                      const std::vector<double>& shares, int points, int use) {
   std::vector<ProbePlace> probes;
   for (int e = 0; e < mesh.count(); ++e) {
-    const double wanted = points * shares[at(e)] / all;
+    const double wanted = points * shares[at(e)];
     // Numbers above those of nodes, and of several points apart.
     const std::uint64_t count_seed = ray_seed(mesh.triangle[at(e)], 63, 2 * use);
     const std::uint64_t place_seed = ray_seed(mesh.triangle[at(e)], 62, use);

@@ -17,11 +17,16 @@ struct ProbePlace {
   double square_error = 0, square = 0;  ///< found there: |error|² and |H_d + G|²
 };
 
-/// About so many over all elements: the largest errors are those of small elements beside contacts,
-/// so that there are as many as the square root of the area, in the mean over `use`; no element is
-/// given nearly all.
-/// `weight` has an entry for each element.
+/// The share of probes that each element is to have: the largest errors are those of small elements
+/// beside contacts, so that they are as the square root of the area, and no element is given nearly
+/// all. Where it is known about how large the square error of each is, half of them are as
+/// its root: what is expected is not sure.
+std::vector<double> shares_of_probes(const ReflectedMesh& mesh,
+                                     const std::vector<double>& expected = {});
+
+/// About so many over all elements, in the mean over `use`. `weight` and `shares` have an entry for
+/// each element.
 std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, const std::vector<double>& weight,
-                                      int points, int use);
+                                      const std::vector<double>& shares, int points, int use);
 
 }  // namespace halfshade

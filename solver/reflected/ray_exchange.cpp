@@ -6,26 +6,40 @@
 namespace halfshade {
 namespace {
 
+constexpr int most_uses = 1024;
+/// Uses of seeds, see ray_seed: the first half of the rays that are kept has 0.
+constexpr int second_half = most_uses - 1;
+
+/// What arrives by each half of the rays.
+ChannelArray arriving(const ReflectedMesh& mesh, const NodeRays& rays, const QuickField& leaving) {
+  ChannelArray values(static_cast<Eigen::Index>(rays.rays.size()), 3);
+  for (std::size_t k = 0; k < rays.rays.size(); ++k) {
+    Rgb sum = Rgb::Zero();
+    for (int i = rays.first[k]; i < rays.first[k + 1]; ++i) {
+      const RayEnd& end = rays.ends[at(i)];
+      sum += leaving.value(mesh.element[at(end.triangle)], end.place());
+    }
+    values.row(static_cast<Eigen::Index>(k)) = (sum / rays.rays[k]).transpose();
+  }
+  return values;
+}
+
 std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& light,
                                 const ReflectedMesh& mesh, int element, int strata) {
   thread_local std::vector<RayEnd> ends;
-  HemisphereRays caster(scene);
+  const Gathering gathering{scene, light};
   auto rays = std::make_unique<NodeRays>();
   const int triangle = mesh.triangle[at(element)];
   const ElementNodes& nodes = element_nodes_of(mesh.order[at(triangle)]);
-  rays->source = ChannelArray::Zero(static_cast<Eigen::Index>(nodes.places.size()), 3);
-  for (std::size_t k = 0; k < nodes.places.size(); ++k) {
-    const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[k]);
-    ends.clear();
-    const int count = caster.cast(from, strata, ray_seed(triangle, static_cast<int>(k), 0), ends);
+  rays->source = ChannelArray::Zero(2 * static_cast<Eigen::Index>(nodes.places.size()), 3);
+  for (int i = 0; i < static_cast<int>(rays->source.rows()); ++i) {
+    const int node = i / 2;
+    const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
+    const std::uint64_t seed = ray_seed(triangle, node, i % 2 == 0 ? 0 : second_half);
+    const auto [first, count] = gathering(from, strata, seed, ends);
     rays->first.push_back(static_cast<int>(rays->ends.size()));
     rays->rays.push_back(count);
-    Rgb sum = Rgb::Zero();
-    for (const RayEnd& end : ends) {
-      const Vec3 position = halfshade::position(mesh.forest.corners(end.triangle), end.place());
-      sum += light.leaving(end.triangle, position);
-    }
-    rays->source.row(static_cast<Eigen::Index>(k)) = (sum / count).transpose();
+    rays->source.row(i) = first.transpose();
     rays->ends.insert(rays->ends.end(), ends.begin(), ends.end());
   }
   rays->first.push_back(static_cast<int>(rays->ends.size()));
@@ -44,7 +58,7 @@ void settle(const TriangleForest& forest, NodeRays& rays) {
 }  // namespace
 
 std::uint64_t ray_seed(int triangle, int node, int use) {
-  constexpr std::uint64_t most_nodes = 64, most_uses = 1024;
+  constexpr std::uint64_t most_nodes = 64;
   return mix_bits(
       (static_cast<std::uint64_t>(triangle) * most_nodes + static_cast<std::uint64_t>(node)) *
           most_uses +
@@ -55,19 +69,31 @@ RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, in
                      const TrianglePlace& place) {
   const int root = mesh.root(element), cell = scene.cells.before(root);
   return {mesh.position(element, place), scene.roots.normal[at(root)], cell,
-          static_cast<bool>(scene.cells.closed[at(cell)])};
+          static_cast<bool>(scene.cells.closed[at(cell)]), scene.visibility.soup().plane[at(root)]};
 }
 
-Rgb gathered(const FirstLight& light, const ReflectedMesh& mesh, const QuickField& leaving,
-             std::span<const RayEnd> ends, int rays) {
+Gathering::Result Gathering::operator()(const RayOrigin& from, int strata, std::uint64_t seed,
+                                        std::vector<RayEnd>& ends) const {
+  ends.clear();
+  const int rays = HemisphereRays(scene).cast(from, strata, seed, ends);
+  const auto leaving = [this](int root, const Vec3& p) { return light.leaving(root, p); };
+  return {light.hot.irradiance(scene, leaving, from, strata, rays, ends, seed), rays};
+}
+
+std::size_t Gathering::rays(int strata) const {
+  return at(strata * strata + light.hot.count(strata * strata));
+}
+
+Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
+             const RayOrigin& from, int strata, std::uint64_t seed) {
+  thread_local std::vector<RayEnd> ends;
+  const auto [first, rays] = gathering(from, strata, seed, ends);
   Rgb sum = Rgb::Zero();
   for (const RayEnd& end : ends) {
-    const auto& corners = mesh.forest.corners(end.triangle);
-    sum += light.leaving(end.triangle, halfshade::position(corners, end.place()));
     const ForestPlace leaf = mesh.forest.leaf_at({end.triangle, end.place()});
     sum += leaving.value(mesh.element[at(leaf.triangle)], leaf.place);
   }
-  return sum / rays;
+  return first + sum / rays;
 }
 
 ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
@@ -85,9 +111,9 @@ bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
     auto& rays = of_triangle_[at(t)];
     if (!mesh.forest.is_leaf(t)) rays.reset();
     const std::size_t nodes = element_nodes_of(mesh.order[at(t)]).places.size();
-    if (!mesh.forest.is_leaf(t) || (rays && rays->rays.size() == nodes)) continue;
+    if (!mesh.forest.is_leaf(t) || (rays && rays->rays.size() == 2 * nodes)) continue;
     missing.push_back(mesh.element[at(t)]);
-    traced_ += nodes * static_cast<std::size_t>(strata_ * strata_);
+    traced_ += 2 * nodes * Gathering{scene_, light_}.rays(strata_);
   }
   const bool complete = parallel_for(
       missing.size(),
@@ -106,8 +132,9 @@ ElementField RayExchange::source(const ReflectedMesh& mesh) const {
   ElementField result = zero_field(mesh);
   for (int e = 0; e < mesh.count(); ++e) {
     const int t = mesh.triangle[at(e)];
-    result.of(e) =
-        (element_nodes_of(mesh.order[at(t)]).fit * of_triangle_[at(t)]->source.matrix()).array();
+    result.of(e) = (element_nodes_of(mesh.order[at(t)]).fit *
+                    means_of_halves(of_triangle_[at(t)]->source).matrix())
+                       .array();
   }
   return result;
 }
@@ -117,20 +144,23 @@ ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& l
   ElementField result = zero_field(mesh);
   parallel_for(at(mesh.count()), [&](std::size_t e) {
     const int t = mesh.triangle[e];
-    const NodeRays& rays = *of_triangle_[at(t)];
-    ChannelArray values(static_cast<Eigen::Index>(rays.rays.size()), 3);
-    for (std::size_t k = 0; k < rays.rays.size(); ++k) {
-      Rgb sum = Rgb::Zero();
-      for (int i = rays.first[k]; i < rays.first[k + 1]; ++i) {
-        const RayEnd& end = rays.ends[at(i)];
-        sum += quick.value(mesh.element[at(end.triangle)], end.place());
-      }
-      values.row(static_cast<Eigen::Index>(k)) = (sum / rays.rays[k]).transpose();
-    }
+    const ChannelArray values = means_of_halves(arriving(mesh, *of_triangle_[at(t)], quick));
     result.of(static_cast<int>(e)) =
         (element_nodes_of(mesh.order[at(t)]).fit * values.matrix()).array();
   });
   return result;
+}
+
+FieldNoise RayExchange::noise(const ReflectedMesh& mesh, const ElementField& leaving) const {
+  const QuickField quick(leaving);
+  FieldNoise noise(at(mesh.count()));
+  parallel_for(noise.size(), [&](std::size_t e) {
+    const int t = mesh.triangle[e];
+    const NodeRays& rays = *of_triangle_[at(t)];
+    noise[e] = noise_of_halves(element_nodes_of(mesh.order[at(t)]), mesh.forest.area(t),
+                               rays.source + arriving(mesh, rays, quick));
+  });
+  return noise;
 }
 
 std::vector<int> RayExchange::seen_from(const ReflectedMesh& mesh, int element) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/progress.h"
+#include "solver/reflected/field_noise.h"
 #include "solver/reflected/first_light.h"
 #include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/quick_field.h"
@@ -13,16 +14,17 @@
 
 namespace halfshade {
 
-/// Where the rays from the nodes of an element end, and what comes from there first.
+/// Where the rays from the nodes of an element end, and what comes from there first. Those of each
+/// node are two halves, 2 node and 2 node + 1, that tell their noise.
 struct NodeRays {
   std::vector<RayEnd> ends;  ///< on triangles of the forest
-  std::vector<int> first;    ///< node → its first end, and the number of ends
-  std::vector<int> rays;     ///< node → number of rays that its ends are taken from
-  ChannelArray source;       ///< node → irradiance from S
+  std::vector<int> first;    ///< half → its first end, and the number of ends
+  std::vector<int> rays;     ///< half → number of rays that its ends are taken from
+  ChannelArray source;       ///< half → irradiance from S
 };
 
-/// K, irradiance from leaving light, by a few rays from each node that are traced once and kept.
-/// Only the elements that change are traced anew.
+/// K, irradiance from leaving light, by a few rays from each node that are traced once and kept:
+/// two halves of strata² each. Only the elements that change are traced anew.
 class RayExchange : public IrradianceOperator {
  public:
   /// Both must outlive it.
@@ -33,6 +35,9 @@ class RayExchange : public IrradianceOperator {
   ElementField source(const ReflectedMesh& mesh) const override;
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
+
+  /// What K (S + leaving) is off because the rays are few.
+  FieldNoise noise(const ReflectedMesh& mesh, const ElementField& leaving) const;
 
   std::size_t rays() const { return traced_; }
 
@@ -48,9 +53,27 @@ class RayExchange : public IrradianceOperator {
 RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, int element,
                      const TrianglePlace& place);
 
-/// Mean over rays of what leaves their ends: S, and a field on the elements; `ends` lie on roots.
-Rgb gathered(const FirstLight& light, const ReflectedMesh& mesh, const QuickField& leaving,
-             std::span<const RayEnd> ends, int rays);
+/// Rays over the hemisphere above a place, as strata² and others aimed at hot cells.
+struct Gathering {
+  const ReflectingScene& scene;
+  const FirstLight& light;
+
+  /// Irradiance from S. Puts the ends on roots into `ends`, and returns the number of rays that
+  /// each of them is one of.
+  struct Result {
+    Rgb first;
+    int rays;
+  };
+  Result operator()(const RayOrigin& from, int strata, std::uint64_t seed,
+                    std::vector<RayEnd>& ends) const;
+
+  /// How many rays that takes.
+  std::size_t rays(int strata) const;
+};
+
+/// The same from S and from a field on the elements.
+Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
+             const RayOrigin& from, int strata, std::uint64_t seed);
 
 /// A seed for the rays of a node of a triangle; `use` tells apart what is to be independent.
 std::uint64_t ray_seed(int triangle, int node, int use);

@@ -7,40 +7,25 @@
 namespace halfshade {
 namespace {
 
-// Of the goal, rays may have this share and are sent for a little less; elements likewise.
-constexpr double share_of_noise = 0.4, aim_of_noise = 0.3;
-constexpr double share_of_elements = 0.4, aim_of_elements = 0.2;
+// Of the goal, elements may have this share and are refined to have a little less.
+constexpr double share_of_elements = 0.55, aim_of_elements = 0.3;
 /// Elements that are off by more than this many times their part are bisected twice.
 constexpr double far_too_much = 16;
 /// The share of an element's error that bisecting it takes away, beside edges.
-constexpr double gain = 0.7;
-constexpr double most_at_once = 16;
-/// Elements first where they are the larger part of the error: more rays cost more with each round.
-constexpr double most_if_coarse = 2;
-/// Noise of stratified rays falls faster than their number rises.
-constexpr double noise_exponent = 1.2;
-
-/// Share of the field in the polynomials of the highest degree, less what is noise of it.
-std::vector<double> tails(const RefinementInput& input) {
-  std::vector<double> result;
-  for (int e = 0; e < input.mesh.count(); ++e) {
-    const int p = input.irradiance.order[at(e)];
-    const double square = input.irradiance.of(e).bottomRows(p + 1).square().sum();
-    const double noise = input.noise[at(e)] * (p + 1) / basis_size(p);
-    result.push_back(
-        p == 0 ? 0 : std::max(0., input.mesh.area(e) * input.weight[at(e)] * square - noise));
-  }
-  return result;
-}
+constexpr double gain = 0.5;
+constexpr double most_scale = 4;
+/// How much the coefficients of the highest degree count beside what was found at points.
+constexpr double share_of_tails = 0.75;
 
 /// ∫ |error|² of each, `all` in all, without noise of rays.
 std::vector<double> errors_of_elements(const RefinementInput& input, double all) {
-  std::vector<double> result = tails(input);
+  std::vector<double> result = tails(input.mesh, input.irradiance, input.weight);
   const double sum = std::accumulate(result.begin(), result.end(), 0.);
-  const double scale = sum > 0 ? std::clamp(all / sum, 0., 1.) : 0;
+  const double scale = sum > 0 ? std::clamp(all / sum, 0., most_scale) : 0;
   for (std::size_t e = 0; e < result.size(); ++e) {
     const double found = input.estimate.square_error[e];
-    result[e] = 0.5 * scale * result[e] + 0.5 * (found != 0 ? found - input.noise[e] : 0);
+    result[e] = share_of_tails * scale * result[e] +
+                (1 - share_of_tails) * (found != 0 ? found - input.noise[e] : 0);
   }
   return result;
 }
@@ -59,13 +44,27 @@ void add_unsure(const BalanceEstimate& balance, RefinementPlan& plan) {
 
 }  // namespace
 
+std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
+                          const std::vector<double>& weight) {
+  std::vector<double> result;
+  double steep = 0, all = 0;  // of elements of order 1
+  for (int e = 0; e < mesh.count(); ++e) {
+    const int p = field.order[at(e)];
+    const double share = mesh.area(e) * weight[at(e)];
+    result.push_back(share * field.of(e).bottomRows(p + 1).square().sum());
+    if (p != 1) continue;
+    steep += result.back();
+    all += share * field.of(e).square().sum();
+  }
+  for (int e = 0; e < mesh.count(); ++e)
+    if (field.order[at(e)] == 0) result[at(e)] *= all > 0 ? steep / all : 0;
+  return result;
+}
+
 RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
   RefinementPlan plan;
   const double noise = std::accumulate(input.noise.begin(), input.noise.end(), 0.);
   double left = input.estimate.sum - noise;
-  if (noise > share_of_noise * goal)
-    plan.more_rays = std::clamp(std::pow(noise / (aim_of_noise * goal), 1 / noise_exponent), 1.5,
-                                left > goal ? most_if_coarse : most_at_once);
   const std::vector<double> coarse = errors_of_elements(input, left);
   std::vector<int> order(coarse.size());
   std::iota(order.begin(), order.end(), 0);
@@ -80,8 +79,6 @@ RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
       plan.twice.push_back(coarse[at(e)] > far_too_much * part);
     }
   if (input.balance.square > share_of_elements * goal) add_unsure(input.balance, plan);
-  // The estimate itself is too uncertain: it becomes surer with more rays.
-  if (plan.elements.empty() && plan.more_rays == 1) plan.more_rays = 2;
   return plan;
 }
 

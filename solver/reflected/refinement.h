@@ -8,27 +8,32 @@
 
 namespace halfshade {
 
-/// Which elements to refine, and how many rays to send, so that the next estimate meets a goal.
+/// Which elements to refine so that the next estimate meets a goal, if noise has its part.
 struct RefinementPlan {
   std::vector<int> elements;
   std::vector<bool> twice;  ///< one an entry of `elements`: far too coarse
-  double more_rays = 1;     ///< factor for the number of rays from a node
 };
 
 /// What is known of a solution that is not yet right.
 struct RefinementInput {
   const ReflectedMesh& mesh;
   const ElementField& irradiance;
-  const std::vector<double>& noise;   ///< see FinalPass; weighted
+  const std::vector<double>& noise;   ///< of rays, see noise_of_elements; it has been filtered
   const std::vector<double>& weight;  ///< of square errors of each element
   const ReflectionEstimate& estimate;
   const BalanceEstimate& balance;
 };
 
+/// The share of a field's square in the polynomials of the highest degree on each element,
+/// weighted: where it is large elements are likely to be too coarse. Constants are taken to be off
+/// by as much as those of order 1 are steep.
+std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
+                          const std::vector<double>& weight);
+
 /// `goal` is the ∫ |error|² allowed. The estimate knows how large the error of all elements is, but
-/// of each only by a point or two: half of the error is laid where it was found, half where the
-/// coefficients of the highest degree are large. Where it is the balance of power that is not
-/// known, those that know least.
+/// of each only by a point or two: a quarter of the error is laid where it was found, the rest
+/// where the coefficients of the highest degree are large. Where it is the balance of power that is
+/// not known, those that know least.
 RefinementPlan plan_refinement(const RefinementInput& input, double goal);
 
 }  // namespace halfshade

@@ -70,7 +70,9 @@ ElementNodes make_nodes(int order) {
     nodes.places.emplace_back(n.u, n.v);
   }
   nodes.fit = basis_at(order, nodes.places).transpose() * weights.asDiagonal();
-  nodes.spread = nodes.fit.colwise().squaredNorm();
+  nodes.spread.resize(order + 1, nodes.fit.cols());
+  for (int d = 0; d <= order; ++d)
+    nodes.spread.row(d) = nodes.fit.middleRows(basis_size(d - 1), d + 1).colwise().squaredNorm();
   return nodes;
 }
 

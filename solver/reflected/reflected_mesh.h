@@ -56,8 +56,9 @@ ElementTable element_table(const ReflectedMesh& mesh, const ElementTable& roots)
 struct ElementNodes {
   std::vector<TrianglePlace> places;
   Eigen::MatrixXd fit;
-  /// Mean square over the element of what noise of unit variance at one node makes.
-  Eigen::VectorXd spread;
+  /// Mean square over the element of what noise of unit variance at one node makes of the
+  /// polynomials of each degree: one row a degree, one column a node.
+  Eigen::MatrixXd spread;
 };
 const ElementNodes& element_nodes_of(int order);
 

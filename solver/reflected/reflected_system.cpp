@@ -11,7 +11,6 @@
 namespace halfshade {
 namespace {
 
-constexpr double solver_tolerance = 1e-10;
 constexpr int most_iterations = 600;
 
 RowGroups groups_of(const ReflectedMesh& mesh, const LightSystems& systems,
@@ -116,7 +115,8 @@ ElementField ambient_form(const ReflectedSystem& system, const SplitIrradiance& 
 }  // namespace
 
 ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
-                                  const ChannelArray& power, const ElementField* ambient) {
+                                  const ChannelArray& power, double tolerance,
+                                  const ElementField* ambient) {
   const auto& [mesh, light, exchange, systems] = system;
   require_absorption(system, power);
   ReflectedSolution solution;
@@ -127,7 +127,7 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
   solution.ambient = ambient ? *ambient : ambient_form(system, irradiance);
   const GmresResult solved =
       gmres(RestOperator(system, solution.ambient), irradiance.rest.coefficients,
-            groups_of(mesh, systems, irradiance.rest), solver_tolerance, most_iterations);
+            groups_of(mesh, systems, irradiance.rest), tolerance, most_iterations);
   irradiance.rest.coefficients = solved.x;
   const std::vector<Rgb> absorbed = absorptances(light);
   irradiance.constant -= of_closed(

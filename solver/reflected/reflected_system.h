@@ -26,9 +26,10 @@ struct ReflectedSolution {
 /// c K q, a the ambient irradiance of mean 1. With exact K the plain mean of y is 0; a mean(y)
 /// takes up what K does not conserve. No eigenvalue is near 0. Open systems have c = 0 and G = y.
 /// `ambient` of an earlier solution may be given. Throws Error(invalid_input) if nothing absorbs
-/// the power.
+/// the power. `tolerance` is that of the residual, relative to its right hand side.
 ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementField& arriving,
-                                  const ChannelArray& power, const ElementField* ambient = nullptr);
+                                  const ChannelArray& power, double tolerance,
+                                  const ElementField* ambient = nullptr);
 
 /// The light that has been reflected 1 … bounces − 1 times before it is once more.
 ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces);

@@ -35,6 +35,7 @@ struct RayOrigin {
   Vec3 position, normal;
   int cell = -1;           ///< rays end in this cell only; −1: anywhere
   bool is_closed = false;  ///< no light leaves the cell
+  int plane = -1;          ///< of the soup, that it lies in; −1: none
 };
 
 /// Rays over the hemisphere above a point, one in each of strata² parts of equal form factor, as

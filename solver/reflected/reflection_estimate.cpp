@@ -21,30 +21,60 @@ void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePla
   deviation = std::sqrt(variance);
 }
 
+void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_other) {
+  const double a = 1 - weight_of_other, b = weight_of_other;
+  for (std::size_t e = 0; e < square_error.size(); ++e)
+    square_error[e] = a * square_error[e] + b * other.square_error[e];
+  sum = a * sum + b * other.sum;
+  deviation = std::hypot(a * deviation, b * other.deviation);
+  square_total = a * square_total + b * other.square_total;
+  rays += other.rays;
+  complete = complete && other.complete;
+}
+
+std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
+                                  const std::vector<double>& shares, double rays) {
+  constexpr double fewest = 4, most = 48;
+  double all = 0, area = 0, mean = 0;
+  for (int e = 0; e < mesh.count(); ++e) {
+    all += noise[at(e)];
+    area += mesh.area(e);
+  }
+  std::vector<double> part;  // of the noise of the estimate, if all had as many rays
+  for (int e = 0; e < mesh.count(); ++e) {
+    part.push_back((noise[at(e)] + all * mesh.area(e) / area) / shares[at(e)]);
+    mean += shares[at(e)] * part.back();
+  }
+  std::vector<int> strata;
+  for (const double x : part) {
+    const double wanted = mean > 0 ? rays * std::pow(x / mean, 2. / 3) : rays;
+    strata.push_back(static_cast<int>(std::lround(std::clamp(std::sqrt(wanted), fewest, most))));
+  }
+  return strata;
+}
+
 ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedSystem& system,
                                   const SplitIrradiance& irradiance,
                                   const ReflectionProbes& options, const Progress& progress) {
   const auto& [mesh, light, exchange, systems] = system;
   const QuickField leaving(options.leaving);
   const QuickField rest(irradiance.rest);
-  std::vector<ProbePlace> probes = spread_probes(mesh, options.weight, options.points, options.use);
-  const int strata = std::max(3, static_cast<int>(std::lround(std::sqrt(options.rays / 2.))));
+  std::vector<ProbePlace> probes =
+      spread_probes(mesh, options.weight, options.shares, options.points, options.use);
   ReflectionEstimate estimate;
   estimate.complete = parallel_for(
       probes.size(),
       [&](std::size_t i) {
-        thread_local std::vector<RayEnd> ends;
-        HemisphereRays caster(scene);
         ProbePlace& probe = probes[i];
         const int e = probe.element;
         const TrianglePlace& place = probe.place;
         const Rgb here = rest.value(e, place);
+        const RayOrigin from = ray_origin(scene, mesh, e, place);
         Rgb product = Rgb::Ones();
         for (int h = 0; h < 2; ++h) {
-          ends.clear();
-          const int rays = caster.cast(ray_origin(scene, mesh, e, place), strata,
-                                       mix_bits(probe.seed + static_cast<std::uint64_t>(h)), ends);
-          product *= gathered(light, mesh, leaving, ends, rays) - here;
+          const std::uint64_t seed = mix_bits(probe.seed + static_cast<std::uint64_t>(h));
+          product *=
+              gathered({scene, light}, mesh, leaving, from, options.strata[at(e)], seed) - here;
         }
         probe.square_error = product.sum();
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
@@ -54,7 +84,8 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
       },
       progress, "error of reflected light");
   estimate.add(mesh, probes);
-  estimate.rays = probes.size() * 2 * at(strata) * at(strata);
+  for (const ProbePlace& probe : probes)
+    estimate.rays += 2 * Gathering{scene, light}.rays(options.strata[at(probe.element)]);
   return estimate;
 }
 

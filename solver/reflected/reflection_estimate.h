@@ -23,15 +23,24 @@ struct ReflectionEstimate {
 
   /// What was found at places.
   void add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes);
+
+  /// The mean of this and another of the same light at other points, weighted.
+  void join(const ReflectionEstimate& other, double weight_of_other);
 };
 
 struct ReflectionProbes {
   const ElementField& leaving;        ///< what it came from without S, less the constants' part
   const std::vector<double>& weight;  ///< of |error|² in each element
+  const std::vector<double>& shares;  ///< of the points that each is given
+  const std::vector<int>& strata;     ///< of either half of the rays from a point of each element
   int points = 1000;                  ///< over all surfaces
-  int rays = 256;                     ///< from each
   int use = 0;                        ///< see ray_seed
 };
+
+/// Strata of either half of the rays from points of each element, for so many rays in the mean:
+/// more where there is more `noise` of other rays. The noise of the estimate is then the least.
+std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
+                                  const std::vector<double>& shares, double rays);
 
 /// Compares irradiance with what arrives of leaving light. Two halves of the
 /// rays from a point differ from it by the same error and by noise that is independent: the product

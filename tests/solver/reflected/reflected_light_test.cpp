@@ -182,7 +182,7 @@ TEST(ReflectedLight, WhatIsThereWhenStoppedIsKept) {
   const auto kept = [](const char* stage, ReflectedVisibility visibility) {
     return integral(stopped_at(stage, visibility));
   };
-  EXPECT_NEAR(kept("final rays of reflected light", ReflectedVisibility::sampled), 1, 1e-3);
+  EXPECT_NEAR(kept("error of reflected light", ReflectedVisibility::sampled), 1, 1e-3);
   EXPECT_EQ(kept("rays of reflected light", ReflectedVisibility::sampled), 0);
   EXPECT_NEAR(kept("error of reflected light", ReflectedVisibility::exact), 1, 1e-9);
   EXPECT_EQ(kept("exact parts of reflected light", ReflectedVisibility::exact), 0);

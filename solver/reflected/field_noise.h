@@ -1,0 +1,44 @@
+#pragma once
+
+#include "solver/reflected/reflected_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace halfshade {
+
+/// Element → ∫ over it of the square of what rays are off, in the polynomials of each degree.
+using FieldNoise = std::vector<std::array<double, max_reflected_order + 1>>;
+
+/// Noise of stratified rays falls faster than their number rises.
+inline constexpr double noise_exponent = 1.3;
+
+/// Means of two rows that belong together: 2 k and 2 k + 1.
+ChannelArray means_of_halves(const ChannelArray& halves);
+
+/// Of the mean of two halves of rays from each node: rows 2 node and 2 node + 1.
+FieldNoise::value_type noise_of_halves(const ElementNodes& nodes, double area,
+                                       const ChannelArray& halves);
+
+/// Of the mean of two independent results, in which the second has a share.
+FieldNoise::value_type mean_noise(const FieldNoise::value_type& a, const FieldNoise::value_type& b,
+                                  double share_of_b);
+
+/// Over all degrees, times `weight`; one number an element.
+std::vector<double> noise_of_elements(const FieldNoise& noise, const std::vector<double>& weight);
+
+/// A field with less noise, and what is left of that.
+struct QuietField {
+  ElementField field;
+  FieldNoise noise;
+};
+
+/// The polynomials of each degree but 0 on each element as small as they are expected to be without
+/// the noise (Wiener's filter): what is mostly noise goes, what is not stays. Means stay.
+QuietField without_noise(const ReflectedMesh& mesh, ElementField field, const FieldNoise& noise);
+
+/// The noise that would be left with `rays` times as many rays from everywhere, over all.
+double noise_left(const ReflectedMesh& mesh, const ElementField& field, const FieldNoise& noise,
+                  const std::vector<double>& weight, double rays);
+
+}  // namespace halfshade

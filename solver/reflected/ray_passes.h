@@ -1,0 +1,41 @@
+#pragma once
+
+#include "solver/reflected/final_pass.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// What rays that are not kept have found, for as long as their elements are there: by how much K
+/// is more than the kept rays say. That hardly changes with what leaves.
+class RayPasses {
+ public:
+  int count() const { return count_; }
+
+  /// Rays from a node of each element so far; `kept` are there anyway.
+  std::vector<double> sent(const ReflectedMesh& mesh, double kept) const;
+
+  /// Corrects what the kept rays say, and its noise.
+  void correct(const ReflectedMesh& mesh, ElementField& rest, FieldNoise& noise) const;
+
+  /// Adds a pass where it has strata. `kept` and `noise` are what the kept rays say of the same
+  /// light. What was known counts as what noise there is in all of it allows: that of each element
+  /// is not known well enough, and not independent of what was found there.
+  void add(const ReflectedMesh& mesh, const FinalPass& pass, const std::vector<int>& strata,
+           const std::vector<double>& weight, const ElementField& kept, const FieldNoise& noise);
+
+ private:
+  struct OfTriangle {
+    ChannelArray more;  ///< than the kept rays say
+    FieldNoise::value_type noise{};
+    double rays = 0;
+    int passes = 0;
+  };
+  /// None if it was not there when the pass was made, or had another order.
+  const OfTriangle* find(const ReflectedMesh& mesh, int element) const;
+
+  std::vector<OfTriangle> of_triangle_;
+  int count_ = 0;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,392 @@
+#include "solver/reflected/reflected_rounds.h"
+
+#include "solver/reflected/exact_estimate.h"
+#include "solver/reflected/exact_exchange.h"
+#include "solver/reflected/ray_passes.h"
+#include "solver/reflected/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace halfshade {
+namespace {
+
+/// Rays from a node that are kept: two halves of strata².
+constexpr int kept_strata = 7;
+constexpr double kept_rays = 2 * kept_strata * kept_strata;
+
+/// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
+constexpr double comes_back = 1.2;
+
+/// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
+constexpr double most_for_gaps = 2000;
+
+constexpr int points_of_projection = 20000;
+
+/// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
+constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
+/// What is left of the residual may do this share of the tolerance.
+constexpr double most_of_solver = 0.03;
+
+// Of the goal, noise may have this share; elements, noise and the estimate's uncertainty have to do
+// with all.
+constexpr double share_of_noise = 0.45, share_of_both = 0.72, uncertain = 1.1;
+constexpr double least_noise = 0.25;
+/// A pass takes at least so much of the noise away that this share is left.
+constexpr double least_gain = 0.75;
+constexpr int most_passes = 5;
+/// Deviation of the estimate above which it may be off by so much that it asks for too much.
+constexpr double unsure = 0.1, much_noise = 0.6;
+/// Noise of more than `hides` times what elements are off hides which of them are; of this share it
+/// does not.
+constexpr double hides = 1, unseen = 0.6;
+
+/// As many points that noise of the rays from each may be this share of the goal in their mean.
+constexpr double noise_of_estimate = 0.1, fewest_in_mean = 25;
+
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
+class Rounds {
+ public:
+  Rounds(ReflectedLight::State& state, const ReflectedOptions& options, const Progress& progress)
+      : state_(state),
+        options_(options),
+        progress_(progress),
+        mesh_(state.mesh),
+        direct_(state.report.is_exact ? points_of_exact_projection : points_of_projection) {
+    if (state.sight)
+      parts_ = std::make_unique<ExactExchange>(*state.sight, state.reflecting, state.light, direct_,
+                                               state.accuracy);
+    else
+      kept_rays_ = std::make_unique<RayExchange>(state.reflecting, state.light, kept_strata);
+  }
+
+  void run() {
+    while (run_once()) {
+    }
+    if (kept_rays_) state_.report.rays += kept_rays_->rays();
+  }
+
+ private:
+  /// K (S + leaving) = irradiance.
+  struct Found {
+    SplitIrradiance base;            ///< what `leaving` leaves for
+    ElementField leaving;            ///< without S
+    ElementField rest;               ///< what arrives of it by all rays so far, as they found it
+    FieldNoise noise;                ///< of `rest`
+    SplitIrradiance irradiance;      ///< the same with balanced power and less noise
+    ElementField reflected;          ///< what leaves for it; what the estimate looks from
+    std::vector<double> noise_left;  ///< weighted, as the next
+    std::vector<double> noise_kept;  ///< of the kept rays alone
+    std::vector<double> weight;
+    int passes = 0;  ///< on these elements
+    ElementField ambient;
+  };
+  enum class Next { end, refine, points, pass };
+
+  /// False if it was the last.
+  bool run_once() {
+    ReflectedReport& report = state_.report;
+    report.end = ReflectedEnd::interrupted;
+    direct_.update(mesh_, state_.light);
+    IrradianceOperator& kept = parts_ ? static_cast<IrradianceOperator&>(*parts_) : *kept_rays_;
+    if (!kept.update(mesh_, progress_)) return false;
+    if (parts_) {
+      report.moments = parts_->moments();
+      report.row_error = parts_->row_error();
+    }
+    LightSystems systems = find_systems(state_.reflecting, state_.light, mesh_, kept);
+    systems.power = power_put_in(mesh_, state_.light, direct_, systems);
+    const ReflectedSystem system{mesh_, state_.light, kept, systems};
+    Found found;
+    found.weight = element_weights();
+    solve(system, found);
+    ++report.rounds;
+    return improve(system, found);
+  }
+
+  /// The same elements, until more rays or points do not help. False if nothing else does.
+  bool improve(const ReflectedSystem& system, Found& found) {
+    ReflectionEstimate estimate;
+    for (;;) {
+      if (!look(system, found, estimate)) return false;
+      const Next next = judge(system, found, estimate);
+      if (next == Next::end || next == Next::refine) return next == Next::refine;
+      if (next == Next::points) continue;
+      if (!pass_once_more(system, found)) return false;
+      points_ = 0;
+    }
+  }
+
+  void keep(const ReflectedSystem& system, const SplitIrradiance& irradiance) {
+    state_.field = irradiance.whole(system.mesh, system.systems);
+    state_.mesh = system.mesh;
+  }
+
+  ReflectedSolution solved(const ReflectedSystem& system) const {
+    const ElementField source = system.exchange.source(system.mesh);
+    const auto solve_to = [&](double tolerance) {
+      return solve_reflected(system, source, system.systems.power, tolerance);
+    };
+    if (parts_) return solve_to(solver_tolerance);
+    ReflectedSolution solution = solve_to(solver_share * options_.tolerance);
+    if (solution.residual * solution.amplification > most_of_solver * options_.tolerance)
+      solution = solve_to(solver_tolerance);
+    return solution;
+  }
+
+  void solve(const ReflectedSystem& system, Found& found) {
+    const auto& [mesh, light, exchange, systems] = system;
+    ReflectedReport& report = state_.report;
+    ReflectedSolution solution =
+        all_bounces() ? solved(system) : sum_bounces(system, options_.bounces);
+    report.systems = systems.count();
+    report.closed_systems =
+        static_cast<int>(std::count(systems.closed.begin(), systems.closed.end(), true));
+    report.iterations = solution.iterations;
+    report.residual = solution.residual;
+    report.amplification = solution.amplification;
+    if (report.rounds == 0) keep(system, solution.irradiance);
+    found.leaving = leaving_rest(mesh, light, systems, solution.irradiance);
+    found.base = std::move(solution.irradiance);
+    found.ambient = std::move(solution.ambient);
+    found.noise.resize(at(mesh.count()));
+    if (kept_rays_) found.noise = kept_rays_->noise(mesh, found.leaving);
+    found.noise_kept = noise_of_elements(found.noise, found.weight);
+    found.rest = by_kept_rows(system, found.leaving);
+    passes_.correct(mesh, found.rest, found.noise);
+    balance(system, found);
+  }
+
+  static ElementField by_kept_rows(const ReflectedSystem& system, const ElementField& leaving) {
+    ElementField rest = system.exchange.source(system.mesh);
+    rest.coefficients += system.exchange.apply(system.mesh, leaving).coefficients;
+    return rest;
+  }
+
+  bool all_bounces() const { return options_.bounces < 0; }
+
+  /// What rays have found so far, as well as it is known.
+  void balance(const ReflectedSystem& system, Found& found) const {
+    const auto& [mesh, light, exchange, systems] = system;
+    found.irradiance = {found.base.constant, found.rest};
+    conserve_power(mesh, systems, found.leaving, systems.power, found.irradiance);
+    if (all_bounces() && passes_.count() > 0)
+      reflect_change(system, found.base.rest, found.ambient, found.irradiance);
+    FieldNoise noise = found.noise;
+    if (kept_rays_) {
+      QuietField quiet = without_noise(mesh, std::move(found.irradiance.rest), found.noise);
+      found.irradiance.rest = std::move(quiet.field);
+      noise = std::move(quiet.noise);
+    }
+    found.noise_left = noise_of_elements(noise, found.weight);
+    found.reflected = all_bounces() && kept_rays_
+                          ? leaving_rest(mesh, light, systems, found.irradiance)
+                          : found.leaving;
+  }
+
+  /// K once more, by rays that are not kept; what was found before counts as what its noise allows.
+  bool pass_once_more(const ReflectedSystem& system, Found& found) {
+    const auto& [mesh, light, exchange, systems] = system;
+    if (all_bounces()) {
+      found.leaving = found.reflected;
+      found.base = found.irradiance;
+    }
+    const ElementField kept = by_kept_rows(system, found.leaving);
+    const FinalPass pass =
+        final_pass(state_.reflecting, mesh, light, found.leaving, strata_, ++use_, progress_);
+    state_.report.rays += pass.rays;
+    if (!pass.complete) return false;
+    found.rest = kept;
+    found.noise = kept_rays_->noise(mesh, found.leaving);
+    passes_.add(mesh, pass, strata_, found.weight, kept, found.noise);
+    passes_.correct(mesh, found.rest, found.noise);
+    ++found.passes;
+    balance(system, found);
+    return true;
+  }
+
+  std::vector<double> element_weights() const {
+    std::vector<double> weights;
+    for (int e = 0; e < mesh_.count(); ++e)
+      weights.push_back(mean_weight(options_.weight, state_.light.surface[at(mesh_.root(e))],
+                                    mesh_.forest.corners(mesh_.triangle[at(e)])));
+    return weights;
+  }
+
+  /// About the square of all irradiance, from means over elements.
+  double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradiance) const {
+    const ElementField whole = irradiance.whole(system.mesh, system.systems);
+    double sum = 0;
+    for (int e = 0; e < whole.count(); ++e) {
+      Rgb mean = whole.of(e).row(0).transpose();
+      if (!options_.through_operator) mean += direct_.mean(mesh_, e);
+      sum += mesh_.area(e) * mean.square().sum();
+    }
+    return sum;
+  }
+
+  double norm_square(double square_total) const {
+    return options_.weight ? std::pow(state_.scale.minCoeff() * options_.norm, 2) : square_total;
+  }
+
+  double goal_square(double all) const {
+    return std::pow(options_.tolerance / comes_back, 2) * all;
+  }
+
+  /// The strata of either half of the rays from a point of each element: as many rays as keep the
+  /// noise of the estimate low, more where there is more noise.
+  std::vector<int> strata_of_estimate(const ReflectedSystem& system, const Found& found,
+                                      const std::vector<double>& shares, int points) const {
+    const double goal = goal_square(norm_square(rough_square(system, found.irradiance)));
+    const double allowed = noise_of_estimate * goal * std::sqrt(points);
+    const double share = allowed > 0 ? sum_of(found.noise_kept) / allowed : 0;
+    const double rays = std::max(kept_rays * std::pow(share, 1 / noise_exponent), fewest_in_mean);
+    return share_probe_rays(mesh_, found.noise_kept, shares, rays);
+  }
+
+  /// Looks at points, more of them if there were some already. False if stopped.
+  bool look(const ReflectedSystem& system, const Found& found, ReflectionEstimate& estimate) {
+    const int unknowns = static_cast<int>(found.rest.first.back());
+    const int usual =
+        parts_ ? std::clamp(unknowns / 3, 800, 4000) : std::clamp(unknowns / 2, 2000, 6000);
+    const int points = std::max(usual, (parts_ ? 3 : 1) * points_);
+    ++use_;
+    ReflectionEstimate more;
+    if (parts_) {
+      more = estimate_exactly(
+          *state_.sight,
+          ExactGather(*state_.sight, state_.reflecting, state_.light, mesh_, found.reflected,
+                      state_.accuracy, points_of_exact_projection),
+          system, found.irradiance,
+          spread_probes(mesh_, found.weight, shares_of_probes(mesh_), points, use_), progress_);
+    } else {
+      std::vector<double> expected = tails(mesh_, found.irradiance.rest, found.weight);
+      for (std::size_t e = 0; e < expected.size(); ++e) expected[e] += found.noise_left[e];
+      const std::vector<double> shares = shares_of_probes(mesh_, expected);
+      const std::vector<int> strata = strata_of_estimate(system, found, shares, points);
+      more =
+          estimate_error(state_.reflecting, system, found.irradiance,
+                         {found.reflected, found.weight, shares, strata, points, use_}, progress_);
+    }
+    if (!more.complete) return false;
+    state_.report.rays += more.rays;
+    if (points_ == 0)
+      estimate = std::move(more);
+    else
+      estimate.join(more, static_cast<double>(points) / (points + points_));
+    points_ += points;
+    surer_ = points_ / usual;
+    return true;
+  }
+
+  Next judge(const ReflectedSystem& system, const Found& found,
+             const ReflectionEstimate& estimate) {
+    const SplitIrradiance& irradiance = found.irradiance;
+    keep(system, irradiance);
+    ReflectedReport& report = state_.report;
+    const double square = std::max(estimate.sum, 0.) + 2 * estimate.deviation;
+    const double scale = state_.scale.minCoeff();  // of the channels that count
+    const double all = norm_square(estimate.square_total);
+    const auto share = [&](double x) { return all > 0 ? std::sqrt(x / all) : 0; };
+    const BalanceEstimate unbalanced = estimate_balance(
+        system, direct_.leaving(mesh_, state_.light), irradiance.rest,
+        parts_ ? parts_->unsure() : unsure_by_rays(system, static_cast<int>(kept_rays)),
+        found.weight);
+    report.error = std::hypot(comes_back * share(square), share(unbalanced.square),
+                              report.residual * report.amplification);
+    report.noise = share(sum_of(found.noise_left));
+    report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
+    report.end = ReflectedEnd::accurate;
+    if (report.error <= options_.tolerance) return Next::end;
+    const double goal = goal_square(all);
+    if (unbalanced.square > goal && (kept_rays_ || unbalanced.elements > most_for_gaps)) {
+      report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
+      return Next::end;
+    }
+    return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
+                  goal, found);
+  }
+
+  Next decide(const RefinementInput& input, double goal, const Found& found) {
+    ReflectedReport& report = state_.report;
+    RefinementPlan plan = plan_refinement(input, goal);
+    const bool is_coarse = !plan.elements.empty();
+    const bool is_last = report.rounds == options_.max_rounds;
+    const int room = options_.max_elements - mesh_.count();
+    std::size_t fits = 0;
+    for (int made = 0; fits < plan.elements.size() && !is_last; ++fits)
+      if ((made += plan.twice[fits] ? 3 : 1) > room) break;
+    const ReflectedEnd end = is_coarse && !is_last ? ReflectedEnd::elements : ReflectedEnd::rounds;
+    report.end = ReflectedEnd::interrupted;
+    const double noise = sum_of(found.noise_left);
+    const double of_elements = std::max(input.estimate.sum - noise, 0.);
+    const bool is_hidden = noise > std::max(hides * of_elements, share_of_noise * goal);
+    const bool can_pass = kept_rays_ && found.passes < most_passes && noise > 0;
+    constexpr int surest = 16, sure = 3;
+    const bool could_be_surer = !is_coarse && surer_ < surest;
+    // More points take less than what an outlier among a few may ask for.
+    if (kept_rays_ && noise <= much_noise * goal && surer_ < sure &&
+        input.estimate.deviation > unsure * goal &&
+        input.estimate.sum - input.estimate.deviation < goal)
+      return Next::points;
+    if (fits > 0 && is_hidden && can_pass && plan_pass(input, goal, unseen * of_elements, found))
+      return Next::pass;
+    if (fits > 0) {
+      plan.elements.resize(fits);
+      refine(mesh_, plan.elements, plan.twice);
+      points_ = 0;
+      return Next::refine;
+    }
+    if (can_pass && (noise > share_of_noise * goal || !could_be_surer) &&
+        plan_pass(input, goal, 0, found))
+      return Next::pass;
+    if (could_be_surer) return Next::points;
+    report.end = kept_rays_ && !is_coarse ? ReflectedEnd::rays : end;
+    return Next::end;
+  }
+
+  /// Rays that bring the noise down to what suits the goal, or to `enough`. False if there may be
+  /// no more.
+  bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
+    const double noise = sum_of(found.noise_left);
+    const double of_elements = std::max(input.estimate.sum - noise, 0.);
+    const double allowed =
+        std::max(share_of_both * goal - of_elements, least_noise * goal) / uncertain;
+    const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
+    double fewer = 1;
+    constexpr double step = 1.125, most = 1e4;
+    while (fewer < most && noise_left(mesh_, found.rest, found.noise, found.weight, fewer) > wanted)
+      fewer *= step;
+    const double all = sum_of(noise_of_elements(found.noise, found.weight));
+    strata_ = share_rays(mesh_, found.noise_kept, found.weight,
+                         {kept_rays, passes_.sent(mesh_, kept_rays), all / fewer,
+                          static_cast<double>(options_.max_rays)});
+    return std::any_of(strata_.begin(), strata_.end(), [](int n) { return n > 0; });
+  }
+
+  ReflectedLight::State& state_;
+  const ReflectedOptions& options_;
+  const Progress& progress_;
+  ReflectedMesh mesh_;
+  DirectProjection direct_;
+  std::unique_ptr<RayExchange> kept_rays_;  ///< either these
+  std::unique_ptr<ExactExchange> parts_;    ///< or exact parts
+  int use_ = 0;
+  int points_ = 0;  ///< of the estimate so far
+  int surer_ = 1;   ///< times as many of them as usual
+  RayPasses passes_;
+  std::vector<int> strata_;  ///< of each element in the next pass
+};
+
+}  // namespace
+
+void run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
+                const Progress& progress) {
+  Rounds(state, options, progress).run();
+}
+
+}  // namespace halfshade

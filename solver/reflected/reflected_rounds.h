@@ -1,0 +1,15 @@
+#pragma once
+
+#include "solver/reflected/reflected_state.h"
+
+namespace halfshade {
+
+/// Points at which direct light is asked for in a round, where rows are exact parts.
+inline constexpr int points_of_exact_projection = 100000;
+
+/// The rounds of solving, estimating and refining, until the tolerance is met or a limit stops it.
+/// What is found is kept after each.
+void run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
+                const Progress& progress);
+
+}  // namespace halfshade

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "solver/reflected/exact_gather.h"
+#include "solver/reflected/exact_sight.h"
+#include "solver/reflected/irradiance_row.h"
+#include "solver/reflected/quick_field.h"
+#include "solver/reflected/reflected_light.h"
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+namespace halfshade {
+
+/// All that a solution is made of.
+struct ReflectedLight::State {
+  State(const SoundScene& scene, const DirectIrradiance& direct, const ReflectedOptions& options,
+        const Progress& progress)
+      : reflecting(make_reflecting_scene(scene, progress)),
+        light(first_light(scene, reflecting.roots, direct, options.through_operator)),
+        mesh(reflecting.roots) {}
+
+  ReflectingScene reflecting;
+  FirstLight light;
+  std::unique_ptr<const SoundScene> scene;  ///< for exact parts, as the next two
+  std::unique_ptr<const ExactSight> sight;
+  RowAccuracy accuracy;
+  Rgb scale = Rgb::Ones();  ///< of light while it is solved for: no size of it over- or underflows
+  ReflectedMesh mesh;
+  ElementTable elements;
+  ElementField field;
+  ElementField leaving_rest;  ///< what leaves, without S
+  std::optional<QuickField> irradiance, leaving;
+  ReflectedReport report;
+  mutable std::once_flag gather_made;
+  mutable std::optional<ExactGather> gather;  ///< made when it is asked for
+};
+
+}  // namespace halfshade

@@ -31,6 +31,7 @@ void ShadowArrangement::collect_silhouettes() {
       trees.closed_edges,
       [&](int index) {
         const Bounds& box = trees.closed_edges.nodes[at(index)].box;
+        view_->count_box();
         if (pyramid.is_outside(box)) return true;
         // Faces beyond the emitter's plane or in it do not count, so their edges may matter.
         return look_one_way(trees.cones[at(index)], pyramid.eye, pyramid.margin(box)) &&
@@ -39,7 +40,10 @@ void ShadowArrangement::collect_silhouettes() {
       consider);
   walk_tree(
       trees.open_edges,
-      [&](int index) { return pyramid.is_outside(trees.open_edges.nodes[at(index)].box); },
+      [&](int index) {
+        view_->count_box();
+        return pyramid.is_outside(trees.open_edges.nodes[at(index)].box);
+      },
       consider);
   collect_cuts();
 }
@@ -88,6 +92,7 @@ void ShadowArrangement::collect_cuts() {
   const SightPyramid& pyramid = outline_->pyramid;
   const auto skip = [&](int index) {
     const Bounds& box = faces.nodes[at(index)].box;
+    view_->count_box();
     return !pyramid.crosses_plane(box) || pyramid.is_outside(box);
   };
   const std::size_t first = arcs_.size();

@@ -271,6 +271,7 @@ int PointView::layers_over(const DirectionBeside& direction) {
   stack[depth++] = 0;
   while (depth > 0) {
     const int index = stack[--depth];
+    ++effort_.boxes;
     const FlatTree::Node& node = tree.nodes[at(index)];
     const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
     const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);

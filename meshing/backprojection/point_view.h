@@ -91,6 +91,7 @@ class PointView {
   int turn(int a, int b, int c) const;
   /// All that it took since this was made; starts are looks.
   const SightEffort& effort() const { return effort_; }
+  void count_box() { ++effort_.boxes; }
 
   /// +1 or −1 as a face's corners run counter-clockwise or clockwise seen from the point; 0 if it
   /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane.

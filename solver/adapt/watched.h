@@ -8,12 +8,6 @@
 
 namespace halfshade {
 
-/// Where a field is asked for.
-struct FieldPoint {
-  SurfacePoint point;
-  int surface;
-};
-
 /// Where something small may be that samples overlook.
 struct WatchedPlace {
   FieldPoint place;

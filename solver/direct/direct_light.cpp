@@ -4,6 +4,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "solver/direct/edge_derivatives.h"
+#include "solver/direct/emitter_target.h"
 #include "solver/elements/quadrature.h"
 
 #include <fmt/format.h>
@@ -16,55 +17,14 @@ namespace {
 
 constexpr std::size_t chunk = 64;  // points of one task
 
-/// An emitter is passed over without asking the exact predicates only if it lies below the horizon,
-/// or the point behind it, by more than this times the coordinates' size.
-constexpr double clearly = 1e-12;
-
-struct Target {
-  std::vector<std::vector<Vec3>> rings;  ///< counter-clockwise seen from the front, then the holes
-  Vec3 centre, half;                     ///< of the bounding box
-  Vec3 origin, normal;                   ///< of its plane
-  Rgb exitance;
-  double strength = 0;  ///< mean of the exitance's channels
-  double scale = 0;     ///< size of its coordinates
-};
-
-Target make_target(const SoundScene& scene, const Surface& surface) {
-  Target target;
-  Eigen::AlignedBox3d box;
-  for (const Ring& ring : surface.rings) {
-    std::vector<Vec3>& corners = target.rings.emplace_back();
-    for (const Vec2& p : ring) {
-      corners.push_back(surface.frame.to_space(p));
-      box.extend(corners.back());
-    }
-  }
-  target.centre = box.center();
-  target.half = 0.5 * box.sizes();
-  target.origin = surface.frame.origin;
-  target.normal = surface.frame.normal;
-  target.exitance = scene.materials[static_cast<std::size_t>(surface.material)].exitance;
-  target.strength = target.exitance.mean();
-  target.scale = target.centre.lpNorm<1>() + target.half.lpNorm<1>();
-  return target;
-}
-
-/// True if no light can pass between the two for sure, whatever is in between.
-bool is_clearly_away(const Target& target, const SurfacePoint& point) {
-  const double margin = clearly * (target.scale + point.position.lpNorm<1>());
-  if (target.normal.dot(point.position - target.origin) < -margin) return true;
-  const double highest =
-      point.normal.dot(target.centre - point.position) + point.normal.cwiseAbs().dot(target.half);
-  return highest < -margin;
-}
-
 /// What each thread keeps between calls.
 struct Worker {
   VisiblePartFinder finder;
   VisiblePart part;
 };
 
-PointFactor factor_of(const VisiblePart& part, const Target& target, const SurfacePoint& point) {
+PointFactor factor_of(const VisiblePart& part, const EmitterTarget& target,
+                      const SurfacePoint& point) {
   PointFactor factor;
   factor.region = part.region;
   factor.signature = part.signature;
@@ -78,15 +38,16 @@ PointFactor factor_of(const VisiblePart& part, const Target& target, const Surfa
 }
 
 /// Leaves the boundary in worker.part.
-PointFactor find_factor(Worker& worker, const Target& target, const SurfacePoint& point, int id) {
+PointFactor find_factor(Worker& worker, const EmitterTarget& target, const SurfacePoint& point,
+                        int id) {
   worker.finder.find(point.position, point.normal, id, worker.part);
   return factor_of(worker.part, target, point);
 }
 
 /// Without a signature, and with nothing left in worker.part: what takes less where very much lies
 /// before the emitter.
-PointFactor find_light(Worker& worker, const Target& target, const SurfacePoint& point, int id,
-                       std::size_t& crowd_work) {
+PointFactor find_light(Worker& worker, const EmitterTarget& target, const SurfacePoint& point,
+                       int id, std::size_t& crowd_work) {
   if (worker.finder.find_unless_crowded(point.position, point.normal, id, worker.part))
     return factor_of(worker.part, target, point);
   PointFactor factor;
@@ -107,7 +68,7 @@ PointFactor find_light(Worker& worker, const Target& target, const SurfacePoint&
 
 struct DirectLightIndex::Impl {
   std::shared_ptr<const OpaqueScene> opaque;
-  std::vector<Target> targets;  // by surface
+  std::vector<EmitterTarget> targets;  // by surface
   std::vector<int> emitters;
   tbb::enumerable_thread_specific<Worker> workers;
 
@@ -116,12 +77,12 @@ struct DirectLightIndex::Impl {
           return Worker{VisiblePartFinder(*opaque), {}};
         }) {
     for (const Surface& surface : scene.surfaces) {
-      targets.push_back(make_target(scene, surface));
+      targets.push_back(make_emitter_target(scene, surface));
       if (targets.back().strength > 0) emitters.push_back(static_cast<int>(targets.size()) - 1);
     }
   }
 
-  const Target& target(int surface) const {
+  const EmitterTarget& target(int surface) const {
     if (surface < 0 || surface >= static_cast<int>(targets.size()))
       throw Error(ErrorCode::contract, "DirectLightIndex",
                   fmt::format("there is no surface {} among {}", surface, targets.size()));
@@ -130,9 +91,10 @@ struct DirectLightIndex::Impl {
 
   DirectLight gather(Worker& worker, const SurfacePoint& point, std::span<const int> from) const {
     DirectLight light;
+    const SightEffort before = worker.finder.effort();
     double visible = 0, unobstructed = 0, strongest = 0;
     for (const int emitter : from) {
-      const Target& source = targets[static_cast<std::size_t>(emitter)];
+      const EmitterTarget& source = targets[static_cast<std::size_t>(emitter)];
       if (is_clearly_away(source, point)) continue;
       const PointFactor factor = find_light(worker, source, point, emitter, light.crowd_work);
       light.irradiance += factor.visible * source.exitance;
@@ -144,6 +106,7 @@ struct DirectLightIndex::Impl {
       }
     }
     if (unobstructed > 0) light.visible = visible / unobstructed;
+    light.effort = worker.finder.effort() - before;
     return light;
   }
 };
@@ -160,7 +123,7 @@ DirectLightIndex& DirectLightIndex::operator=(DirectLightIndex&&) noexcept = def
 std::span<const int> DirectLightIndex::emitters() const { return impl_->emitters; }
 
 PointFactor DirectLightIndex::factor(const SurfacePoint& point, int emitter) const {
-  const Target& target = impl_->target(emitter);
+  const EmitterTarget& target = impl_->target(emitter);
   if (is_clearly_away(target, point)) return {};
   Worker& worker = impl_->workers.local();
   return find_factor(worker, target, point, emitter);
@@ -168,7 +131,7 @@ PointFactor DirectLightIndex::factor(const SurfacePoint& point, int emitter) con
 
 PointFactorDerivatives DirectLightIndex::factor_derivatives(const SurfacePoint& point,
                                                             int emitter) const {
-  const Target& target = impl_->target(emitter);
+  const EmitterTarget& target = impl_->target(emitter);
   if (is_clearly_away(target, point)) return {};
   Worker& worker = impl_->workers.local();
   PointFactorDerivatives result;
@@ -195,7 +158,7 @@ int DirectLightIndex::strongest_emitter(const SurfacePoint& point) const {
   int strongest = -1;
   double most = 0;
   for (const int emitter : impl_->emitters) {
-    const Target& source = impl_->targets[at(emitter)];
+    const EmitterTarget& source = impl_->targets[at(emitter)];
     if (is_clearly_away(source, point)) continue;
     const double light =
         source.strength * unobstructed_factor(point.position, point.normal, source.rings);

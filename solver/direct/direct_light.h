@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/sight_effort.h"
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/core/progress.h"
 #include "meshing/patches/element_table.h"
@@ -15,6 +16,12 @@ namespace halfshade {
 struct SurfacePoint {
   Vec3 position;
   Vec3 normal;  ///< unit length; light from behind it does not count
+};
+
+/// Where a field on surfaces is asked for.
+struct FieldPoint {
+  SurfacePoint point;
+  int surface;
 };
 
 /// The light that reaches a point straight from one emitter, per unit of exitance.
@@ -44,6 +51,7 @@ struct DirectLight {
   /// How much was looked at where so much lies before an emitter that it is cut into cells, in
   /// faces and crossings, 1 to 2 µs each; 0 elsewhere. Follows from point and scene alone.
   std::size_t crowd_work = 0;
+  SightEffort effort;  ///< what it took, the same
 };
 
 /// Exact direct light of a scene: no sampling, correct to rounding. All calls may run concurrently;

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "meshing/core/sound_scene.h"
+#include "solver/direct/direct_light.h"
+
+#include <vector>
+
+namespace halfshade {
+
+struct SpreadPlaces {
+  std::vector<SurfacePoint> points;
+  std::vector<double> area;  ///< that each stands for
+};
+
+/// So many places for equal areas, whatever the lines between them.
+SpreadPlaces spread_places(const SoundScene& scene, int count);
+
+}  // namespace halfshade

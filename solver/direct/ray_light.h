@@ -1,0 +1,57 @@
+#pragma once
+
+#include "meshing/core/progress.h"
+#include "meshing/rays/visibility.h"
+#include "solver/direct/direct_light.h"
+#include "solver/elements/noisy_value.h"
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+struct RayLightOptions {
+  double deviation = 0;  ///< of a mean of two estimates, in W/m² (mean of the channels); > 0
+  /// To one emitter from one point, ≥ 1: where it would take more, the visible part is looked for.
+  double most_rays = 0;
+};
+
+/// Direct light with rays to emitters, as many as a tolerance needs, where exactly visible parts
+/// take longer. What an emitter would give unobstructed is exact; rays tell the share of it that
+/// arrives. So light without a shadow is exact, and what is wholly hidden is dark.
+///
+/// Rays end at points of a sequence of low discrepancy (Roberts 2018), shifted by random numbers
+/// for each pair of point and emitter. These follow from the direction of the emitter, so that a
+/// point has the same light in whatever batch, unit of length and order of faces. All calls may run
+/// concurrently. `scene`, `exact` and `visibility` (owners are not used) are referred to.
+class RayLight {
+ public:
+  /// Throws Error(contract) for options out of range.
+  RayLight(const SoundScene& scene, const DirectLightIndex& exact,
+           const VisibilityIndex& visibility, const RayLightOptions& options);
+  ~RayLight();
+  RayLight(RayLight&&) noexcept;
+
+  /// Irradiance in W/m², twice by rays of its own, with the deviation asked for or less. On all
+  /// threads; if stopped, places not reached are dark.
+  std::vector<NoisyValue> irradiance(std::span<const FieldPoint> places,
+                                     const Progress& progress = {}) const;
+
+  /// Irradiance (mean of the channels) if nothing were in between: no less than there is.
+  double unobstructed(const SurfacePoint& point) const;
+
+  /// How many rays a point takes; an exact look counts as most_rays.
+  double cost(const SurfacePoint& point) const;
+
+  /// What a triangle of a surface sees of the emitter that would give its centre the most light, as
+  /// far as some rays tell.
+  Region region(const std::array<Vec3, 3>& triangle, const Vec3& normal, int surface) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace halfshade

@@ -38,6 +38,7 @@ struct AdaptiveFieldReport {
   std::size_t unknowns = 0;   ///< coefficients per channel
   double relative_error = 0;  ///< estimated, in the L2 norm over all surfaces and channels
   FieldLimit limit = FieldLimit::none;  ///< what kept it above the tolerance
+  bool is_noisy = false;                ///< the field was known but for noise, see fit_noisy
 };
 
 /// A field on the elements of a mesh.

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "solver/adapt/noisy_field.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+struct NoisySample {
+  TrianglePlace place;
+  NoisyValue value;
+};
+
+/// An element of a noisy field while it is made.
+struct NoisyElement {
+  std::array<Vec3, 3> triangle;
+  Vec3 normal;
+  int surface = 0;
+  double area = 0;
+  int wanted = 0;  ///< samples
+  std::vector<NoisySample> samples;
+  bool is_fitted = false;
+  int order = 0;
+  ChannelArray coefficients = ChannelArray::Zero(1, 3);
+  double left = 0;       ///< mean square of what the polynomial cannot follow
+  double by_chance = 0;  ///< mean square of what it is off because samples are few and noisy
+
+  double square_error() const { return left + by_chance; }
+};
+
+Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
+
+/// Fits the order of 0 to 2 with the least error to an element's samples by least squares. What is
+/// left at the samples, less what their noise is, is what the polynomial cannot follow; both
+/// together, times the trace of the inverse normal matrix, are what the fit is off by chance.
+void fit(NoisyElement& element);
+
+/// Gives each sample of an element to the part of it where it lies.
+void share_samples(const NoisyElement& whole, std::span<const int> parts,
+                   std::span<NoisyElement> elements);
+
+}  // namespace halfshade

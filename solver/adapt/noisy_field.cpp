@@ -1,0 +1,354 @@
+#include "solver/adapt/noisy_field.h"
+
+#include "meshing/core/error.h"
+#include "meshing/core/parallel.h"
+#include "solver/adapt/field_beginnings.h"
+#include "solver/adapt/noisy_element.h"
+#include "solver/elements/balancing_scale.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+constexpr int most_noisy_rounds = 40;
+/// Of the square of the error allowed: what may come of elements left alone.
+constexpr double noisy_share_left_alone = 0.25;
+/// Shares of the mean by which an element matters, and the samples it begins with above them.
+constexpr std::array<std::pair<double, int>, 3> first_samples = {{{0.5, 6}, {0.02, 3}, {0, 2}}};
+/// No element has more samples than this; parts have no fewer than that.
+constexpr int most_samples = 24, least_samples = 6;
+/// Where this share of an element's error comes of too few samples, it gets more of them.
+constexpr double few_samples = 0.5;
+/// An element whose light varies by less than this share of it is worth samples for order 2.
+constexpr double varies_little = 0.3;
+/// New elements for one that is split, with what it takes to stay conforming.
+constexpr double growth_of_split = 2.5;
+/// Places that tell whether the estimate is right.
+constexpr std::size_t most_fresh = 40000, least_fresh = 10000;
+constexpr double fresh_for_one = 0.2;  ///< element
+/// Of the density of fresh places, what has nothing to do with the estimate.
+constexpr double even_share = 0.5;
+/// Of the square of the error allowed: what is looked for at least.
+constexpr double least_estimate = 1e-3;
+constexpr double deviations = 2;
+
+void check_noisy(const AdaptiveFieldOptions& options) {
+  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.max_elements < 1 ||
+      options.max_unknowns < 1)
+    throw Error(ErrorCode::contract, "fit_noisy",
+                fmt::format("tolerance ({}), max_elements ({}) or max_unknowns ({}) is out of "
+                            "range",
+                            options.tolerance, options.max_elements, options.max_unknowns));
+}
+
+class NoisyFit {
+ public:
+  NoisyFit(PatchMesh& mesh, const NoisyFieldAt& field, const FieldBound& bound,
+           const AdaptiveFieldOptions& options, const Progress& progress)
+      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+    take_elements();
+    const std::vector<double> share = shares(bound);
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      elements_[e].wanted = std::find_if(first_samples.begin(), first_samples.end(), [&](auto& s) {
+                              return share[e] >= s.first;
+                            })->second;
+  }
+
+  AdaptiveField run() {
+    while (true) {
+      sample_and_fit();
+      sum_up();
+      if (progress_.stopped()) report_.limit = FieldLimit::stopped;
+      if (report_.limit != FieldLimit::none) break;
+      if (square_error_ <= allowed()) {
+        compare();
+        if (square_error_ * correction_ <= allowed() || progress_.stopped()) break;
+      }
+      if (!improve()) break;
+    }
+    if (correction_of_round_ != report_.rounds && !progress_.stopped()) compare();
+    if (report_.limit != FieldLimit::stopped && square_error_ * correction_ <= allowed())
+      report_.limit = FieldLimit::none;
+    return result();
+  }
+
+ private:
+  /// How much each element may matter, as a share of the mean.
+  std::vector<double> shares(const FieldBound& bound) const {
+    std::vector<double> most(elements_.size()), result;
+    parallel_for(elements_.size(), [&](std::size_t e) {
+      const NoisyElement& element = elements_[e];
+      most[e] = bound(point_at(element, TrianglePlace::Constant(1. / 3)));
+    });
+    // Squares of light of any size must not over- or underflow.
+    const double largest = *std::max_element(most.begin(), most.end());
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      result.push_back(elements_[e].area * std::pow(largest > 0 ? most[e] / largest : 1, 2));
+    const double mean =
+        std::accumulate(result.begin(), result.end(), 0.) / static_cast<double>(result.size());
+    for (double& share : result) share = mean > 0 ? share / mean : 1;
+    return result;
+  }
+
+  /// Square of the error.
+  double allowed() const { return options_.tolerance * options_.tolerance * square_; }
+
+  FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) const {
+    return {{position(element.triangle, place), element.normal}, element.surface};
+  }
+
+  /// Reads the mesh; parts of an element share its samples.
+  void take_elements() {
+    table_ = mesh_.elements();
+    const PatchHierarchy hierarchy = mesh_.hierarchy();
+    std::vector<NoisyElement> before = std::move(elements_);
+    const std::unordered_map<int, int> index_before = std::move(index_of_node_);
+    elements_.assign(table_.corners.size(), {});
+    index_of_node_.clear();
+    std::unordered_map<int, std::vector<int>> parts;  // of elements before
+    for (int node = 0; node < static_cast<int>(hierarchy.element.size()); ++node) {
+      const int e = hierarchy.element[at(node)];
+      if (e < 0) continue;
+      index_of_node_[node] = e;
+      int known = node;
+      while (known >= 0 && !index_before.contains(known)) known = hierarchy.parent[at(known)];
+      NoisyElement& element = elements_[at(e)];
+      if (known == node) {
+        element = std::move(before[at(index_before.at(known))]);
+        continue;
+      }
+      element.triangle = table_.triangle(e);
+      element.normal = table_.normal[at(e)];
+      element.surface = table_.surface[at(e)];
+      element.area = table_.area[at(e)];
+      element.wanted = least_samples;
+      if (known >= 0) parts[index_before.at(known)].push_back(e);
+    }
+    for (const auto& [whole, ids] : parts) share_samples(before[at(whole)], ids, elements_);
+  }
+
+  /// As many samples as are wanted, and what follows from them.
+  void sample_and_fit() {
+    std::vector<FieldPoint> points;
+    std::vector<int> changed;
+    std::vector<std::size_t> first;
+    std::vector<TrianglePlace> places;
+    for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
+      const NoisyElement& element = elements_[at(e)];
+      if (element.is_fitted && element.samples.size() >= at(element.wanted)) continue;
+      changed.push_back(e);
+      first.push_back(places.size());
+      for (std::size_t k = element.samples.size(); k < at(element.wanted); ++k) {
+        places.push_back(spread_place(next_place_++));
+        points.push_back(point_at(element, places.back()));
+      }
+    }
+    first.push_back(places.size());
+    const std::vector<NoisyValue> values = sample(points);
+    if (values.size() < points.size()) return;
+    ++report_.rounds;
+    parallel_for(changed.size(), [&](std::size_t i) {
+      NoisyElement& element = elements_[at(changed[i])];
+      for (std::size_t k = first[i]; k < first[i + 1]; ++k)
+        element.samples.push_back({places[k], values[k]});
+      fit(element);
+    });
+  }
+
+  /// Values of the field, scaled; none if it was stopped on the way.
+  std::vector<NoisyValue> sample(const std::vector<FieldPoint>& points) {
+    std::vector<NoisyValue> values = field_(points, progress_);
+    report_.samples += points.size();
+    if (progress_.stopped()) return {};
+    if (!scale_) {
+      std::vector<Rgb> means;
+      for (const NoisyValue& value : values) means.push_back(value.mean());
+      scale_ = balancing_scale(means);
+    }
+    for (NoisyValue& value : values) value = {value.a * *scale_, value.b * *scale_};
+    return values;
+  }
+
+  void sum_up() {
+    square_error_ = square_ = 0;
+    unknowns_ = 0;
+    for (const NoisyElement& element : elements_) {
+      square_error_ += element.area * element.square_error();
+      square_ += element.area * element.coefficients.matrix().squaredNorm();
+      unknowns_ += static_cast<std::size_t>(element.coefficients.rows());
+    }
+  }
+
+  /// Compares the elements with samples that they do not know, at places that are drawn where the
+  /// error is thought to be, and elsewhere.
+  void compare() {
+    const double estimated = std::max(square_error_, least_estimate * allowed());
+    const double even = estimated / total_area();
+    std::vector<double> reached;
+    double sum = 0;
+    for (const NoisyElement& element : elements_)
+      reached.push_back(sum += element.area * density(element, even));
+    const auto count =
+        std::clamp(static_cast<std::size_t>(fresh_for_one * static_cast<double>(elements_.size())),
+                   least_fresh, most_fresh);
+    std::vector<FieldPoint> points;
+    std::vector<std::pair<std::size_t, TrianglePlace>> places;
+    std::size_t e = 0;
+    for (std::size_t k = 0; k < count && sum > 0; ++k) {
+      const double along = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * sum;
+      while (e + 1 < reached.size() && reached[e] < along) ++e;
+      places.emplace_back(e, spread_place(next_place_++));
+      points.push_back(point_at(elements_[e], places.back().second));
+    }
+    const std::vector<NoisyValue> values = sample(points);
+    if (values.size() < points.size() || points.empty()) return;
+    double mean = 0, mean_square = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      NoisyElement& element = elements_[places[k].first];
+      const Rgb fitted = value_at(element, places[k].second);
+      const double product =
+          ((values[k].a - fitted) * (values[k].b - fitted)).sum() * sum / density(element, even);
+      mean += product / static_cast<double>(count);
+      mean_square += product * product / static_cast<double>(count);
+      element.samples.push_back({places[k].second, values[k]});
+    }
+    const double variance = std::max(mean_square - mean * mean, 0.) / static_cast<double>(count);
+    correction_ = std::max((mean + deviations * std::sqrt(variance)) / estimated, 1.);
+    correction_of_round_ = report_.rounds;
+  }
+
+  /// Of places that are drawn to compare, but for a factor.
+  double density(const NoisyElement& element, double even) const {
+    return (1 - even_share) * element.square_error() + even_share * even;
+  }
+
+  double total_area() const { return std::accumulate(table_.area.begin(), table_.area.end(), 0.); }
+
+  /// False, with a limit set, if nothing can be done.
+  bool improve() {
+    if (options_.is_too_much && options_.is_too_much()) report_.limit = FieldLimit::work;
+    if (report_.rounds >= most_noisy_rounds) report_.limit = FieldLimit::rounds;
+    if (report_.limit != FieldLimit::none) return false;
+    // Samples that compared the elements are theirs now.
+    for (NoisyElement& element : elements_)
+      if (element.samples.size() > at(element.wanted)) fit(element);
+    std::vector<int> to_split;
+    double count = static_cast<double>(elements_.size()), unknowns = static_cast<double>(unknowns_);
+    bool is_changed = false;
+    FieldLimit limit = FieldLimit::fixed;
+    for (const int e : worst()) {
+      NoisyElement& element = elements_[at(e)];
+      const int now = static_cast<int>(element.samples.size());
+      if (now < most_samples && (is_short_of_samples(element) || now < samples_to_split(element))) {
+        element.wanted = std::min(std::max(2 * now, first_samples[0].second), most_samples);
+        is_changed = true;
+        continue;
+      }
+      if (!options_.split) continue;
+      if (count + growth_of_split - 1 > options_.max_elements) {
+        limit = FieldLimit::elements;
+        continue;
+      }
+      if (unknowns + (growth_of_split - 1) * basis_size(1) > options_.max_unknowns) {
+        limit = FieldLimit::unknowns;
+        continue;
+      }
+      count += growth_of_split - 1;
+      unknowns += (growth_of_split - 1) * basis_size(1);
+      to_split.push_back(e);
+    }
+    if (to_split.empty() && !is_changed) {
+      report_.limit = limit;
+      return false;
+    }
+    if (!to_split.empty()) {
+      mesh_.bisect(to_split);
+      take_elements();
+    }
+    progress_(fmt::format("refinement, round {}: {} elements, {} unknowns, error {:.2g}",
+                          report_.rounds + 1, elements_.size(), static_cast<long>(unknowns),
+                          std::sqrt(correction_ * square_error_ / square_)),
+              0);
+    return true;
+  }
+
+  static bool is_short_of_samples(const NoisyElement& element) {
+    return element.by_chance > few_samples * element.square_error();
+  }
+
+  /// Where light varies little, what is missing may be an order.
+  static int samples_to_split(const NoisyElement& element) {
+    const double mean = element.coefficients.row(0).matrix().norm();
+    return std::sqrt(element.left) < varies_little * mean ? 2 * basis_size(2) : least_samples;
+  }
+
+  /// The fewest elements without which the error would do.
+  std::vector<int> worst() const {
+    std::vector<int> order(elements_.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto square_error = [&](int e) {
+      return elements_[at(e)].area * elements_[at(e)].square_error();
+    };
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return square_error(a) > square_error(b); });
+    double left = square_error_;
+    std::size_t count = 0;
+    const double may_stay = noisy_share_left_alone * allowed() / correction_;
+    while (count < order.size() && left > may_stay) left -= square_error(order[count++]);
+    order.resize(count);
+    return order;
+  }
+
+  AdaptiveField result() {
+    sum_up();
+    AdaptiveField out;
+    std::vector<int> order;
+    for (const NoisyElement& element : elements_) order.push_back(element.order);
+    out.field = zero_field(std::move(order));
+    out.error.resize(static_cast<Eigen::Index>(elements_.size()));
+    const Rgb unscaled = scale_.value_or(Rgb::Ones()).inverse();
+    for (int e = 0; e < out.field.count(); ++e) {
+      const NoisyElement& element = elements_[at(e)];
+      out.field.of(e) = element.coefficients.rowwise() * unscaled.transpose();
+      out.error[e] = std::sqrt(correction_ * element.square_error()) * unscaled.maxCoeff();
+    }
+    out.elements = std::move(table_);
+    report_.unknowns = unknowns_;
+    report_.is_noisy = true;
+    report_.relative_error = square_ > 0 ? std::sqrt(correction_ * square_error_ / square_) : 0;
+    out.report = report_;
+    return out;
+  }
+
+  PatchMesh& mesh_;
+  const NoisyFieldAt& field_;
+  const AdaptiveFieldOptions& options_;
+  const Progress& progress_;
+  ElementTable table_;
+  std::vector<NoisyElement> elements_;
+  std::unordered_map<int, int> index_of_node_;
+  std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
+  double square_error_ = 0, square_ = 0;
+  double correction_ = 1;  ///< of the square of the error, as the last comparison has it
+  int correction_of_round_ = -1;
+  std::size_t unknowns_ = 0, next_place_ = 0;
+  AdaptiveFieldReport report_;
+};
+
+}  // namespace
+
+AdaptiveField fit_noisy(PatchMesh& mesh, const NoisyFieldAt& field, const FieldBound& bound,
+                        const AdaptiveFieldOptions& options, const Progress& progress) {
+  check_noisy(options);
+  return NoisyFit(mesh, field, bound, options, progress).run();
+}
+
+}  // namespace halfshade

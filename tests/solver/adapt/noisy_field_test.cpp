@@ -1,0 +1,159 @@
+#include "solver/adapt/noisy_field.h"
+
+#include "meshing/geometry/mix_bits.h"
+#include "tests/support/expect_error.h"
+#include "tests/support/sound_scenes.h"
+#include "tests/support/true_error.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <functional>
+#include <stop_token>
+
+namespace halfshade {
+namespace {
+
+using Function = std::function<double(const Vec3&)>;
+
+constexpr double uniform_deviation = 0.28867513459481287;  // of numbers from 0 to 1
+
+/// Of a place, from −√3 to √3, so that its deviation is 1.
+double noise_at(const Vec3& p, std::uint64_t which) {
+  std::uint64_t bits = which;
+  for (int k = 0; k < 3; ++k) bits = mix_bits(bits ^ std::bit_cast<std::uint64_t>(p[k]));
+  return (unit_share(bits) - 0.5) / uniform_deviation;
+}
+
+Rgb in_channels(double value) { return {value, 0.5 * value, 2 * value}; }
+
+/// With so much noise in the mean of two values.
+NoisyFieldAt field_of(const Function& f, double deviation) {
+  return [=](std::span<const FieldPoint> points, const Progress&) {
+    std::vector<NoisyValue> values;
+    for (const FieldPoint& point : points) {
+      const Vec3& p = point.point.position;
+      const double noise = std::sqrt(2.) * deviation;
+      values.push_back(
+          {in_channels(f(p) + noise * noise_at(p, 1)), in_channels(f(p) + noise * noise_at(p, 2))});
+    }
+    return values;
+  };
+}
+
+PatchMesh unit_square(double max_length) {
+  SoundScene scene = test::empty_sound_scene(std::sqrt(2.));
+  test::add_surface(scene, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 0);
+  PlanarMeshOptions options;
+  options.max_length = max_length;
+  return PatchMesh(scene, options);
+}
+
+double one(const FieldPoint&) { return 1; }
+
+double true_error(const AdaptiveField& fit, const Function& f, int parts = 1) {
+  return test::true_relative_error(
+      fit.elements, fit.field, [&](const Vec3& p) { return in_channels(f(p)); }, parts);
+}
+
+double smooth(const Vec3& p) { return 1 + std::sin(5 * p.x()) * std::cos(4 * p.y()); }
+double step(const Vec3& p) { return p.x() + 0.37 * p.y() < 0.613 ? 1 : 0.2; }
+/// A shadow with a soft border, and a spot.
+double shadows(const Vec3& p) {
+  const double edge = std::clamp((p.x() - 0.4 - 0.2 * p.y()) / 0.15, 0., 1.);
+  return 0.1 + edge + std::exp(-300 * ((p - Vec3(0.2, 0.7, 0)).squaredNorm()));
+}
+
+TEST(NoisyField, IsAsExactAsItSays) {
+  int within_three = 0, runs = 0;
+  for (const Function& f : {Function(smooth), Function(step), Function(shadows)})
+    for (const double tolerance : {0.1, 0.07, 0.05})
+      for (const double noise : {0., 0.5, 1.}) {
+        PatchMesh mesh = unit_square(0.3);
+        AdaptiveFieldOptions options;
+        options.tolerance = tolerance;
+        const AdaptiveField fit = fit_noisy(mesh, field_of(f, noise * tolerance), one, options);
+        ASSERT_EQ(fit.report.limit, FieldLimit::none);
+        EXPECT_TRUE(fit.report.is_noisy);
+        EXPECT_LE(fit.report.relative_error, tolerance);
+        const double off = true_error(fit, f, 3);
+        EXPECT_LE(off, tolerance) << noise;
+        EXPECT_LE(off, 1.15 * fit.report.relative_error) << tolerance << ' ' << noise;
+        within_three += 3 * off > fit.report.relative_error;
+        ++runs;
+      }
+  EXPECT_GT(within_three, 0.8 * runs);
+}
+
+TEST(NoisyField, TakesFewSamplesWhereLittleCanBe) {
+  const Function f = [](const Vec3& p) { return p.x() < 0.1 ? 1 + p.y() : 1e-4 * p.y(); };
+  const auto samples = [&](const FieldBound& bound) {
+    PatchMesh mesh = unit_square(0.02);
+    AdaptiveFieldOptions options;
+    options.tolerance = 0.05;
+    return fit_noisy(mesh, field_of(f, 0.01), bound, options).report.samples;
+  };
+  const std::size_t few = samples([&](const FieldPoint& p) { return f(p.point.position); });
+  EXPECT_LT(4 * few, 3 * samples(one));
+}
+
+TEST(NoisyField, SaysWhenALimitStopsIt) {
+  PatchMesh mesh = unit_square(0.2);
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.01;
+  options.max_elements = 2 * mesh.element_count();
+  const AdaptiveField fit = fit_noisy(mesh, field_of(step, 0.01), one, options);
+  EXPECT_EQ(fit.report.limit, FieldLimit::elements);
+  EXPECT_GT(fit.report.relative_error, 0.01);
+  EXPECT_LE(fit.elements.count(), 1.3 * options.max_elements);
+  EXPECT_LE(true_error(fit, step, 3), 1.15 * fit.report.relative_error);
+}
+
+TEST(NoisyField, EndsWhenItIsStopped) {
+  PatchMesh mesh = unit_square(0.2);
+  std::stop_source stop;
+  stop.request_stop();
+  AdaptiveFieldOptions options;
+  const AdaptiveField fit =
+      fit_noisy(mesh, field_of(smooth, 0), one, options, {stop.get_token(), {}});
+  EXPECT_EQ(fit.report.limit, FieldLimit::stopped);
+  EXPECT_EQ(fit.field.count(), mesh.element_count());
+}
+
+TEST(NoisyField, IsTheSameInAnyUnit) {
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.05;
+  PatchMesh mesh = unit_square(0.3), other = unit_square(0.3);
+  const AdaptiveField fit = fit_noisy(mesh, field_of(shadows, 0.02), one, options);
+  const double unit = 0x1p500;
+  const AdaptiveField strong = fit_noisy(
+      other,
+      [&](std::span<const FieldPoint> points, const Progress& progress) {
+        auto values = field_of(shadows, 0.02)(points, progress);
+        for (NoisyValue& value : values) value = {unit * value.a, unit * value.b};
+        return values;
+      },
+      one, options);
+  ASSERT_EQ(strong.field.coefficients.rows(), fit.field.coefficients.rows());
+  EXPECT_TRUE((strong.field.coefficients == unit * fit.field.coefficients).all());
+}
+
+TEST(NoisyField, IsDarkWhereAllIs) {
+  PatchMesh mesh = unit_square(0.3);
+  const AdaptiveField fit =
+      fit_noisy(mesh, field_of([](const Vec3&) { return 0.; }, 0), one, AdaptiveFieldOptions{});
+  EXPECT_EQ(fit.report.relative_error, 0);
+  EXPECT_TRUE((fit.field.coefficients == 0).all());
+}
+
+TEST(NoisyField, RefusesWhatIsOutOfRange) {
+  PatchMesh mesh = unit_square(0.3);
+  AdaptiveFieldOptions options;
+  options.tolerance = 0;
+  test::expect_error([&] { fit_noisy(mesh, field_of(smooth, 0), one, options); },
+                     ErrorCode::contract, {"out of range"});
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -22,7 +22,8 @@ void add_visibility(CLI::App& app, SolveOptions& options) {
                                  .at(k);
       },
       "Reflected light by exactly visible parts of surfaces ('exact'), by rays ('sampled'), or\n"
-      "by whichever takes less time ('auto')");
+      "by whichever takes less time ('auto'). Direct light is exact, too, unless rays take far\n"
+      "less and are as good as the tolerance; 'exact' forbids them");
 }
 
 void add_force(CLI::App& app, ForcedStages& force) {

@@ -120,6 +120,7 @@ Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
   for (const auto& [order, count] : orders) by_order[std::to_string(order)] = count;
   return {{"elements_by_order", by_order},
           {"unknowns", report.unknowns},
+          {"visibility", report.is_noisy ? "sampled" : "exact"},
           {"samples", report.samples},
           {"rounds", report.rounds},
           {"estimated_relative_error", report.relative_error}};

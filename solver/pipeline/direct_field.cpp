@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "solver/adapt/noisy_field.h"
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -48,6 +50,12 @@ FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
   };
 }
 
+NoisyFieldAt direct_light_at(const RayLight& light) {
+  return [&](std::span<const FieldPoint> points, const Progress& progress) {
+    return light.irradiance(points, progress);
+  };
+}
+
 double length_of(const SoundScene& scene, const SolveOptions& options) {
   if (options.refine == Refinement::adaptive) return 0;
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
@@ -68,13 +76,14 @@ bool has_budget(const SolveOptions& options) {
 }
 
 /// Elements that are to be divided: where narrow surfaces would take too many, they are narrow,
-/// too.
-PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& options,
+/// too; and where as few as there can be are asked for.
+PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& options, bool few,
                               const Progress& progress) {
   PlanarMeshOptions mesh_options;
   mesh_options.max_triangles =
       static_cast<std::size_t>(share_at_first * static_cast<double>(options.max_elements));
   for (const double angle : {least_angle, 3., 1.}) {
+    if (few) break;
     mesh_options.min_angle = angle;
     try {
       return PatchMesh(scene, mesh_options, progress);
@@ -88,16 +97,22 @@ PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& optio
 }
 
 /// Elements that follow no curves.
-PatchMesh mesh_without_curves(const SoundScene& scene, const SolveOptions& options,
+PatchMesh mesh_without_curves(const SoundScene& scene, const SolveOptions& options, bool few,
                               const Progress& progress) {
   if (has_budget(options))
     return *std::move(make_solve_mesh(scene, options, progress, least_angle).patches);
-  if (options.refine == Refinement::adaptive) return mesh_for_adaptation(scene, options, progress);
+  if (options.refine == Refinement::adaptive)
+    return mesh_for_adaptation(scene, options, few, progress);
   PlanarMeshOptions mesh_options;
   mesh_options.max_length = length_of(scene, options);
   mesh_options.min_angle = least_angle;
   mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
   return mesh_plainly(scene, mesh_options, options, progress);
+}
+
+std::optional<RayLight> rays_of(const PreparedScene& prepared, const Plan& plan) {
+  if (!(plan.rays.deviation > 0)) return std::nullopt;
+  return RayLight(prepared.scene(), prepared.direct_light(), prepared.visibility(), plan.rays);
 }
 
 class DirectFieldSearch {
@@ -111,12 +126,7 @@ class DirectFieldSearch {
         stages_(stages),
         goal_(goal),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
-        watched_(near_features(prepared.scene(), prepared.direct_light().emitters())) {
-    for (const auto& find : {shadow_places, corner_places, spot_places}) {
-      const auto more = find(prepared.scene(), prepared.direct_light().emitters());
-      watched_.places.insert(watched_.places.end(), more.begin(), more.end());
-    }
-  }
+        rays_(rays_of(prepared, plan)) {}
 
   DirectField run() {
     const bool no_curves = !plan_.no_discontinuities.empty();
@@ -128,12 +138,26 @@ class DirectFieldSearch {
     }
     stages_.leave_out_if(plan_.weak_sources > 0, "curves of weak sources",
                          fmt::format("{} of them give too little", plan_.weak_sources));
+    stages_.leave_out_if(rays_.has_value(), "exactly visible parts of emitters",
+                         "rays take less and are as good as the tolerance");
     find_regions();
     return std::move(found_);
   }
 
  private:
   const SoundScene& scene() const { return prepared_.scene(); }
+
+  /// What samples of exact light may overlook.
+  const Watched& watched() {
+    if (watched_) return *watched_;
+    const auto emitters = prepared_.direct_light().emitters();
+    watched_ = near_features(scene(), emitters);
+    for (const auto& find : {shadow_places, corner_places, spot_places}) {
+      const auto more = find(scene(), emitters);
+      watched_->places.insert(watched_->places.end(), more.begin(), more.end());
+    }
+    return *watched_;
+  }
 
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
@@ -156,8 +180,8 @@ class DirectFieldSearch {
 
   void fit_without_curves(double most_samples) {
     stages_.run("mesh", [&] {
-      found_.patches =
-          std::make_shared<PatchMesh>(mesh_without_curves(scene(), options_, progress_));
+      found_.patches = std::make_shared<PatchMesh>(
+          mesh_without_curves(scene(), options_, rays_.has_value(), progress_));
       return static_cast<std::size_t>(found_.patches->element_count());
     });
     warn_of_excess(found_.patches->element_count());
@@ -176,6 +200,7 @@ class DirectFieldSearch {
       });
     DiscontinuityOptions events = options_.events;
     events.eee = events.eee && plan_.no_eee.empty();
+    rays_.reset();  // what follows curves is meant to be exact
     events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
     events.max_length = length_of(scene(), options_);
     if (options_.force.discontinuities)
@@ -255,7 +280,13 @@ class DirectFieldSearch {
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;
     stages_.run("direct light", [&] {
-      found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched_);
+      if (rays_)
+        found_.light = fit_noisy(
+            *found_.patches, direct_light_at(*rays_),
+            [this](const FieldPoint& place) { return rays_->unobstructed(place.point); }, fit,
+            progress_);
+      else
+        found_.light = fit_adaptively(*found_.patches, direct_light_, fit, progress_, watched());
       return found_.light.report.unknowns;
     });
   }
@@ -272,6 +303,10 @@ class DirectFieldSearch {
           [&](std::size_t e) {
             const auto triangle = elements.triangle(static_cast<int>(e));
             Region& region = found_.region[e];
+            if (rays_) {
+              region = rays_->region(triangle, elements.normal[e], elements.surface[e]);
+              return;
+            }
             // Where the light hardly changes, one place will do.
             const std::size_t count = found_.light.field.order[e] == 0 ? 1 : places.size();
             for (std::size_t k = 0; k < count; ++k) {
@@ -293,7 +328,8 @@ class DirectFieldSearch {
   const GoalWeights* goal_;
   double crowd_work_ = 0;  ///< see DirectLight
   FieldAt direct_light_;
-  Watched watched_;
+  std::optional<RayLight> rays_;    ///< that look at direct light instead
+  std::optional<Watched> watched_;  ///< once it is known
   DirectField found_;
 };
 
@@ -323,7 +359,8 @@ DirectField no_direct_field(const SoundScene& scene, const SolveOptions& options
                             const Progress& progress, Stages& stages) {
   DirectField none;
   stages.run("mesh", [&] {
-    none.patches = std::make_shared<PatchMesh>(mesh_without_curves(scene, options, progress));
+    none.patches =
+        std::make_shared<PatchMesh>(mesh_without_curves(scene, options, false, progress));
     none.light.elements = none.patches->elements();
     return none.light.elements.corners.size();
   });

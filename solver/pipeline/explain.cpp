@@ -102,6 +102,10 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
     stages.push_back({"mesh", "", "", 0, "as many elements as the tolerance takes", 0});
     stages.push_back({"exact direct light", plan.no_exact_direct_light, "direct-light", emitters,
                       "emitters", 0});
+    if (plan.rays.deviation > 0)
+      stages.push_back({"exactly visible parts of emitters",
+                        "rays take less and are as good as the tolerance", "direct-light", 0, "",
+                        0});
     stages.push_back(plan_reflected_light(scene, plan, options));
     stages.push_back({"second and third channel", plan.no_channels, "channels", 0, "", 0});
     return stages;

@@ -1,13 +1,12 @@
 #include "solver/pipeline/plan.h"
 
 #include "meshing/core/error.h"
-#include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
-#include "meshing/triangulation/ring_triangles.h"
-#include "solver/adapt/field_beginnings.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/blockers.h"
+#include "solver/pipeline/direct_rays.h"
 #include "solver/pipeline/sources.h"
+#include "solver/pipeline/spread_places.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,43 +27,14 @@ constexpr std::size_t much_work = 500;
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
 
-struct Places {
-  std::vector<SurfacePoint> points;
-  std::vector<double> area;  ///< that each stands for
-};
-
 bool has_many_lines(const SoundScene& scene) {
   std::size_t lines = scene.surfaces.size();
   for (const Surface& surface : scene.surfaces) lines += surface.contacts.size();
   return lines > many_lines;
 }
 
-/// So many places for equal areas, whatever the lines between them.
-Places spread_places(const SoundScene& scene, int count) {
-  Places result;
-  double all = 0;
-  for (const Surface& surface : scene.surfaces) all += area(surface);
-  const double each = all / count;
-  double passed = 0;
-  for (const Surface& surface : scene.surfaces) {
-    std::vector<Vec2> corners;
-    for (const Ring& ring : surface.rings) corners.insert(corners.end(), ring.begin(), ring.end());
-    for (const auto& [i, j, k] : ring_triangles(surface.rings)) {
-      const Vec2 &a = corners[at(i)], u = corners[at(j)] - a, v = corners[at(k)] - a;
-      passed += 0.5 * std::abs(cross_2d(u, v));
-      while (static_cast<double>(result.points.size()) + 0.5 < passed / each) {
-        const TrianglePlace place = spread_place(result.points.size());
-        result.points.push_back(
-            {surface.frame.to_space(a + place.x() * u + place.y() * v), surface.frame.normal});
-        result.area.push_back(each);
-      }
-    }
-  }
-  return result;
-}
-
 /// In equal parts of surfaces, unless narrow ones make that too many.
-Places mesh_places(const SoundScene& scene, const Progress& progress) {
+SpreadPlaces mesh_places(const SoundScene& scene, const Progress& progress) {
   PlanarMeshOptions coarse;
   coarse.max_length = length_for_count(scene, places);
   coarse.max_triangles = most_mean_places;
@@ -87,6 +57,7 @@ Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const
       scene, options.force.exact_direct_light ? DirectLightBy::exact : options.direct_light);
   plan.no_factors = factors_needless(scene, plan.no_exact_direct_light.empty(), options);
   plan.no_channels = channels_needless(scene, options);
+  if (plan.no_exact_direct_light.empty()) plan.rays = direct_rays(prepared, options, progress);
   plan.no_discontinuities = discontinuities_needless(scene, options);
   if (!plan.no_discontinuities.empty()) return plan;
   stages.run("sources", [&] {
@@ -164,7 +135,7 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  const Places at_places =
+  const SpreadPlaces at_places =
       has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
   // Some of them first, which tell what all would take.
   const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/light_source.h"
+#include "solver/direct/ray_light.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
 
@@ -19,6 +20,7 @@ struct Plan {
   std::string no_channels;            ///< why one channel does for all three
   std::vector<LightSource> sources;   ///< to find discontinuities of; empty without
   std::size_t weak_sources = 0;       ///< left out of them, for they give too little
+  RayLightOptions rays;        ///< that look at direct light; without a deviation it is exact
   double mean_irradiance = 0;  ///< what the tolerance is a share of, W/m²; 0 without sources
 };
 

@@ -19,6 +19,9 @@ namespace {
 /// Of the tolerance: direct light, relative to it alone; reflected light; its values on the
 /// elements of direct light. Squares sum to less than 1.
 constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
+/// Where direct light is what takes the time, as rays find it: more, for reflected light takes
+/// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
+constexpr double direct_share_of_rays = 0.65;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
 /// by so much more than the goal, for the residual corrects what that does; values do not enter it.
 constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;
@@ -185,7 +188,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   if (goal)
     direct_options.tolerance = goal_tolerance(direct_share_of_goal, options.tolerance);
   else if (reflects)
-    direct_options.tolerance *= direct_share;
+    direct_options.tolerance *= plan.rays.deviation > 0 ? direct_share_of_rays : direct_share;
   const bool is_exact = plan.no_exact_direct_light.empty();
   stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
   stages.leave_out_if(!is_exact, "discontinuities", plan.no_discontinuities);

@@ -1,0 +1,84 @@
+#include "solver/pipeline/direct_rays.h"
+
+#include "solver/direct/direct_light.h"
+#include "solver/pipeline/solve.h"
+#include "tests/support/random.h"
+#include "tests/support/room_families.h"
+
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// A furnished room below many small lights.
+Scene room_with_lights() {
+  test::SceneMaker maker;
+  maker.scene = test::furnished_room(1500);
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const Vec2 low(0.41 + 1.22 * i, 0.53 + 1.21 * j);
+      maker.down(low, low + Vec2(0.4, 0.1), 2.9, test::bright_light);
+    }
+  return maker.scene;
+}
+
+SolveOptions loosely(double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  options.radiosity.bounces = 0;
+  return options;
+}
+
+TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
+  const PreparedScene crowded(room_with_lights());
+  EXPECT_GT(direct_rays(crowded, loosely(0.05)).deviation, 0);
+  EXPECT_EQ(direct_rays(crowded, loosely(0.002)).deviation, 0);
+  SolveOptions exact = loosely(0.05);
+  exact.visibility = ReflectedVisibility::exact;
+  EXPECT_EQ(direct_rays(crowded, exact).deviation, 0);
+  SolveOptions forced = loosely(0.05);
+  forced.force.exact_direct_light = true;
+  EXPECT_EQ(direct_rays(crowded, forced).deviation, 0);
+  EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(100)), loosely(0.05)).deviation, 0);
+}
+
+TEST(DirectRays, SolveToTheToleranceAsked) {
+  const PreparedScene prepared(room_with_lights());
+  const SolveResult result = solve(prepared, loosely(0.05));
+  ASSERT_TRUE(result.refinement.is_noisy);
+  EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
+  EXPECT_LE(result.relative_error, 0.05);
+  test::Random random(3);
+  double square_error = 0, square = 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    double s = random(0, 1), t = random(0, 1);
+    if (s + t > 1) s = 1 - s, t = 1 - t;
+    const Vec3 p = position(result.elements.triangle(e), {s, t});
+    const Rgb exact =
+        prepared.direct_light().irradiance({p, result.elements.normal[at(e)]}).irradiance;
+    const double area = result.elements.area[at(e)];
+    square += area * exact.matrix().squaredNorm();
+    square_error += area * (value_at(result.irradiance, e, {s, t}) - exact).matrix().squaredNorm();
+  }
+  const double off = std::sqrt(square_error / square);
+  EXPECT_LE(off, 0.05);
+  EXPECT_LE(off, 1.1 * result.relative_error);
+  EXPECT_GE(3 * off, result.relative_error);
+}
+
+TEST(DirectRays, GiveTheSameOnAnyNumberOfThreads) {
+  const PreparedScene prepared(room_with_lights());
+  const auto solve_on = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return solve(prepared, loosely(0.1)).irradiance.coefficients;
+  };
+  const ChannelArray one = solve_on(1), two = solve_on(2);
+  ASSERT_EQ(one.rows(), two.rows());
+  EXPECT_TRUE((one == two).all());
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -24,8 +24,9 @@ struct RayLightOptions {
 ///
 /// Rays end at points of a sequence of low discrepancy (Roberts 2018), shifted by random numbers
 /// for each pair of point and emitter. These follow from the direction of the emitter, so that a
-/// point has the same light in whatever batch, unit of length and order of faces. All calls may run
-/// concurrently. `scene`, `exact` and `visibility` (owners are not used) are referred to.
+/// point has the same light in whatever batch and unit of length; where an emitter's outline
+/// begins changes the noise. All calls may run concurrently. `scene`, `exact` and `visibility`
+/// (owners are not used) are referred to.
 class RayLight {
  public:
   /// Throws Error(contract) for options out of range.

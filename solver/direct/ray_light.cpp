@@ -23,8 +23,8 @@ constexpr std::size_t places_of_task = 64;
 /// of independent ones. Two halves of them, each spread on its own, do somewhat worse than all.
 constexpr double variance_of_rays = 0.7, power_of_rays = 1.5;
 /// Where light from corners of an emitter differs by more than this factor, its visible part is
-/// looked for, if it gives more than so many deviations: a share by weights is biased as they vary.
-constexpr double uneven = 3, strong = 3;
+/// looked for: a share by weights is biased as they vary.
+constexpr double uneven = 3;
 /// Rays that tell what an element sees of an emitter.
 constexpr int rays_of_region = 16;
 /// Directions that differ by less draw the same random numbers; above the rounding of coordinates.
@@ -158,11 +158,12 @@ struct RayLight::Impl {
   void share_rays(std::vector<Look>& looks) const {
     constexpr double power = 2 / (power_of_rays + 1);
     const double variance = options.deviation * options.deviation / variance_of_rays;
-    const auto first_far = std::stable_partition(looks.begin(), looks.end(),
-                                                 [](const Look& look) { return look.is_uneven; });
+    const auto first_even = std::stable_partition(looks.begin(), looks.end(),
+                                                  [](const Look& look) { return look.is_uneven; });
     double sum = 0;
-    for (auto look = first_far; look != looks.end(); ++look) sum += std::pow(look->strength, power);
-    for (auto look = first_far; look != looks.end(); ++look) {
+    for (auto look = first_even; look != looks.end(); ++look)
+      sum += std::pow(look->strength, power);
+    for (auto look = first_even; look != looks.end(); ++look) {
       const double each = std::pow(sum / variance, 1 / power_of_rays);
       const double rays = std::ceil(each * std::pow(look->strength, power));
       if (rays > options.most_rays) {

@@ -120,11 +120,9 @@ double HotCells::expected(const ReflectingScene& scene, const RayOrigin& from, i
 
 Rgb HotCells::by_aimed_rays(const ReflectingScene& scene, const Leaving& leaving,
                             const RayOrigin& from, int rays, int aimed, std::uint64_t seed) const {
-  thread_local std::vector<Segment> segments;
-  thread_local std::vector<Rgb> light;
-  thread_local std::vector<std::uint8_t> blocked;
-  segments.clear();
-  light.clear();
+  std::vector<Segment> segments;
+  std::vector<Rgb> light;
+  std::vector<std::uint8_t> blocked;
   const std::uint64_t own = mix_bits(seed ^ 0x5bd1e995);
   for (int k = 0; k < aimed; ++k) {
     const std::uint64_t n = 3 * static_cast<std::uint64_t>(k);

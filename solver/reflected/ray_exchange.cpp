@@ -26,7 +26,7 @@ ChannelArray arriving(const ReflectedMesh& mesh, const NodeRays& rays, const Qui
 
 std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& light,
                                 const ReflectedMesh& mesh, int element, int strata) {
-  thread_local std::vector<RayEnd> ends;
+  std::vector<RayEnd> ends;
   const Gathering gathering{scene, light};
   auto rays = std::make_unique<NodeRays>();
   const int triangle = mesh.triangle[at(element)];
@@ -86,7 +86,7 @@ std::size_t Gathering::rays(int strata) const {
 
 Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
              const RayOrigin& from, int strata, std::uint64_t seed) {
-  thread_local std::vector<RayEnd> ends;
+  std::vector<RayEnd> ends;
   const auto [first, rays] = gathering(from, strata, seed, ends);
   Rgb sum = Rgb::Zero();
   for (const RayEnd& end : ends) {

@@ -68,7 +68,7 @@ double shadows(const Vec3& p) {
 TEST(NoisyField, IsAsExactAsItSays) {
   int within_three = 0, runs = 0;
   for (const Function& f : {Function(smooth), Function(step), Function(shadows)})
-    for (const double tolerance : {0.1, 0.07, 0.05})
+    for (const double tolerance : {0.1, 0.05, 0.02})
       for (const double noise : {0., 0.5, 1.}) {
         PatchMesh mesh = unit_square(0.3);
         AdaptiveFieldOptions options;

@@ -73,7 +73,7 @@ TEST(RayLight, HasTheMeanAndTheDeviationAskedFor) {
     EXPECT_LT(std::sqrt(square / count), deviation) << kind;
     EXPECT_LT(std::abs(off), 4 * std::sqrt(square)) << kind;
     // Two estimates have nothing to do with each other.
-    EXPECT_LT(std::abs(product), 0.2 * half_square) << kind;
+    EXPECT_LT(std::abs(product), 0.15 * half_square) << kind;
   }
 }
 

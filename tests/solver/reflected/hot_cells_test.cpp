@@ -1,0 +1,70 @@
+#include "solver/reflected/hot_cells.h"
+
+#include "meshing/repair/repair.h"
+#include "solver/exchange/form_factor.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+constexpr double bright = 50;
+
+/// A spot of the ceiling, and a glow of everything.
+Rgb leaving(int /*root*/, const Vec3& p) {
+  const bool in_spot = p.z() > 0.999 && std::abs(p.x() - 0.7) < 0.1 && std::abs(p.y() - 0.6) < 0.1;
+  return Rgb::Constant(in_spot ? bright : 1);
+}
+
+/// Of many runs, each with rays of its own.
+struct Runs {
+  double mean = 0, square = 0;
+
+  double deviation() const { return std::sqrt(square - mean * mean); }
+};
+
+Runs gather(const ReflectingScene& scene, const HotCells& hot, const RayOrigin& from, int runs) {
+  constexpr int strata = 7;
+  Runs result;
+  std::vector<RayEnd> ends;
+  HemisphereRays caster(scene);
+  for (int k = 0; k < runs; ++k) {
+    const auto seed = static_cast<std::uint64_t>(k);
+    ends.clear();
+    const int rays = caster.cast(from, strata, seed, ends);
+    const double light = hot.irradiance(scene, leaving, from, strata, rays, ends, seed).mean();
+    result.mean += light / runs;
+    result.square += light * light / runs;
+  }
+  return result;
+}
+
+TEST(HotCells, HaveTheMeanOfTheClosedFormAndLessNoise) {
+  const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
+  const HotCells hot(scene, leaving);
+  EXPECT_GT(hot.count(49), 0);
+  EXPECT_EQ(HotCells().count(49), 0);
+  const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ(), scene.cells.before(0), true, 0};
+  const double factor = point_to_polygon(
+      from.position, from.normal,
+      std::vector<Vec3>{{0.6, 0.5, 1}, {0.6, 0.7, 1}, {0.8, 0.7, 1}, {0.8, 0.5, 1}});
+  const double expected = 1 + (bright - 1) * factor;
+  constexpr int runs = 4000;
+  const Runs aimed = gather(scene, hot, from, runs), plain = gather(scene, {}, from, runs);
+  EXPECT_NEAR(aimed.mean, expected, 4 * aimed.deviation() / std::sqrt(runs));
+  EXPECT_NEAR(plain.mean, expected, 4 * plain.deviation() / std::sqrt(runs));
+  EXPECT_LT(aimed.deviation(), 0.7 * plain.deviation());
+}
+
+TEST(HotCells, AreNoneWhereLightIsEven) {
+  const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
+  const HotCells even(scene, [](int, const Vec3&) { return Rgb(Rgb::Ones()); });
+  EXPECT_EQ(even.count(10000), 0);
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -23,12 +23,17 @@ constexpr int most_noisy_rounds = 40;
 constexpr double noisy_share_left_alone = 0.25;
 /// Shares of the mean by which an element matters, and the samples it begins with above them.
 constexpr std::array<std::pair<double, int>, 3> first_samples = {{{0.5, 6}, {0.02, 3}, {0, 2}}};
+/// Of the same: what a round aims at, if more samples or parts leave this share of an element's.
+constexpr double aim_of_round = 0.8, left_of_improved = 0.5;
 /// No element has more samples than this; parts have no fewer than that.
 constexpr int most_samples = 24, least_samples = 6;
 /// Where this share of an element's error comes of too few samples, it gets more of them.
 constexpr double few_samples = 0.5;
 /// An element whose light varies by less than this share of it is worth samples for order 2.
 constexpr double varies_little = 0.3;
+/// An edge across an element leaves a sixth of the square of its height on the mean of all places;
+/// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
+constexpr double missed = 3;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
@@ -177,7 +182,20 @@ class NoisyFit {
     return values;
   }
 
+  /// An edge of a shadow seen in an element goes on in the next one, whose samples may miss it.
+  void suspect_unseen() {
+    for (std::size_t e = 0; e < elements_.size(); ++e) {
+      double seen = 0;  // by neighbours
+      for (const int n : table_.neighbours[e])
+        if (n >= 0) seen += elements_[at(n)].left / 3;
+      NoisyElement& element = elements_[e];
+      element.unseen = missed * std::max(seen - element.left, 0.) /
+                       static_cast<double>(element.samples.size() + 1);
+    }
+  }
+
   void sum_up() {
+    suspect_unseen();
     square_error_ = square_ = 0;
     unknowns_ = 0;
     for (const NoisyElement& element : elements_) {
@@ -240,6 +258,7 @@ class NoisyFit {
     // Samples that compared the elements are theirs now.
     for (NoisyElement& element : elements_)
       if (element.samples.size() > at(element.wanted)) fit(element);
+    sum_up();
     std::vector<int> to_split;
     double count = static_cast<double>(elements_.size()), unknowns = static_cast<double>(unknowns_);
     bool is_changed = false;
@@ -290,7 +309,7 @@ class NoisyFit {
     return std::sqrt(element.left) < varies_little * mean ? 2 * basis_size(2) : least_samples;
   }
 
-  /// The fewest elements without which the error would do.
+  /// The fewest elements that are likely to make the error do, and without which it would.
   std::vector<int> worst() const {
     std::vector<int> order(elements_.size());
     std::iota(order.begin(), order.end(), 0);
@@ -299,10 +318,15 @@ class NoisyFit {
     };
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return square_error(a) > square_error(b); });
-    double left = square_error_;
+    double without = square_error_, after = square_error_;
     std::size_t count = 0;
     const double may_stay = noisy_share_left_alone * allowed() / correction_;
-    while (count < order.size() && left > may_stay) left -= square_error(order[count++]);
+    const double aim = aim_of_round * allowed() / correction_;
+    while (count < order.size() && without > may_stay && after > aim) {
+      const double error = square_error(order[count++]);
+      without -= error;
+      after -= (1 - left_of_improved) * error;
+    }
     order.resize(count);
     return order;
   }

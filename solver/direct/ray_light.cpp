@@ -5,7 +5,7 @@
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
 #include "meshing/triangulation/ring_triangles.h"
-#include "solver/direct/emitter_target.h"
+#include "solver/direct/emitter_parts.h"
 
 #include <fmt/format.h>
 
@@ -22,13 +22,18 @@ constexpr std::size_t places_of_task = 64;
 /// of a shadow cuts as many of the rays' cells as lie along it. With few rays that is above the 1/4
 /// of independent ones. Two halves of them, each spread on its own, do somewhat worse than all.
 constexpr double variance_of_rays = 0.7, power_of_rays = 1.5;
-/// Where light from corners of an emitter differs by more than this factor, its visible part is
-/// looked for: a share by weights is biased as they vary.
-constexpr double uneven = 3;
+/// Of the deviation: light of a part of an emitter that need not be even.
+constexpr double negligible = 0.5;
 /// Rays that tell what an element sees of an emitter.
 constexpr int rays_of_region = 16;
 /// Directions that differ by less draw the same random numbers; above the rounding of coordinates.
 constexpr double same_direction = 0x1p-24;
+
+/// Evenly over a triangle, for s and t in [0, 1].
+Vec3 point_of(const std::array<Vec3, 3>& triangle, double s, double t) {
+  const auto& [a, b, c] = triangle;
+  return a + std::sqrt(s) * (b - a + t * (c - b));
+}
 
 /// An emitter as triangles, to draw points of it.
 struct RayEmitter {
@@ -37,15 +42,15 @@ struct RayEmitter {
   std::vector<std::array<Vec3, 3>> triangles;
   std::vector<double> reached;  ///< area of all triangles up to each
 
+  double area() const { return reached.back(); }
+
   Vec3 point(double s, double t) const {
-    const double along = s * reached.back();
+    const double along = s * area();
     const auto first = std::upper_bound(reached.begin(), reached.end() - 1, along);
     const auto k = static_cast<std::size_t>(first - reached.begin());
     const double from = k == 0 ? 0 : reached[k - 1];
     const double rest = std::clamp((along - from) / (reached[k] - from), 0., 1.);
-    const double width = std::sqrt(rest);
-    const auto& [a, b, c] = triangles[k];
-    return a + width * (b - a + t * (c - b));
+    return point_of(triangles[k], rest, t);
   }
 };
 
@@ -76,12 +81,17 @@ class SpreadPairs {
       : s_(unit_share(mix_bits(seed))), t_(unit_share(mix_bits(seed + splitmix_step))) {}
   std::array<double, 2> next() {
     constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
-    s_ = std::fmod(s_ + 1 / root, 1.);
-    t_ = std::fmod(t_ + 1 / (root * root), 1.);
+    s_ = step(s_, 1 / root);
+    t_ = step(t_, 1 / (root * root));
     return {s_, t_};
   }
 
  private:
+  static double step(double from, double width) {
+    const double to = from + width;
+    return to < 1 ? to : to - 1;
+  }
+
   double s_, t_;
 };
 
@@ -95,39 +105,30 @@ std::uint64_t seed_of(const Vec3& position, const EmitterTarget& target) {
   return bits;
 }
 
-/// cos θ cos θ' / r² of a way from a point to an emitter.
-double kernel(const SurfacePoint& point, const EmitterTarget& target, const Vec3& way) {
-  const double square = way.squaredNorm();
-  return std::max(point.normal.dot(way), 0.) * std::max(-target.normal.dot(way), 0.) /
-         (square * square);
-}
-
-bool is_uneven(const EmitterTarget& target, const SurfacePoint& point) {
-  double least = HUGE_VAL, most = 0;
-  for (const auto& ring : target.rings)
-    for (const Vec3& corner : ring) {
-      const double light = kernel(point, target, corner - point.position);
-      least = std::min(least, light);
-      most = std::max(most, light);
-    }
-  return !(most <= uneven * least);
-}
-
 /// What rays to one emitter are to tell.
 struct Look {
   const RayEmitter* emitter;
-  double factor;    ///< form factor if nothing is in between
-  double strength;  ///< light that gives
-  bool is_uneven;   ///< light varies so much over the emitter that few rays would be biased
-  int rays = 0;     ///< for one of two estimates; 0: its visible part is looked for
+  double factor;                             ///< form factor if nothing is in between
+  double strength;                           ///< light that gives
+  std::size_t first_part = 0, end_part = 0;  ///< in the work's list; none: light from it is even
+  bool is_near = false;                      ///< too near to be cut into parts
+  int rays = 0;  ///< for one of two estimates; 0: its visible part is looked for
 };
 
-/// Buffers of one thread.
+/// Rays to a part of an emitter, or to all of it, for one estimate.
+struct RayGroup {
+  double factor;    ///< form factor if nothing is in between
+  std::size_t end;  ///< of its segments
+};
+
+/// Buffers of one task.
 struct RayWork {
   std::vector<Look> looks;
+  std::vector<EmitterPart> parts;
   std::vector<Segment> segments;
   std::vector<double> weights;
-  std::vector<std::size_t> ends;  ///< of the segments of both estimates of each look
+  std::vector<RayGroup> groups;
+  std::vector<std::size_t> ends;  ///< of the groups of both estimates of each look
   std::vector<std::uint8_t> blocked;
 };
 
@@ -147,23 +148,35 @@ struct RayLight::Impl {
       const EmitterTarget& target = emitter.target;
       if (is_clearly_away(target, point)) continue;
       const double factor = unobstructed_factor(point.position, point.normal, target.rings);
-      if (factor > 0)
-        looks.push_back({&emitter, factor, factor * target.strength, is_uneven(target, point)});
+      if (factor > 0) looks.push_back({&emitter, factor, factor * target.strength});
     }
     std::stable_sort(looks.begin(), looks.end(),
                      [](const Look& a, const Look& b) { return a.strength > b.strength; });
+  }
+
+  /// Emitters over which light varies much are looked at part by part.
+  void cut_uneven(const SurfacePoint& point, RayWork& work) const {
+    work.parts.clear();
+    for (Look& look : work.looks) {
+      const EmitterTarget& target = look.emitter->target;
+      if (is_even(point, target, look.emitter->area(), look.factor)) continue;
+      look.first_part = work.parts.size();
+      look.is_near = !cut_evenly(point, target, look.emitter->triangles,
+                                 negligible * options.deviation / target.strength, work.parts);
+      look.end_part = work.parts.size();
+    }
   }
 
   /// The fewest rays in all with which the variances sum to what is allowed.
   void share_rays(std::vector<Look>& looks) const {
     constexpr double power = 2 / (power_of_rays + 1);
     const double variance = options.deviation * options.deviation / variance_of_rays;
-    const auto first_even = std::stable_partition(looks.begin(), looks.end(),
-                                                  [](const Look& look) { return look.is_uneven; });
+    const auto first_by_rays = std::stable_partition(looks.begin(), looks.end(),
+                                                     [](const Look& look) { return look.is_near; });
     double sum = 0;
-    for (auto look = first_even; look != looks.end(); ++look)
+    for (auto look = first_by_rays; look != looks.end(); ++look)
       sum += std::pow(look->strength, power);
-    for (auto look = first_even; look != looks.end(); ++look) {
+    for (auto look = first_by_rays; look != looks.end(); ++look) {
       const double each = std::pow(sum / variance, 1 / power_of_rays);
       const double rays = std::ceil(each * std::pow(look->strength, power));
       if (rays > options.most_rays) {
@@ -174,28 +187,45 @@ struct RayLight::Impl {
     }
   }
 
-  /// Adds the rays of a look, without those below the point's horizon.
+  /// Adds the rays of one estimate of a look.
   void add_rays(const FieldPoint& place, const Look& look, std::uint64_t seed,
                 RayWork& work) const {
+    if (look.rays > 0 && look.first_part == look.end_part)
+      add_group(place, *look.emitter, nullptr, look.factor, look.rays, seed, work);
+    for (std::size_t p = look.first_part; look.rays > 0 && p < look.end_part; ++p) {
+      const EmitterPart& part = work.parts[p];
+      const int rays = static_cast<int>(std::ceil(look.rays * part.factor / look.factor));
+      seed = mix_bits(seed + splitmix_step);
+      add_group(place, *look.emitter, &part.triangle, part.factor, rays, seed, work);
+    }
+    work.ends.push_back(work.groups.size());
+  }
+
+  /// Without those below the point's horizon. `triangle`: all of the emitter if null.
+  void add_group(const FieldPoint& place, const RayEmitter& emitter,
+                 const std::array<Vec3, 3>* triangle, double factor, int rays, std::uint64_t seed,
+                 RayWork& work) const {
     const SurfacePoint& point = place.point;
     SpreadPairs pairs(seed);
     const int plane = scene->surfaces[at(place.surface)].plane;
-    for (int k = 0; k < look.rays; ++k) {
+    for (int k = 0; k < rays; ++k) {
       const auto [s, t] = pairs.next();
-      const Vec3 end = look.emitter->point(s, t);
-      const double weight = kernel(point, look.emitter->target, end - point.position);
+      const Vec3 end = triangle ? point_of(*triangle, s, t) : emitter.point(s, t);
+      const double weight = light_along(point, emitter.target, end - point.position);
       if (!(weight > 0)) continue;
-      work.segments.push_back({point.position, end, plane, look.emitter->plane});
+      work.segments.push_back({point.position, end, plane, emitter.plane});
       work.weights.push_back(weight);
     }
-    work.ends.push_back(work.segments.size());
+    work.groups.push_back({factor, work.segments.size()});
   }
 
   NoisyValue gather(const FieldPoint& place, RayWork& work) const {
     collect_looks(place.point, work.looks);
+    cut_uneven(place.point, work);
     share_rays(work.looks);
     work.segments.clear();
     work.weights.clear();
+    work.groups.clear();
     work.ends.clear();
     for (const Look& look : work.looks) {
       const std::uint64_t seed = seed_of(place.point.position, look.emitter->target);
@@ -205,11 +235,11 @@ struct RayLight::Impl {
     work.blocked.resize(work.segments.size());
     visibility->blocked(work.segments, work.blocked);
     NoisyValue irradiance;
-    std::size_t next = 0;
+    std::size_t ray = 0, group = 0;
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
       const Look& look = work.looks[k];
-      const double first = share(work, next, work.ends[2 * k]);
-      const double second = share(work, next, work.ends[2 * k + 1]);
+      const double first = share(work, ray, group, work.ends[2 * k]);
+      const double second = share(work, ray, group, work.ends[2 * k + 1]);
       const Rgb& exitance = look.emitter->target.exitance;
       if (first >= 0 && second >= 0) {
         irradiance.a += look.factor * first * exitance;
@@ -223,14 +253,20 @@ struct RayLight::Impl {
     return irradiance;
   }
 
-  /// What share of the light along rays up to one arrives; −1 if there are none.
-  static double share(const RayWork& work, std::size_t& next, std::size_t end) {
-    double all = 0, arrives = 0;
-    for (; next < end; ++next) {
-      all += work.weights[next];
-      if (work.blocked[next] == 0) arrives += work.weights[next];
+  /// What share of the light of the groups up to one arrives; −1 if no ray tells.
+  static double share(const RayWork& work, std::size_t& ray, std::size_t& group, std::size_t end) {
+    double told = 0, arrives = 0;
+    for (; group < end; ++group) {
+      double all = 0, free = 0;
+      for (; ray < work.groups[group].end; ++ray) {
+        all += work.weights[ray];
+        if (work.blocked[ray] == 0) free += work.weights[ray];
+      }
+      if (!(all > 0)) continue;
+      told += work.groups[group].factor;
+      arrives += work.groups[group].factor * free / all;
     }
-    return all > 0 ? arrives / all : -1;
+    return told > 0 ? arrives / told : -1;
   }
 };
 
@@ -274,11 +310,13 @@ double RayLight::unobstructed(const SurfacePoint& point) const {
 }
 
 double RayLight::cost(const SurfacePoint& point) const {
-  std::vector<Look> looks;
-  impl_->collect_looks(point, looks);
-  impl_->share_rays(looks);
+  RayWork work;
+  impl_->collect_looks(point, work.looks);
+  impl_->cut_uneven(point, work);
+  impl_->share_rays(work.looks);
   double sum = 0;
-  for (const Look& look : looks) sum += look.rays > 0 ? 2 * look.rays : impl_->options.most_rays;
+  for (const Look& look : work.looks)
+    sum += look.rays > 0 ? 2 * look.rays : impl_->options.most_rays;
   return sum;
 }
 

@@ -8,18 +8,19 @@
 namespace halfshade {
 namespace {
 
-/// Fewer surfaces are looked through as quickly as by rays; smaller tolerances take too many rays.
-constexpr std::size_t many_surfaces = 300;
-constexpr double loose = 0.003;
+/// Fewer surfaces are looked through as quickly as by rays; at smaller tolerances polynomials
+/// of higher orders need fewer places.
+constexpr std::size_t many_surfaces = 100;
+constexpr double loose = 0.01;
 constexpr int tried_places = 100;
 /// What counts of an exact look, and of one where so much lies before an emitter that it is cut
 /// into cells, take in rays; see SightEffort and DirectLight::crowd_work.
 constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, rays_of_box = 0.03,
                  rays_of_crowd = 3;
 /// Of the tolerance: standard deviation of a value, relative to the mean irradiance.
-constexpr double deviation_for_tolerance = 0.5;
-/// Rays are to take no more than this share of what exact looks take.
-constexpr double much_less = 0.5;
+constexpr double deviation_for_tolerance = 1.5;
+/// A place may take so much of what an exact look takes: rays do with a quarter of the places.
+constexpr double as_quick = 2;
 
 }  // namespace
 
@@ -53,7 +54,7 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
   const RayLight light(scene, prepared.direct_light(), prepared.visibility(), rays);
   double by_rays = 0;
   for (const SurfacePoint& point : points) by_rays += light.cost(point);
-  return by_rays < much_less * exact ? rays : RayLightOptions{};
+  return by_rays < as_quick * exact ? rays : RayLightOptions{};
 }
 
 }  // namespace halfshade

@@ -91,7 +91,7 @@ TEST(NoisyField, TakesFewSamplesWhereLittleCanBe) {
   const auto samples = [&](const FieldBound& bound) {
     PatchMesh mesh = unit_square(0.02);
     AdaptiveFieldOptions options;
-    options.tolerance = 0.05;
+    options.tolerance = 0.1;
     return fit_noisy(mesh, field_of(f, 0.01), bound, options).report.samples;
   };
   const std::size_t few = samples([&](const FieldPoint& p) { return f(p.point.position); });

@@ -42,7 +42,7 @@ TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
   SolveOptions forced = loosely(0.05);
   forced.force.exact_direct_light = true;
   EXPECT_EQ(direct_rays(crowded, forced).deviation, 0);
-  EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(100)), loosely(0.05)).deviation, 0);
+  EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(50)), loosely(0.05)).deviation, 0);
 }
 
 TEST(DirectRays, SolveToTheToleranceAsked) {

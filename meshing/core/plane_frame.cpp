@@ -21,8 +21,11 @@ PlaneFrame make_frame(const Vec3& origin, const Vec3& normal) {
   frame.origin = origin;
   frame.normal = normal / length;
   // The axis farthest from the normal gives the best-conditioned tangent.
+  // The first of equally far ones, however the normal is rounded.
+  constexpr double equal = 1e-9;
   int axis = 0;
-  frame.normal.cwiseAbs().minCoeff(&axis);
+  for (int k = 1; k < 3; ++k)
+    if (std::abs(frame.normal[k]) < std::abs(frame.normal[axis]) - equal) axis = k;
   frame.e1 = Vec3::Unit(axis).cross(frame.normal).normalized();
   frame.e2 = frame.normal.cross(frame.e1);
   return frame;

@@ -1,10 +1,14 @@
 #include "meshing/geometry/flat_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace halfshade {
 namespace {
+
+/// Centres closer than this share of a node's size have the order of their numbers.
+constexpr double equal = 0x1p-30;
 
 int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count, int leaf_size) {
   const auto begin = tree.items.begin() + first, end = begin + count;
@@ -19,11 +23,15 @@ int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count
   const auto index = static_cast<int>(tree.nodes.size());
   tree.nodes.push_back(node);
   if (count <= leaf_size) return index;
-  int axis = 0;
-  (centres.high - centres.low).maxCoeff(&axis);
+  const Vec3 size = centres.high - centres.low;
+  int axis = 0;  // the first of the longest; ties are not for rounding to break
+  for (int k = 1; k < 3; ++k)
+    if (size[k] > size[axis] * (1 + equal)) axis = k;
+  const double unit = size[axis] > 0 ? equal * size[axis] : 1;
   const int half = count / 2;
   std::nth_element(begin, begin + half, end, [&](int i, int j) {
-    const double x = boxes[at(i)].centre()[axis], y = boxes[at(j)].centre()[axis];
+    const double x = std::round((boxes[at(i)].centre()[axis] - centres.low[axis]) / unit);
+    const double y = std::round((boxes[at(j)].centre()[axis] - centres.low[axis]) / unit);
     return x != y ? x < y : i < j;
   });
   add_node(tree, boxes, first, half, leaf_size);

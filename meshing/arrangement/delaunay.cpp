@@ -1,4 +1,5 @@
 #include "meshing/arrangement/arrangement.h"
+#include "meshing/arrangement/cocircular.h"
 #include "meshing/core/error.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -63,6 +64,7 @@ HullTriangulation constrained_delaunay(std::span<const Vec2> points,
   try {
     Triangulation triangulation = build(points, links);
     HullTriangulation result;
+    std::vector<std::array<bool, 3>> constrained;
     for (const auto f : triangulation.all_face_handles()) f->info() = -1;
     int count = 0;
     for (const auto f : triangulation.finite_face_handles()) f->info() = count++;
@@ -72,7 +74,9 @@ HullTriangulation constrained_delaunay(std::span<const Vec2> points,
       // Here edge k runs from corner k; there it lies opposite corner k.
       result.neighbours.push_back(
           {f->neighbor(2)->info(), f->neighbor(0)->info(), f->neighbor(1)->info()});
+      constrained.push_back({f->is_constrained(2), f->is_constrained(0), f->is_constrained(1)});
     }
+    settle_ties(points, std::move(constrained), result);
     return result;
   } catch (const std::exception& failure) {
     throw Error(ErrorCode::invalid_input, {},

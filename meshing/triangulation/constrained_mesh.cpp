@@ -1,6 +1,9 @@
 #include "meshing/triangulation/constrained_mesh.h"
 
+#include "meshing/arrangement/cocircular.h"
+#include "meshing/core/planar.h"
 #include "meshing/geometry/planar_signs.h"
+#include "meshing/triangulation/margins.h"
 
 #include <algorithm>
 
@@ -13,6 +16,21 @@ constexpr int most_steps = 500;
 bool is_split(const ConstrainedMesh::Triangle& t, std::size_t k, const std::array<int, 2>& ends) {
   const int a = t.corner[k], b = t.corner[(k + 1) % 3];
   return (a == ends[0] && b == ends[1]) || (a == ends[1] && b == ends[0]);
+}
+
+// Whether p lies clearly in the circle through a, b and c, which is on the other side of ab: they
+// see it under angles that come to more than a half turn.
+bool is_in_circle(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& p) {
+  const Vec2 pa = a - p, pb = b - p, ca = a - c, cb = b - c;
+  const double x = pa.dot(pb), y = cross_2d(pa, pb), u = ca.dot(cb), v = cross_2d(cb, ca);
+  const double cosine = x * u - y * v, sine = x * v + y * u;
+  return sine < 0 && -sine > inside_circle * -cosine;
+}
+
+// Whether p, in the plane of a triangle, lies on one of its constraints or beyond it but for
+// rounding.
+bool is_on_line(const Vec2& a, const Vec2& b, const Vec2& p) {
+  return cross_2d(b - a, p - a) <= margins::on_line * (b - a).squaredNorm();
 }
 
 }  // namespace
@@ -35,6 +53,10 @@ std::optional<Arrival> walk(const ConstrainedMesh& mesh, int triangle, const Vec
       for (std::size_t k = 0; k < 3; ++k)
         if (orientation(mesh.point(t.corner[k]), mesh.point(t.corner[(k + 1) % 3]), target) < 0)
           return {};
+      for (std::size_t k = 0; k < 3; ++k)
+        if ((t.neighbour[k] < 0 || t.constraint[k] >= 0) &&
+            is_on_line(mesh.point(t.corner[k]), mesh.point(t.corner[(k + 1) % 3]), target))
+          return Arrival{{triangle, k}, true};
       return Arrival{{triangle, 0}, false};
     }
     if (t.neighbour[*exit] < 0 || t.constraint[*exit] >= 0) return Arrival{{triangle, *exit}, true};
@@ -74,8 +96,10 @@ void Cavity::grow() {
       if (next >= 0 && t.constraint[k] < 0) {
         if (mark_[at(next)] == number_) continue;
         const auto& corner = mesh_.triangle(next).corner;
-        if (in_circle(mesh_.point(corner[0]), mesh_.point(corner[1]), mesh_.point(corner[2]), p_) >
-            0) {
+        const int from = t.corner[k], to = t.corner[(k + 1) % 3];
+        const int beyond = *std::find_if(corner.begin(), corner.end(),
+                                         [&](int c) { return c != from && c != to; });
+        if (is_in_circle(mesh_.point(from), mesh_.point(to), mesh_.point(beyond), p_)) {
           mark_[at(next)] = number_;
           inside_.push_back(next);
           continue;

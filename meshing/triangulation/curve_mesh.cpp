@@ -107,13 +107,15 @@ CurveMesh assemble(const CurveDrawing& drawing, const ConstrainedMesh& mesh) {
   std::vector<std::pair<Link, int>> constrained;
   std::vector<bool> is_used(drawing.graph.edges().size(), false);
   for (const auto& t : mesh.triangles) {
-    result.mesh.triangles.push_back(t.corner);
+    auto& corners = result.mesh.triangles.emplace_back(t.corner);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
     for (std::size_t k = 0; k < 3; ++k)
       if (t.constraint[k] >= 0) {
         constrained.emplace_back(sorted_link(t.corner[k], t.corner[(k + 1) % 3]), t.constraint[k]);
         is_used[at(t.constraint[k])] = true;
       }
   }
+  std::sort(result.mesh.triangles.begin(), result.mesh.triangles.end());
   std::sort(constrained.begin(), constrained.end());
   constrained.erase(std::unique(constrained.begin(), constrained.end()), constrained.end());
   const auto along = curves_along(drawing);

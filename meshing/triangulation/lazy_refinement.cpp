@@ -1,6 +1,8 @@
 #include "meshing/triangulation/lazy_refinement.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/core/rounded.h"
+#include "meshing/geometry/link.h"
 #include "meshing/triangulation/margins.h"
 #include "meshing/triangulation/narrow_corners.h"
 
@@ -23,6 +25,15 @@ struct Shape {
   double altitude() const { return twice_area / std::sqrt(squared[longest]); }
 };
 
+double extent(std::span<const Vec2> points) {
+  Vec2 low = Vec2::Constant(HUGE_VAL), high = -low;
+  for (const Vec2& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  return points.empty() ? 1 : (high - low).norm();
+}
+
 class Refiner {
  public:
   Refiner(ConstrainedMesh& mesh, const RefinementLimits& limits)
@@ -31,6 +42,7 @@ class Refiner {
     sine_squared_ = sine * sine;
     off_centre_ = margins::off_centre / (2 * std::tan(limits.min_angle * std::numbers::pi / 360));
     added_on_.assign(mesh.points.size(), -1);
+    unit_ = margins::shell_of_size * extent(mesh.points);
   }
 
   bool run() {
@@ -46,12 +58,14 @@ class Refiner {
   }
 
  private:
+  // Corners tell triangles apart: they follow from what was added, while numbers of triangles hang
+  // on the way to where it was.
   struct Entry {
     double badness;
     int triangle;
     std::array<int, 3> corner;
     bool operator<(const Entry& other) const {
-      return std::tie(badness, other.triangle) < std::tie(other.badness, triangle);
+      return std::tie(badness, other.corner) < std::tie(other.badness, corner);
     }
   };
 
@@ -62,8 +76,8 @@ class Refiner {
     Shape s;
     for (std::size_t k = 0; k < 3; ++k) {
       s.squared[k] = (point(c[(k + 1) % 3]) - point(c[k])).squaredNorm();
-      if (s.squared[k] < s.squared[s.shortest]) s.shortest = k;
-      if (s.squared[k] > s.squared[s.longest]) s.longest = k;
+      if (rounded(s.squared[k]) < rounded(s.squared[s.shortest])) s.shortest = k;
+      if (rounded(s.squared[k]) > rounded(s.squared[s.longest])) s.longest = k;
     }
     const Vec2 u = point(c[1]) - point(c[0]), v = point(c[2]) - point(c[0]);
     s.twice_area = cross_2d(u, v);
@@ -93,10 +107,10 @@ class Refiner {
   void push(int t) {
     const Shape s = shape(t);
     if (is_long(s))
-      queue_.push({s.squared[s.longest] / (limits_.max_length * limits_.max_length), t,
+      queue_.push({rounded(s.squared[s.longest] / (limits_.max_length * limits_.max_length)), t,
                    mesh_.triangle(t).corner});
     else if (is_slim(t, s))
-      queue_.push({-s.sine_squared(), t, mesh_.triangle(t).corner});
+      queue_.push({rounded(-s.sine_squared()), t, mesh_.triangle(t).corner});
   }
 
   void improve(int t) {
@@ -155,12 +169,16 @@ class Refiner {
   std::optional<Side> encroached(const Vec2& p) const {
     std::optional<Side> result;
     double longest = 0;
+    Link first{};  // of the longest
     for (const Cavity::Rim& r : cavity_.rim()) {
       if (r.constraint < 0 && r.beyond >= 0) continue;
       const Vec2 u = point(r.from) - p, v = point(r.to) - p;
-      const double length = (u - v).squaredNorm();
-      if (length > longest && u.dot(v) <= margins::lens_cosine * u.norm() * v.norm()) {
+      const double length = rounded((u - v).squaredNorm());
+      const Link ends = sorted_link(r.from, r.to);
+      if ((length > longest || (length == longest && ends < first)) &&
+          u.dot(v) <= margins::lens_cosine * u.norm() * v.norm()) {
         longest = length;
+        first = ends;
         result = r.side;
       }
     }
@@ -172,7 +190,7 @@ class Refiner {
     const double length = (b - a).norm();
     if (is_narrow_at_a != is_narrow_at_b) {
       // All round a narrow corner at the same distances, or splits answer each other without end.
-      const double shell = std::exp2(std::round(std::log2(0.5 * length))) / length;
+      const double shell = unit_ * std::exp2(std::round(std::log2(0.5 * length / unit_))) / length;
       return is_narrow_at_a ? Vec2(a + shell * (b - a)) : Vec2(b + shell * (a - b));
     }
     // What is too long comes to as few equal parts as may be.
@@ -222,6 +240,7 @@ class Refiner {
   NarrowCorners corners_;
   Cavity cavity_;
   double sine_squared_ = 0, off_centre_ = 0;
+  double unit_ = 1;            // distances round narrow corners are this times powers of two
   std::vector<int> added_on_;  // [point] constraint, −1: none, or an original point
   std::vector<int> changed_;
   std::priority_queue<Entry> queue_;

@@ -28,9 +28,16 @@ inline constexpr double off_centre = 0.95;
 // Squares of lengths that are to be no shorter than the shortest edge are larger by this factor.
 inline constexpr double not_shorter = 1.0001;
 // A point encroaches on a constraint that it sees under a larger angle: cos 120° (Chew's lens).
-inline constexpr double lens_cosine = -0.5;
+// Ties count.
+inline constexpr double lens_cosine = -0.5 + 1e-9;
 // Constraints that meet at less (radians) make a narrow corner: their splits answer each other.
-inline constexpr double narrow = std::numbers::pi / 3;
+// Not where it is that but for rounding.
+inline constexpr double narrow = std::numbers::pi / 3 - 1e-9;
+// Round narrow corners constraints are split at this share of the mesh's size times powers of two;
+// any would do, but with a simpler one lengths would lie between two powers but for rounding.
+inline constexpr double shell_of_size = 0.9;
+// Points closer to a line than this share of its length lie on it where it is to be split.
+inline constexpr double on_line = 1e-9;
 // Constraints that turn by less than this (radians) continue each other.
 inline constexpr double straight = 0.01;
 // Distances of twins from their corner differ by less than this, relatively.

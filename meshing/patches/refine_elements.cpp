@@ -1,5 +1,6 @@
 #include "meshing/patches/refine_elements.h"
 
+#include "meshing/core/rounded.h"
 #include "meshing/geometry/link.h"
 #include "meshing/patches/detail/element_mesh.h"
 
@@ -14,7 +15,7 @@ namespace {
 bool is_longer(const TriangleMesh& mesh, EdgeHandle a, EdgeHandle b) {
   const Link m = ends(mesh, a), n = ends(mesh, b);
   const auto length = [&](const Link& link) {
-    return (position(mesh, link[1]) - position(mesh, link[0])).squaredNorm();
+    return rounded((position(mesh, link[1]) - position(mesh, link[0])).squaredNorm());
   };
   const double length_m = length(m), length_n = length(n);
   return length_m > length_n || (length_m == length_n && m < n);

@@ -2,6 +2,7 @@
 
 #include "meshing/core/types.h"
 
+#include <cmath>
 #include <cstdint>
 #include <unordered_map>
 #include <vector>
@@ -35,11 +36,13 @@ class PointGrid {
   template <class Accept>
   int nearest(const Vec2& p, double radius, const Accept& accept) const {
     int best = -1;
-    double closest = radius;
+    double closest = HUGE_VAL;
     for_each_near(p, radius, [&](int id, double distance) {
-      const bool is_nearer = distance < closest || (distance == closest && (best < 0 || id < best));
-      if (!is_nearer || !accept(id, distance)) return;
-      closest = distance;
+      // What is nearer by rounding only is not.
+      constexpr double parts = 0x1p20;
+      const double off = std::round(parts * distance / reach_);
+      if (!(off < closest || (off == closest && id < best)) || !accept(id, distance)) return;
+      closest = off;
       best = id;
     });
     return best;

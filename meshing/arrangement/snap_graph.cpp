@@ -1,7 +1,7 @@
 #include "meshing/arrangement/snap_graph.h"
 
 #include "meshing/core/planar.h"
-#include "meshing/geometry/planar_signs.h"
+#include "meshing/core/rounded.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,23 @@ namespace {
 constexpr double edge_share = 0.5;
 // Relative to coordinates: points closer to a fixed edge than this lie on it.
 constexpr double roundings = 8 * 0x1p-53;
+// Of the snap distance: far below what matters, and far above what rounding does to most points.
+constexpr double rounding_of_snap = 0x1p-20;
 
 std::uint64_t pair_key(int a, int b) {
   return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b);
+}
+
+// Whether p and q lie on both sides of the line through a and b, farther from it than `width`.
+bool are_parted(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b, double width) {
+  const double at_p = cross_2d(b - a, p - a), at_q = cross_2d(b - a, q - a);
+  return (at_p > 0) != (at_q > 0) &&
+         std::min(std::abs(at_p), std::abs(at_q)) > width * (b - a).norm();
+}
+
+// Whether two segments cross, and do not only touch but for rounding.
+bool clearly_cross(const Vec2& p, const Vec2& q, const Vec2& a, const Vec2& b, double width) {
+  return are_parted(p, q, a, b, width) && are_parted(a, b, p, q, width);
 }
 
 }  // namespace
@@ -83,12 +97,15 @@ void SnapGraph::index_fixed_edges() {
 int SnapGraph::nearest_fixed_edge(const Vec2& p, double radius) {
   if (!fixed_tree_) index_fixed_edges();
   int best = -1;
-  double closest = radius;
+  double closest = HUGE_VAL;
   visit_overlaps(*fixed_tree_, flat_bounds(p, p).grown(radius), [&](int i) {
     const Edge& e = edge(indexed_[at(i)]);
     const double distance = distance_to_segment(p, place(e.a), place(e.b));
-    if (distance < closest || (distance == closest && indexed_[at(i)] < best)) {
-      closest = distance;
+    if (!(distance < radius)) return;
+    // At corners edges are equally near but for rounding.
+    const double off = std::round(distance / (rounding_of_snap * snap_));
+    if (off < closest || (off == closest && indexed_[at(i)] < best)) {
+      closest = off;
       best = indexed_[at(i)];
     }
   });
@@ -99,8 +116,9 @@ void SnapGraph::insert(int e, int point) {
   const Edge& target = edge(e);
   if (point == target.a || point == target.b) return;
   if (!awaits_insert_.emplace(pair_key(e, point), true).second) return;
-  inserts_.push_back({e, nearest_on_segment(place(point), place(target.a), place(target.b)), point,
-                      target.is_fixed});
+  inserts_.push_back({e,
+                      rounded(nearest_on_segment(place(point), place(target.a), place(target.b))),
+                      point, target.is_fixed});
 }
 
 // A point of a present fixed edge near p, which lies on the edge to rounding: the nearest accepted
@@ -128,7 +146,7 @@ bool SnapGraph::is_hidden(const Vec2& p, const Vec2& q) {
   bool result = false;
   visit_overlaps(*fixed_tree_, flat_bounds(p, q), [&](int i) {
     const Edge& e = edge(indexed_[at(i)]);
-    result = result || are_crossing(p, q, place(e.a), place(e.b));
+    result = result || clearly_cross(p, q, place(e.a), place(e.b), rounding_of_snap * snap_);
   });
   return result;
 }

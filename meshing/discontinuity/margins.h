@@ -26,6 +26,9 @@ inline constexpr double straight_enough = 0.1;
 
 // Relative to what they are a part of:
 
+/// Parameters of a swath, from 0 to 1, that differ by less are one cut: what lies between is too
+/// short to be decided, and whether there is anything between is a matter of rounding.
+inline constexpr double same_cut = 1e-10;
 /// A line passes a triangle clearly if it stays this share of the triangle away from its border.
 inline constexpr double clearly_inside = 1e-7;
 /// Normals of planes that are farther apart than this (as a difference of unit vectors) belong to

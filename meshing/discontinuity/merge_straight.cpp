@@ -1,3 +1,4 @@
+#include "meshing/core/rounded.h"
 #include "meshing/discontinuity/stacked_curves.h"
 #include "meshing/geometry/collinear.h"
 
@@ -85,8 +86,9 @@ class Line {
         cuts_.push_back({position});
       (high ? stretch.end : stretch.begin) = cuts_.size() - 1;
       const ConicArc& arc = curve(stretch.curve).arc;
-      if (stretch.high - stretch.low > cuts_.back().longest) {
-        cuts_.back().longest = stretch.high - stretch.low;
+      if (const double length = rounded(stretch.high - stretch.low);
+          length > cuts_.back().longest) {
+        cuts_.back().longest = length;
         cuts_.back().point = high != stretch.reversed ? arc.to : arc.from;
       }
     }
@@ -99,7 +101,9 @@ class Line {
     int place = longest->curve;
     for (const Stretch& s : stretches) {
       place = std::min(place, s.curve);
-      const auto rank = [](const Stretch& t) { return std::pair(t.low - t.high, t.curve); };
+      const auto rank = [](const Stretch& t) {
+        return std::pair(rounded(t.low - t.high), t.curve);
+      };
       if (rank(s) < rank(*longest)) longest = &s;
     }
     const bool backwards = longest->reversed;

@@ -4,6 +4,8 @@
 #include "meshing/discontinuity/curve_fitting.h"
 #include "meshing/discontinuity/margins.h"
 
+#include <cmath>
+
 namespace halfshade {
 
 TraceCounts operator-(const TraceCounts& a, const TraceCounts& b) {
@@ -88,8 +90,9 @@ void SwathTracer::try_receiver(const Swath& swath, const SightLine& line, int re
 
 /// Continues the piece that ends at t0 if there is one of the same kind.
 void SwathTracer::add_piece(Piece piece) {
-  for (auto last = pieces_.rbegin(); last != pieces_.rend() && last->t1 >= piece.t0; ++last)
-    if (last->t1 == piece.t0 && last->receiver == piece.receiver &&
+  const auto meets = [&](const Piece& last) { return last.t1 >= piece.t0 - margins::same_cut; };
+  for (auto last = pieces_.rbegin(); last != pieces_.rend() && meets(*last); ++last)
+    if (std::abs(last->t1 - piece.t0) <= margins::same_cut && last->receiver == piece.receiver &&
         last->triples == piece.triples) {
       last->t1 = piece.t1;
       last->step = std::min(last->step, piece.step);

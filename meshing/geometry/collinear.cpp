@@ -1,6 +1,7 @@
 #include "meshing/geometry/collinear.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/core/rounded.h"
 
 #include <Eigen/Geometry>
 
@@ -14,6 +15,8 @@ namespace halfshade {
 namespace {
 
 constexpr double shortest = 8;  // tolerances
+/// Distances are compared in so many parts of the tolerance.
+constexpr double parts = 0x1p20;
 
 /// Lines found so far, by their height over the left (or lower) side of the box of all segments.
 /// Steep lines are kept with x and y exchanged; those at about 45°, both ways, so that no segment
@@ -35,10 +38,11 @@ class Lines {
     const auto& sorted = by_height_[static_cast<std::size_t>(axis)];
     const double height = height_at_side(segment, axis);
     int best = -1;
-    double least = tolerance_;
+    double least = 1;  // tolerances
     for (auto i = sorted.lower_bound(height - window);
          i != sorted.end() && i->first <= height + window; ++i) {
-      const double off = distance(segment, i->second);
+      // Nearer by rounding is not nearer.
+      const double off = std::floor(distance(segment, i->second) / tolerance_ * parts) / parts;
       if (off < least || (off == least && (best < 0 || i->second < best))) {
         best = i->second;
         least = off;
@@ -86,7 +90,7 @@ std::vector<int> collinear_groups(std::span<const std::array<Vec2, 2>> segments,
   std::vector<int> group(segments.size());
   std::iota(group.begin(), group.end(), 0);
   std::vector<double> lengths;
-  for (const auto& [a, b] : segments) lengths.push_back((b - a).norm());
+  for (const auto& [a, b] : segments) lengths.push_back(rounded((b - a).norm()));
   const auto length = [&](int i) { return lengths[static_cast<std::size_t>(i)]; };
   // Longest first: a line is best known by its longest segment.
   std::vector<int> order = group;

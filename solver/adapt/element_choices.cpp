@@ -1,5 +1,6 @@
 #include "solver/adapt/element_choices.h"
 
+#include "meshing/core/rounded.h"
 #include "solver/adapt/field_beginnings.h"
 
 #include <algorithm>
@@ -28,9 +29,10 @@ double square_error_of(std::span<const FittedElement> elements) {
 std::vector<int> worst_elements(std::span<const FittedElement> elements, double may_stay) {
   std::vector<int> order(elements.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return elements[at(a)].square_error() > elements[at(b)].square_error();
-  });
+  std::vector<double> key;
+  for (const FittedElement& element : elements) key.push_back(rounded(element.square_error()));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return key[at(a)] > key[at(b)]; });
   double left = square_error_of(elements);
   std::size_t count = 0;
   while (count < order.size() && left > may_stay)
@@ -54,20 +56,23 @@ int better_order(const FittedElement& element, const AdaptiveFieldOptions& optio
 
 void drop_orders(std::span<FittedElement> elements, double most) {
   using Candidate = std::pair<double, int>;  // square of the layer for an unknown, element
+  const auto square_of_layer = [](const FittedElement& element) {
+    const double layer = element.fit.layer[at(element.fit.order)];
+    return element.area * element.weight * layer * layer;
+  };
   const auto candidate = [&](int e) {
     const FittedElement& element = elements[at(e)];
-    const double layer = element.fit.layer[at(element.fit.order)];
-    return Candidate(element.area * element.weight * layer * layer / (element.fit.order + 1), e);
+    return Candidate(rounded(square_of_layer(element) / (element.fit.order + 1)), e);
   };
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   for (int e = 0; e < static_cast<int>(elements.size()); ++e)
     if (elements[at(e)].fit.order > 0) queue.push(candidate(e));
   double square_error = square_error_of(elements);
   while (!queue.empty()) {
-    const auto [gain, e] = queue.top();
+    const int e = queue.top().second;
     queue.pop();
     FittedElement& element = elements[at(e)];
-    square_error += gain * (element.fit.order + 1);
+    square_error += square_of_layer(element);
     if (square_error > most) break;
     lower_order(element.fit);
     if (element.fit.order > 0) queue.push(candidate(e));

@@ -9,6 +9,8 @@ namespace {
 
 /// What degrees beyond those sampled may add to an error, at most, as a factor of it.
 constexpr double most_unseen = 1.6;
+/// Degrees with less than this share of the light are rounding, and nothing.
+constexpr double rounding = 1e-13;
 
 /// Per order, the basis of the next one at the places of its sampling rule.
 struct SamplingBases {
@@ -37,7 +39,9 @@ ElementFit fit_element(int order, const ChannelArray& samples) {
   ElementFit fit;
   fit.order = order;
   for (int degree = 0; degree <= order + 1; ++degree)
-    fit.layer[at(degree)] = all.middleRows(basis_size(degree - 1), degree + 1).norm();
+    if (const double size = all.middleRows(basis_size(degree - 1), degree + 1).norm();
+        size > rounding * fit.layer[0])
+      fit.layer[at(degree)] = size;
   const int size = basis_size(order);
   fit.coefficients = all.topRows(size).array();
   const Eigen::MatrixXd rest = samples.matrix() - basis.leftCols(size) * all.topRows(size);

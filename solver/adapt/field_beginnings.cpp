@@ -1,5 +1,7 @@
 #include "solver/adapt/field_beginnings.h"
 
+#include "meshing/core/rounded.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +15,7 @@ int first_order(const AdaptiveFieldOptions& options) {
 
 int modesty(double share) {
   constexpr double small = 0.25, tiny = 0.025;
-  return share < tiny ? 2 : share < small ? 1 : 0;
+  return rounded(share) < tiny ? 2 : rounded(share) < small ? 1 : 0;
 }
 
 TrianglePlace spread_place(std::size_t index) {

@@ -1,5 +1,7 @@
 #include "solver/adapt/near_looks.h"
 
+#include "meshing/core/rounded.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -29,7 +31,15 @@ double width_of(const std::array<Vec3, 3>& t) {
   return std::max({(t[1] - t[0]).norm(), (t[2] - t[1]).norm(), (t[0] - t[2]).norm()});
 }
 
-bool is_in(const TrianglePlace& p) { return p.x() >= 0 && p.y() >= 0 && p.sum() <= 1; }
+/// Both triangles at an edge have what lies on it, however it is rounded.
+bool is_in(const TrianglePlace& p) {
+  return p.minCoeff() >= -same_place && p.sum() <= 1 + same_place;
+}
+
+TrianglePlace inside(const TrianglePlace& p) {
+  const TrianglePlace q = p.cwiseMax(0.);
+  return q.sum() > 1 ? TrianglePlace(q / q.sum()) : q;
+}
 
 /// From where to where a triangle is seen from a point of its plane: angles in `right`, `up`.
 std::array<double, 2> directions(const std::array<Vec2, 3>& corners) {
@@ -77,8 +87,9 @@ class Looker {
     }
     const auto [from, to] = directions(seen);
     const double step = (to - from) / places_each;
-    for (int circle = 0; circle < most_circles && radius > 0.5 * corner.height; ++circle) {
-      const bool is_last = circle + 1 == most_circles || radius <= corner.height;
+    const double height = rounded(corner.height);
+    for (int circle = 0; circle < most_circles && rounded(radius) > 0.5 * height; ++circle) {
+      const bool is_last = circle + 1 == most_circles || rounded(radius) <= height;
       const double area = 0.5 * step * radius * radius * (is_last ? 1 : 0.75);
       const double middle = radius * (is_last ? 0.6 : 0.77);
       for (int k = 0; k < places_each; ++k) {
@@ -92,8 +103,8 @@ class Looker {
 
   void along(const WatchedEdge& edge) {
     const Vec3 way = edge.feet[1] - edge.feet[0];
-    const double length = way.norm(), farthest = seen_by_samples * width_;
-    const double low = std::min(edge.height[0], edge.height[1]);
+    const double length = way.norm(), farthest = rounded(seen_by_samples * width_);
+    const double low = rounded(std::min(edge.height[0], edge.height[1]));
     if (low > farthest ||
         !is_near(edge.feet[0] +
                      std::clamp(way.dot(middle_ - edge.feet[0]) / (length * length), 0., 1.) * way,
@@ -115,7 +126,7 @@ class Looker {
  private:
   void add(const Vec3& p, double area, int group) {
     const TrianglePlace place = place_of(element_.triangle, p);
-    if (is_in(place)) looks_.push_back({index_, group, place, area / element_.area});
+    if (is_in(place)) looks_.push_back({index_, group, inside(place), area / element_.area});
   }
 
   /// On both sides, at so many heights from the edge, in the middle of what is in the element.
@@ -171,7 +182,7 @@ std::vector<NearLook> near_looks(std::span<const FittedElement> elements, const 
     if (element.is_checked) continue;
     if (!corners.contains(element.surface) && !edges.contains(element.surface)) continue;
     const double square = element.fit.coefficients.matrix().squaredNorm();
-    order.emplace_back(-element.area * element.weight * std::max(square, mean_square), e);
+    order.emplace_back(rounded(-element.area * element.weight * std::max(square, mean_square)), e);
   }
   std::sort(order.begin(), order.end());
   std::vector<NearLook> looks;

@@ -1,11 +1,17 @@
 #include "solver/adapt/possible_wholes.h"
 
+#include "meshing/core/rounded.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 namespace halfshade {
 namespace {
+
+/// Errors that differ by this share of them, or by this share of the light, are equal: rounding
+/// must not choose.
+constexpr double differs = 1e-9, rounding = 1e-12;
 
 /// The best fit of that order to the polynomials of the parts.
 ElementFit fit_to_parts(const std::array<Vec3, 3>& triangle,
@@ -71,8 +77,11 @@ std::vector<PossibleWhole> possible_wholes(const PatchMesh& mesh,
       const int fewer = unknowns - basis_size(p);
       if (fewer <= 0) break;
       ElementFit fit = fit_to_parts(mesh.triangle(node), elements, parts, p);
-      const double more = std::max(weight * fit.error * fit.error - before, 0.);
-      if (best.fewer > 0 && more * best.fewer >= best.more * fewer) continue;
+      const double excess = weight * fit.error * fit.error - before;
+      const double unknown =
+          differs * before + weight * std::pow(rounding, 2) * fit.coefficients.square().sum();
+      const double more = excess > unknown ? excess : 0;
+      if (best.fewer > 0 && rounded(more * best.fewer) >= rounded(best.more * fewer)) continue;
       best.fit = std::move(fit);
       best.more = more;
       best.fewer = fewer;
@@ -80,7 +89,7 @@ std::vector<PossibleWhole> possible_wholes(const PatchMesh& mesh,
     if (best.fewer > 0) wholes.push_back(std::move(best));
   }
   std::stable_sort(wholes.begin(), wholes.end(), [](const auto& a, const auto& b) {
-    return a.more * b.fewer < b.more * a.fewer;
+    return rounded(a.more / a.fewer) < rounded(b.more / b.fewer);
   });
   return wholes;
 }

@@ -14,6 +14,9 @@ namespace {
 constexpr double cells_per_element = 2;
 /// Points that rounding puts beside their element are looked for in its cells, too.
 constexpr double cell_margin = 1e-6;
+/// Points this close to an edge lie in the first of the elements at it: symmetric places lie there
+/// exactly, and their rounding, which changes with the unit of length, is not to choose.
+constexpr double edge_margin = 1e-10;
 
 int clamp_cell(double x, int count) {
   return std::clamp(static_cast<int>(std::floor(x)), 0, count - 1);
@@ -101,7 +104,7 @@ ForestPlace ElementLookup::find(int surface, const Vec3& position) const {
     best = {e, place};
   };
   const int cell = cell_of(grid, grid.to_cells * (position - grid.origin));
-  for (int i = starts_[at(cell)]; i < starts_[at(cell) + 1] && most < 0; ++i)
+  for (int i = starts_[at(cell)]; i < starts_[at(cell) + 1] && most < -edge_margin; ++i)
     look_at(items_[at(i)]);
   if (best.triangle < 0)
     for (const int e : grid.elements) look_at(e);

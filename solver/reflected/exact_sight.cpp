@@ -2,10 +2,12 @@
 
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/backprojection/opaque_scene.h"
+#include "meshing/core/planar.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -38,6 +40,40 @@ Ring clip(const std::vector<Vec3>& ring, const SurfacePoint& point, const PlaneF
       result.push_back(frame.to_plane(a + at_a / (at_a - at_b) * (b - a)));
   }
   return result;
+}
+
+/// Whether a ring runs straight on at q.
+bool is_straight(const Vec2& p, const Vec2& q, const Vec2& r, double width) {
+  return (q - p).dot(r - q) > 0 && std::abs(cross_2d(q - p, r - p)) <= width * (r - p).norm();
+}
+
+/// Leaves out corners at which a ring does not turn, and lets it begin at its lowest, by x, then y,
+/// to a share of its size. Quadrature goes by triangles from there, while where outlines that were
+/// found begin, and are parted, is a matter of rounding.
+void tidy(Ring& ring) {
+  constexpr double width = 1e-12, parts = 0x1p20;
+  Vec2 low = ring.front(), high = low;
+  for (const Vec2& p : ring) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double size = (high - low).maxCoeff();
+  Ring apart, turns;
+  for (const Vec2& p : ring)
+    if (apart.empty() || (p - apart.back()).norm() > width * size) apart.push_back(p);
+  while (apart.size() > 1 && (apart.back() - apart.front()).norm() <= width * size)
+    apart.pop_back();
+  for (std::size_t k = 0; k < apart.size(); ++k) {
+    const Vec2& before = turns.empty() ? apart.back() : turns.back();
+    if (!is_straight(before, apart[k], apart[(k + 1) % apart.size()], width * size))
+      turns.push_back(apart[k]);
+  }
+  if (turns.size() > 2) ring = std::move(turns);
+  const auto part = [&](double x) { return std::round(parts * x / size); };
+  const auto is_lower = [&](const Vec2& p, const Vec2& q) {
+    return part(p.x()) < part(q.x()) || (part(p.x()) == part(q.x()) && part(p.y()) < part(q.y()));
+  };
+  std::rotate(ring.begin(), std::min_element(ring.begin(), ring.end(), is_lower), ring.end());
 }
 
 }  // namespace
@@ -75,7 +111,7 @@ struct ExactSight::Impl {
     if (seen.is_whole) return;
     for (const auto& ring : target.rings)
       if (Ring part = clip(ring, point, scene.surfaces[at(surface)].frame); part.size() > 2)
-        seen.rings.push_back(std::move(part));
+        tidy(seen.rings.emplace_back(std::move(part)));
   }
 };
 
@@ -133,6 +169,7 @@ void ExactSight::see(const SurfacePoint& point, const Sighted& target, SeenPart&
   for (const auto& ring : visible_rings(part, point.position, frame)) {
     Ring& flat = seen.rings.emplace_back();
     for (const Vec3& p : ring) flat.push_back(frame.to_plane(p));
+    tidy(flat);
   }
 }
 

@@ -13,6 +13,10 @@ namespace {
 constexpr double nearly_all = 1 - 1e-11;
 /// Moments are scaled to form factors only if they are about right.
 constexpr double most_off = 0.2;
+/// Relative to coordinates, and far above what corners are off: those this close to a line lie on
+/// it. Rings that end at triangles'
+/// edges come out the same then, whatever rounding says: quadrature begins at their first corner.
+constexpr double on_line = 1e-11;
 
 double signed_area(const Ring& ring) {
   double twice = 0;
@@ -25,11 +29,14 @@ double signed_area(const Ring& ring) {
 Ring left_of(const Vec2& a, const Vec2& b, const Ring& ring) {
   Ring result;
   const Vec2 along = b - a;
+  double largest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+  for (const Vec2& p : ring) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  const double least = -on_line * largest * along.norm();
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 &p = ring[k], &q = ring[(k + 1) % ring.size()];
     const double at_p = cross_2d(along, p - a), at_q = cross_2d(along, q - a);
-    if (at_p >= 0) result.push_back(p);
-    if ((at_p >= 0) != (at_q >= 0)) result.push_back(p + at_p / (at_p - at_q) * (q - p));
+    if (at_p >= least) result.push_back(p);
+    if ((at_p >= least) != (at_q >= least)) result.push_back(p + at_p / (at_p - at_q) * (q - p));
   }
   return result;
 }

@@ -1,5 +1,7 @@
 #include "solver/reflected/refinement.h"
 
+#include "meshing/core/rounded.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -69,7 +71,7 @@ RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
   std::vector<int> order(coarse.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return coarse[at(a)] > coarse[at(b)]; });
+                   [&](int a, int b) { return rounded(coarse[at(a)]) > rounded(coarse[at(b)]); });
   const double part = aim_of_elements * goal / input.mesh.count();
   if (left > share_of_elements * goal)
     for (const int e : order) {

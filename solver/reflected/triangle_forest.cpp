@@ -1,13 +1,19 @@
 #include "solver/reflected/triangle_forest.h"
 
+#include "meshing/core/rounded.h"
+
 namespace halfshade {
 namespace {
+
+/// Points this close to where a triangle is cut lie in its first half, see ElementLookup.
+constexpr double edge_margin = 1e-10;
 
 int longest_edge(const std::array<Vec3, 3>& corner) {
   int longest = 0;
   double most = 0;
   for (int k = 0; k < 3; ++k)
-    if (const double l = (corner[at((k + 1) % 3)] - corner[at(k)]).squaredNorm(); l > most) {
+    if (const double l = rounded((corner[at((k + 1) % 3)] - corner[at(k)]).squaredNorm());
+        l > most) {
       most = l;
       longest = k;
     }
@@ -48,7 +54,7 @@ ForestPlace TriangleForest::leaf_at(ForestPlace from) const {
                                      from.place.y()};
     const double wa = w[at(triangle.cut)], wb = w[at((triangle.cut + 1) % 3)];
     const double wc = w[at((triangle.cut + 2) % 3)];
-    if (wa >= wb)
+    if (wa >= wb - edge_margin)
       from = {triangle.child, {2 * wb, wc}};
     else
       from = {triangle.child + 1, {wb - wa, wc}};

@@ -18,7 +18,8 @@ namespace {
 constexpr double relative_enlargement = 0x1p-18;
 constexpr double lengthening = 0x1p-12;
 
-constexpr double largest_extent = 1e50;  // sixth powers of lengths occur
+constexpr double largest_coordinate = 0.75;  // clear of the cube
+constexpr double largest_extent = 1e50;      // sixth powers of lengths occur
 
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
@@ -74,7 +75,9 @@ RaySpace make_ray_space(const TriangleSoup& soup) {
     throw Error(ErrorCode::contract, "VisibilityIndex",
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
   space.centre = box.low / 2 + box.high / 2;
-  if (half > 0) space.scale = std::exp2(-std::ilogb(half) - 1);
+  // The same in all units of length, so that rays meet the same edges: a power of two would let
+  // single precision round coordinates by the unit.
+  if (half > 0) space.scale = largest_coordinate / half;
   space.enlargement = relative_enlargement / space.scale;
   return space;
 }

@@ -18,7 +18,7 @@ struct Ray {
 /// Coordinates in which triangles lie in [−1, 1]³, where single precision does best.
 struct RaySpace {
   Vec3 centre = Vec3::Zero();
-  double scale = 1;        ///< a power of two; (p − centre)·scale lies in [−1, 1]
+  double scale = 1;        ///< (p − centre)·scale lies in [−1, 1]
   double enlargement = 0;  ///< of triangles, in scene units
 
   /// A segment, a little lengthened and without what lies far from all triangles. Nothing if it has

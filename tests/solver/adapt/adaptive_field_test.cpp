@@ -108,9 +108,11 @@ TEST(AdaptiveFieldRates, SmoothFunctionsConvergeByTheOrderPlusOne) {
 }
 
 TEST(AdaptiveFieldRates, BreaksThatElementsDoNotFollowLimitThem) {
+  // Without the coarsest meshes: which elements the line cuts there is a matter of chance.
+  const std::vector<double> fine = {0.14, 0.1, 0.07, 0.05, 0.035};
   for (int k = 0; k <= 2; ++k)
     for (int p = 0; p <= 3; ++p)
-      EXPECT_NEAR(rate(square(), broken(k), p, lengths, k == 0 ? 3 : 2), std::min(p + 1., k + 0.5),
+      EXPECT_NEAR(rate(square(), broken(k), p, fine, k == 0 ? 3 : 2), std::min(p + 1., k + 0.5),
                   0.2)
           << k << ", " << p;
 }

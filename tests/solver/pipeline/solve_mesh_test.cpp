@@ -91,7 +91,7 @@ TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
   EXPECT_LE(few.elements.count(), 1.25 * plain);
   EXPECT_GT(few.tolerance, options.tolerance);
   EXPECT_GT(few.report.culled, 0u);
-  options.elements = 4000;
+  options.elements = 4500;
   const SolveMesh many = mesh_along(found, options);
   EXPECT_EQ(many.tolerance, options.tolerance);
   EXPECT_GT(many.report.kept, few.report.kept);

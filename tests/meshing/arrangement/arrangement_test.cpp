@@ -109,6 +109,33 @@ TEST(ConstrainedDelaunay, CoversTheHullAndKeepsLinks) {
   EXPECT_EQ(hull.neighbours, edge_neighbours(hull.triangles));
 }
 
+TEST(ConstrainedDelaunay, PointsOnOneCircleDoNotHangOnRounding) {
+  // Regular polygons, and rows of rectangles: whatever they are multiplied by.
+  std::vector<std::vector<Vec2>> outlines;
+  for (const int n : {4, 5, 6, 12, 30}) {
+    auto& ring = outlines.emplace_back();
+    for (int k = 0; k < n; ++k)
+      ring.emplace_back(0.3 + 0.7 * std::cos(2 * M_PI * k / n),
+                        0.1 + 0.7 * std::sin(2 * M_PI * k / n));
+  }
+  outlines.push_back({{0, 0}, {.1, 0}, {.2, 0}, {.3, 0}, {.3, .7}, {.2, .7}, {.1, .7}, {0, .7}});
+  for (const std::vector<Vec2>& ring : outlines) {
+    std::vector<Link> links;
+    for (int k = 0; k < static_cast<int>(ring.size()); ++k)
+      links.push_back({k, (k + 1) % static_cast<int>(ring.size())});
+    const HullTriangulation expected = constrained_delaunay(ring, links);
+    EXPECT_EQ(expected.triangles.size(), ring.size() - 2);
+    for (const double factor : {3., 1e-3, 0.7, 1e9, 1e-30}) {
+      std::vector<Vec2> scaled = ring;
+      for (Vec2& p : scaled) p *= factor;
+      const HullTriangulation hull = constrained_delaunay(scaled, links);
+      EXPECT_EQ(hull.triangles, expected.triangles) << factor;
+      EXPECT_EQ(hull.neighbours, edge_neighbours(hull.triangles));
+      for (const auto& t : hull.triangles) EXPECT_GT(twice_area(scaled, t), 0);
+    }
+  }
+}
+
 TEST(ConstrainedDelaunay, CrossingLinksAreAnError) {
   const std::vector<Vec2> points = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
   test::expect_error(

@@ -2,6 +2,7 @@
 #include "apps/run_end.h"
 #include "io/write/write_explanation.h"
 #include "meshing/repair/repair_sentence.h"
+#include "solver/pipeline/element_limit.h"
 #include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
@@ -60,12 +61,12 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   require_place(context.common.json);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const ContactLimit limit{static_cast<double>(command.options.max_elements),
-                           contacts_warning(command.options.max_elements, false)};
-  const Explanation explanation =
-      use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
-        return explain(prepared, command.options, context.progress);
-      });
+  const SolveOptions options = with_element_limit(command.options, file.scene.faces.size());
+  const ContactLimit limit{static_cast<double>(options.max_elements),
+                           contacts_warning(options.max_elements, false)};
+  const Explanation explanation = use_prepared(
+      file.scene, limit, context.progress,
+      [&](const PreparedScene& prepared) { return explain(prepared, options, context.progress); });
   context.progress_ends();
   const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;
   if (!context.common.json.empty())

@@ -4,6 +4,7 @@
 #include "io/files/same_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
+#include "solver/pipeline/element_limit.h"
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
@@ -181,8 +182,9 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
   // Contact lines are for elements; exact light needs none.
-  ContactLimit limit{static_cast<double>(command.options.max_elements), {}};
-  if (!command.direct_only) limit.warning = contacts_warning(command.options.max_elements, false);
+  const SolveOptions options = with_element_limit(command.options, file.scene.faces.size());
+  ContactLimit limit{static_cast<double>(options.max_elements), {}};
+  if (!command.direct_only) limit.warning = contacts_warning(options.max_elements, false);
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
     return run_prepared(command, file, given, prepared, context);
   });

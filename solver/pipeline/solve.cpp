@@ -1,6 +1,7 @@
 #include "solver/pipeline/solve.h"
 
 #include "meshing/core/error.h"
+#include "solver/pipeline/element_limit.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_fields.h"
@@ -15,11 +16,11 @@ namespace halfshade {
 namespace {
 
 void check(const SolveOptions& options) {
-  if (options.elements < 1 || options.max_elements < 1 || !(options.max_length >= 0))
+  if (options.elements < 1 || options.max_elements < 0 || !(options.max_length >= 0))
     throw Error(
         ErrorCode::contract, "solve",
-        fmt::format("elements ({}) and max_elements ({}) must be at least 1 and max_length ({}) "
-                    "not negative",
+        fmt::format("elements ({}) must be at least 1, max_elements ({}) and max_length ({}) not "
+                    "negative",
                     options.elements, options.max_elements, options.max_length));
   if (!(options.deviation >= 0 && options.deviation < 1))
     throw Error(ErrorCode::contract, "solve",
@@ -54,16 +55,18 @@ void find_regions(const PreparedScene& prepared, const Progress& progress, Stage
 
 SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
   check(options);
-  const ContactLimit limit{static_cast<double>(options.max_elements),
-                           contacts_warning(options.max_elements, true)};
+  const SolveOptions limited = with_element_limit(options, scene.faces.size());
+  const ContactLimit limit{static_cast<double>(limited.max_elements),
+                           contacts_warning(limited.max_elements, true)};
   return use_prepared(scene, limit, progress, [&](const PreparedScene& prepared) {
-    return solve(prepared, options, progress);
+    return solve(prepared, limited, progress);
   });
 }
 
-SolveResult solve(const PreparedScene& prepared, const SolveOptions& options,
+SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
                   const Progress& progress) {
-  check(options);
+  check(given);
+  const SolveOptions options = with_element_limit(given, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);
   if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);

@@ -55,7 +55,7 @@ struct SolveOptions {
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
   double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
   double deviation = 0;         ///< of chords from conics, as DiscontinuityMeshOptions has it
-  int max_elements = 40000;     ///< refuse to make more; memory grows with the square
+  int max_elements = 0;         ///< refuse to make more, ≥ 1; 0: see with_element_limit
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
   DiscontinuityOptions
       events;            ///< which curves to look for; most_work 0: what `tolerance` is worth

@@ -34,96 +34,135 @@ ChannelArray inverse_or_zero(const ChannelArray& length, const ChannelArray& lea
 }
 
 /// The small least-squares problem of one system, kept triangular by rotations.
-struct Projected {
-  Eigen::MatrixXd R = Eigen::MatrixXd::Zero(restart + 1, restart);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(restart + 1);
-  Eigen::VectorXd cosine = Eigen::VectorXd::Zero(restart), sine = cosine;
-
-  void add_column(int k) {
-    for (int i = 0; i < k; ++i) rotate(i, R(i, k), R(i + 1, k));
-    const double length = std::hypot(R(k, k), R(k + 1, k));
-    cosine[k] = length > 0 ? R(k, k) / length : 1;
-    sine[k] = length > 0 ? R(k + 1, k) / length : 0;
-    rotate(k, R(k, k), R(k + 1, k));
-    rotate(k, g[k], g[k + 1]);
+class Projected {
+ public:
+  void begin(double length, double enough) {
+    g_ = {length};
+    is_done_ = length <= enough;
   }
-  Eigen::VectorXd solution(int n) const {
-    Eigen::VectorXd y = g.head(n);
+  /// The residual is small enough. More steps would only see rounding, and tell nonsense of the
+  /// system's singular values.
+  bool is_done() const { return is_done_; }
+  /// Of the residual.
+  double left() const { return std::abs(g_.back()); }
+
+  /// Products of the next image with all directions before it, and the length of what is left.
+  void add_column(Eigen::VectorXd column, double enough) {
+    if (is_done_) return;
+    const int k = static_cast<int>(columns_.size());
+    for (int i = 0; i < k; ++i) rotate(at(i), column[i], column[i + 1]);
+    const double length = std::hypot(column[k], column[k + 1]);
+    cosine_.push_back(length > 0 ? column[k] / length : 1);
+    sine_.push_back(length > 0 ? column[k + 1] / length : 0);
+    rotate(at(k), column[k], column[k + 1]);
+    g_.push_back(0);
+    rotate(at(k), g_[at(k)], g_[at(k + 1)]);
+    columns_.push_back(std::move(column));
+    is_done_ = left() <= enough;
+  }
+
+  /// Factors of the directions.
+  Eigen::VectorXd solution() const {
+    const int n = static_cast<int>(columns_.size());
+    Eigen::VectorXd y(n);
     for (int i = n - 1; i >= 0; --i) {
-      for (int j = i + 1; j < n; ++j) y[i] -= R(i, j) * y[j];
-      y[i] = R(i, i) != 0 ? y[i] / R(i, i) : 0;
+      y[i] = g_[at(i)];
+      for (int j = i + 1; j < n; ++j) y[i] -= columns_[at(j)][i] * y[j];
+      y[i] = columns_[at(i)][i] != 0 ? y[i] / columns_[at(i)][i] : 0;
     }
     return y;
   }
-  double amplification(int n) const {
-    int rank = 0;
-    while (rank < n && R(rank, rank) != 0) ++rank;
-    if (rank == 0) return 1;
-    const Eigen::VectorXd values =
-        Eigen::JacobiSVD<Eigen::MatrixXd>(R.topLeftCorner(rank, rank)).singularValues();
-    return 1 / values[rank - 1];
+  double amplification() const {
+    const int count = static_cast<int>(columns_.size());
+    int n = 0;  // rank
+    while (n < count && columns_[at(n)][n] != 0) ++n;
+    if (n == 0) return 1;
+    Eigen::MatrixXd R = Eigen::MatrixXd::Zero(n, n);
+    for (int k = 0; k < n; ++k) R.col(k).head(k + 1) = columns_[at(k)].head(k + 1);
+    return 1 / Eigen::JacobiSVD<Eigen::MatrixXd>(R).singularValues()[n - 1];
   }
 
  private:
-  void rotate(int i, double& a, double& b) const {
-    const double up = cosine[i] * a + sine[i] * b;
-    b = cosine[i] * b - sine[i] * a;
+  void rotate(std::size_t i, double& a, double& b) const {
+    const double up = cosine_[i] * a + sine_[i] * b;
+    b = cosine_[i] * b - sine_[i] * a;
     a = up;
   }
+
+  std::vector<Eigen::VectorXd> columns_;  ///< each down to below its diagonal, where it is 0
+  std::vector<double> g_, cosine_, sine_;
+  bool is_done_ = false;
 };
 
-/// One run of steps from one residual for all systems.
+/// One run of steps from one residual for all systems, each until its residual is small enough.
 class Cycle {
  public:
-  Cycle(const RowGroups& groups, const ChannelArray& residual)
-      : groups_(groups), small_(3 * at(groups.count)) {
+  Cycle(const RowGroups& groups, const ChannelArray& residual, const ChannelArray& enough)
+      : groups_(groups), enough_(enough), small_(3 * at(groups.count)) {
     const ChannelArray length = dots(groups, residual, residual).sqrt();
-    basis_.push_back(
-        scaled(groups, inverse_or_zero(length, ChannelArray::Zero(groups.count, 3)), residual));
-    for_each([&](int s, int c, Projected& p) { p.g[0] = length(s, c); });
+    for_each([&](int s, int c, Projected& p) { p.begin(length(s, c), enough_(s, c)); });
+    push(residual, length, ChannelArray::Zero(groups.count, 3));
   }
 
   const ChannelArray& last() const { return basis_.back(); }
-  int steps() const { return steps_; }
+  int steps() const { return static_cast<int>(basis_.size()) - 1; }
 
   void add(ChannelArray image) {
-    const int k = steps_++;
+    const int k = steps();
     const ChannelArray whole = dots(groups_, image, image).sqrt();
+    std::vector<Eigen::VectorXd> columns(small_.size());
+    for_each([&](int s, int c, Projected& p) {
+      if (!p.is_done()) columns[at(3 * s + c)].setZero(k + 2);
+    });
+    const auto put = [&](int i, const ChannelArray& values) {
+      for_each([&](int s, int c, Projected& p) {
+        if (!p.is_done()) columns[at(3 * s + c)][i] = values(s, c);
+      });
+    };
     for (int i = 0; i <= k; ++i) {
       const ChannelArray along = dots(groups_, basis_[at(i)], image);
       add_scaled(groups_, -along, basis_[at(i)], image);
-      for_each([&](int s, int c, Projected& p) { p.R(i, k) = along(s, c); });
+      put(i, along);
     }
     const ChannelArray length = dots(groups_, image, image).sqrt(), least = exhausted * whole;
-    basis_.push_back(scaled(groups_, inverse_or_zero(length, least), std::move(image)));
+    put(k + 1, (length > least).select(length, 0.));
     for_each([&](int s, int c, Projected& p) {
-      p.R(k + 1, k) = length(s, c) > least(s, c) ? length(s, c) : 0;
-      p.add_column(k);
+      p.add_column(std::move(columns[at(3 * s + c)]), enough_(s, c));
     });
+    push(std::move(image), length, least);
   }
 
   ChannelArray residual() {
     ChannelArray result(groups_.count, 3);
-    for_each([&](int s, int c, Projected& p) { result(s, c) = std::abs(p.g[steps_]); });
+    for_each([&](int s, int c, const Projected& p) { result(s, c) = p.left(); });
     return result;
   }
 
   void add_solution(ChannelArray& x) {
-    std::vector<ChannelArray> factors(at(steps_), ChannelArray(groups_.count, 3));
-    for_each([&](int s, int c, Projected& p) {
-      const Eigen::VectorXd y = p.solution(steps_);
-      for (int k = 0; k < steps_; ++k) factors[at(k)](s, c) = y[k];
+    std::vector<ChannelArray> factors(at(steps()), ChannelArray::Zero(groups_.count, 3));
+    for_each([&](int s, int c, const Projected& p) {
+      const Eigen::VectorXd y = p.solution();
+      for (int k = 0; k < y.size(); ++k) factors[at(k)](s, c) = y[k];
     });
-    for (int k = 0; k < steps_; ++k) add_scaled(groups_, factors[at(k)], basis_[at(k)], x);
+    for (int k = 0; k < steps(); ++k) add_scaled(groups_, factors[at(k)], basis_[at(k)], x);
   }
 
   double amplification() {
     double most = 1;
-    for_each([&](int, int, Projected& p) { most = std::max(most, p.amplification(steps_)); });
+    for_each([&](int, int, const Projected& p) { most = std::max(most, p.amplification()); });
     return most;
   }
 
  private:
+  /// Of unit length; 0 for systems that are done or exhausted.
+  void push(ChannelArray direction, const ChannelArray& length, const ChannelArray& least) {
+    ChannelArray inverse = inverse_or_zero(length, least);
+    for_each([&](int s, int c, const Projected& p) {
+      if (p.is_done()) inverse(s, c) = 0;
+    });
+    basis_.push_back(scaled(groups_, inverse, std::move(direction)));
+  }
+
   template <class Use>
   void for_each(const Use& use) {
     for (int s = 0; s < groups_.count; ++s)
@@ -131,9 +170,9 @@ class Cycle {
   }
 
   const RowGroups& groups_;
+  const ChannelArray& enough_;
   std::vector<ChannelArray> basis_;
   std::vector<Projected> small_;
-  int steps_ = 0;
 };
 
 }  // namespace
@@ -151,10 +190,11 @@ GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A, con
   result.x = ChannelArray::Zero(b.rows(), 3);
   const ChannelArray size = dots(groups, b, b).sqrt();
   const ChannelArray inverse = inverse_or_zero(size, ChannelArray::Zero(groups.count, 3));
+  const ChannelArray enough = tolerance * size;
   ChannelArray residual = b;
   double last = 2;
   while (result.iterations < max_iterations && (size > 0).any()) {
-    Cycle cycle(groups, residual);
+    Cycle cycle(groups, residual, enough);
     do {
       cycle.add(A(cycle.last()));
       result.residual = (cycle.residual() * inverse).maxCoeff();

@@ -2,7 +2,7 @@
 #include "apps/run_end.h"
 #include "io/write/write_explanation.h"
 #include "meshing/repair/repair_sentence.h"
-#include "solver/pipeline/element_limit.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
@@ -61,7 +61,7 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   require_place(context.common.json);
   const SceneFile file =
       read_scene(command.scene, command.materials, context.common.orientation, files);
-  const SolveOptions options = with_element_limit(command.options, file.scene.faces.size());
+  const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   const ContactLimit limit{static_cast<double>(options.max_elements),
                            contacts_warning(options.max_elements, false)};
   const Explanation explanation = use_prepared(

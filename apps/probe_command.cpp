@@ -4,7 +4,7 @@
 #include "io/files/same_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
-#include "solver/pipeline/element_limit.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
@@ -182,7 +182,7 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
   // Contact lines are for elements; exact light needs none.
-  const SolveOptions options = with_element_limit(command.options, file.scene.faces.size());
+  const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   ContactLimit limit{static_cast<double>(options.max_elements), {}};
   if (!command.direct_only) limit.warning = contacts_warning(options.max_elements, false);
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {

@@ -45,8 +45,8 @@ void add_size(CLI::App& app, SolveOptions& options) {
             "Make no more elements than this (default: 40 for each polygon, at least 40000, at\n"
             "most 1000000; with --method matrix 40000)");
   add_whole(app, "--max-unknowns", options.max_unknowns, {1, 100000000},
-            "Make no more coefficients than this, for each channel")
-      ->capture_default_str();
+            "Make no more coefficients than this, for each channel (default: 4 for each of these\n"
+            "elements, at least 1000000)");
 }
 
 void add_light(CLI::App& app, SolveCommand& command) {

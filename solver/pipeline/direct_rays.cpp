@@ -19,8 +19,8 @@ constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, 
                  rays_of_crowd = 3;
 /// Of the tolerance: standard deviation of a value, relative to the mean irradiance.
 constexpr double deviation_for_tolerance = 1.5;
-/// A place may take so much of what an exact look takes: rays do with a quarter of the places.
-constexpr double as_quick = 2;
+/// A place may take so much of what an exact look takes: rays do with half the places or fewer.
+constexpr double as_quick = 1;
 
 }  // namespace
 

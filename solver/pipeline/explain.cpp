@@ -3,7 +3,7 @@
 #include "meshing/patches/patch_mesh.h"
 #include "solver/exchange/cells.h"
 #include "solver/pipeline/blockers.h"
-#include "solver/pipeline/element_limit.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/solve_fields.h"
 #include "solver/pipeline/solve_mesh.h"
 #include "solver/reflected/reflected_cost.h"
@@ -130,7 +130,7 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
 
 Explanation explain(const PreparedScene& prepared, const SolveOptions& given,
                     const Progress& progress) {
-  const SolveOptions options = with_element_limit(given, prepared.scene().surfaces.size());
+  const SolveOptions options = with_limits(given, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);  // as solve does
   Explanation explanation;
   explanation.scene = prepared.scene();

@@ -1,7 +1,7 @@
 #include "solver/pipeline/solve.h"
 
 #include "meshing/core/error.h"
-#include "solver/pipeline/element_limit.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_fields.h"
@@ -55,7 +55,7 @@ void find_regions(const PreparedScene& prepared, const Progress& progress, Stage
 
 SolveResult solve(const Scene& scene, const SolveOptions& options, const Progress& progress) {
   check(options);
-  const SolveOptions limited = with_element_limit(options, scene.faces.size());
+  const SolveOptions limited = with_limits(options, scene.faces.size());
   const ContactLimit limit{static_cast<double>(limited.max_elements),
                            contacts_warning(limited.max_elements, true)};
   return use_prepared(scene, limit, progress, [&](const PreparedScene& prepared) {
@@ -66,7 +66,7 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
 SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
                   const Progress& progress) {
   check(given);
-  const SolveOptions options = with_element_limit(given, prepared.scene().surfaces.size());
+  const SolveOptions options = with_limits(given, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);
   if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);

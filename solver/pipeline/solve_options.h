@@ -46,8 +46,8 @@ struct SolveOptions {
   /// Of the irradiance's error, in the L2 norm, relative to the irradiance's; > 0 unless the method
   /// is the matrix, where curves whose effect is below this share of the mean are left out.
   double tolerance = 0.01;
-  int order = -1;              ///< of all elements, 0…max_order; −1: chosen for each
-  int max_unknowns = 1000000;  ///< per channel
+  int order = -1;        ///< of all elements, 0…max_order; −1: chosen for each
+  int max_unknowns = 0;  ///< per channel, ≥ 1; 0: see with_limits
   /// Name of a group: the tolerance is that of its mean irradiance, and effort goes where that
   /// feels it. Empty: all irradiance matters. Not with the matrix.
   std::string goal;
@@ -55,7 +55,7 @@ struct SolveOptions {
       8000;  ///< about how many elements to mesh the scene with, ≥ 1; used if max_length is 0
   double max_length = 0;        ///< longest element edge in scene units; 0: derived from `elements`
   double deviation = 0;         ///< of chords from conics, as DiscontinuityMeshOptions has it
-  int max_elements = 0;         ///< refuse to make more, ≥ 1; 0: see with_element_limit
+  int max_elements = 0;         ///< refuse to make more, ≥ 1; 0: see with_limits
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
   DiscontinuityOptions
       events;            ///< which curves to look for; most_work 0: what `tolerance` is worth

@@ -28,7 +28,8 @@ struct DividedCube {
     elements = mesh.elements();
   }
   PatchFactors factors(FactorsBy by, const Progress& progress = {}) const {
-    return patch_factors(scene, patches, elements, visibility, {.factors = by}, progress);
+    return patch_factors(scene, patches, elements, visibility,
+                         {.factors = by, .hemicube_pixels = 100}, progress);
   }
 };
 
@@ -54,8 +55,7 @@ TEST(PatchFactors, ByHemicubesAreNearThem) {
   const DividedCube cube;
   const PatchFactors exact = cube.factors(FactorsBy::exact);
   const PatchFactors cubes = cube.factors(FactorsBy::hemicube);
-  // Between 1.6 and 2.5 %, as the patches lie.
-  EXPECT_LT(PatchFactors(cubes - exact).norm(), 0.03 * exact.norm());
+  EXPECT_LT(PatchFactors(cubes - exact).norm(), 0.02 * exact.norm());
   EXPECT_GT(PatchFactors(cubes - exact).norm(), 1e-4 * exact.norm());
 }
 

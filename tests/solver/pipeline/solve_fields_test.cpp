@@ -334,6 +334,7 @@ TEST(SolveFields, FewElementsAreALimitNotAFailure) {
 TEST(SolveFields, EndsWithASentenceWhereTooMuchLiesBeforeTheLight) {
   SolveOptions options;
   options.max_unknowns = 300;
+  options.force.exact_direct_light = true;
   const SolveResult result =
       solve(PreparedScene(test::unit_soup(150, 2), {}, {.contacts = false}), options);
   EXPECT_EQ(result.refinement.limit, FieldLimit::work);

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -39,6 +40,36 @@ TEST(LockstepGmres, SolvesSystemsOfAllSizesOfLight) {
       };
       EXPECT_LE(norm(off), 1e-9 * norm(whole)) << g << ' ' << c;
     }
+}
+
+TEST(LockstepGmres, LeavesSystemsAloneThatAreSolved) {
+  // Hundreds of systems of two, solved in two steps, beside one that takes many.
+  constexpr int pairs = 300, large = 80, n = 2 * pairs + large;
+  test::Random random(2);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
+  RowGroups groups{{}, Eigen::ArrayXd::Ones(n), pairs + 1};
+  double smallest = 1;  // singular value
+  for (int k = 0; k < pairs; ++k) {
+    groups.of_row.insert(groups.of_row.end(), 2, k);
+    A(2 * k, 2 * k + 1) = -random(0, 0.9);
+    A(2 * k + 1, 2 * k) = -random(0, 0.9);
+    const Eigen::JacobiSVD<Eigen::Matrix2d> values(A.block<2, 2>(2 * k, 2 * k));
+    smallest = std::min(smallest, values.singularValues()[1]);
+  }
+  groups.of_row.insert(groups.of_row.end(), large, pairs);
+  for (int i = 2 * pairs; i < n; ++i)
+    for (int j = 2 * pairs; j < n; ++j) A(i, j) -= random(0, 1.6) / large;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> values(A.bottomRightCorner(large, large));
+  smallest = std::min(smallest, values.singularValues()[large - 1]);
+  ChannelArray b(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) b(i, c) = random(0, 1);
+  const auto apply = [&](const ChannelArray& x) { return ChannelArray((A * x.matrix()).array()); };
+  const GmresResult result = gmres(apply, b, groups, 1e-9, 200);
+  EXPECT_GT(result.iterations, 4);
+  EXPECT_LE(result.residual, 1e-9);
+  EXPECT_LE((A * result.x.matrix() - b.matrix()).norm(), 1e-9 * b.matrix().norm());
+  EXPECT_LE(result.amplification, 1.001 / smallest);
 }
 
 TEST(LockstepGmres, GivesNothingForNothing) {

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "solver/pipeline/solve_options.h"
+
+#include <cstddef>
+
+namespace halfshade {
+
+/// The same options with limits where none are set: 40,000 elements, as the memory of the matrix
+/// grows with their square; with fields 40 for each polygon, if that is more, up to a million. And
+/// four unknowns for each of these elements, or a million, if that is more.
+SolveOptions with_limits(SolveOptions options, std::size_t polygons);
+
+}  // namespace halfshade

@@ -3,6 +3,7 @@
 #include "solver/elements/material_arrays.h"
 #include "solver/elements/solution_parts.h"
 #include "solver/factors/saved_factors.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -108,7 +109,7 @@ SolveResult solve_by_faces(const Scene& scene, const FactorMatrix& factors,
   result.scene = std::move(surfaces.sound);
   result.warnings = repair_warnings(scene, result.scene);
   stages.run("mesh", [&] {
-    SolveOptions size = options;
+    SolveOptions size = with_limits(options, result.scene.surfaces.size());
     if (!(size.max_length > 0)) size.max_length = result.scene.diagonal;
     result.elements = make_solve_mesh(result.scene, size, progress).elements;
     return result.elements.corners.size();

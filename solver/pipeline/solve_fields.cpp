@@ -21,7 +21,7 @@ namespace {
 constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
 /// Where direct light is what takes the time, as rays find it: more, for reflected light takes
 /// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
-constexpr double direct_share_of_rays = 0.65;
+constexpr double direct_share_of_rays = 0.8;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
 /// by so much more than the goal, for the residual corrects what that does; values do not enter it.
 constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;

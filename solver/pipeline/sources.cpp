@@ -1,5 +1,6 @@
 #include "solver/pipeline/sources.h"
 
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -23,8 +24,10 @@ struct CoarseSolution {
 };
 
 CoarseSolution solve_coarsely(const PreparedScene& prepared, const Progress& progress) {
-  SolveOptions options;
-  options.elements = coarse_elements;
+  SolveOptions wanted;
+  wanted.method = SolveMethod::matrix;
+  wanted.elements = coarse_elements;
+  const SolveOptions options = with_limits(wanted, prepared.scene().surfaces.size());
   std::vector<StageReport> ignored;
   Stages stages(ignored);
   CoarseSolution solution;

@@ -4,6 +4,7 @@
 #include "meshing/core/light_source.h"
 #include "meshing/patches/quality.h"
 #include "meshing/repair/repair.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve.h"
@@ -69,7 +70,7 @@ SolveMesh mesh_along(const Found& found, const SolveOptions& options) {
 TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
   const Found found = find(s1());
   for (const int elements : {200, 700, 3000}) {
-    SolveOptions options;
+    SolveOptions options = with_limits({}, 10);
     options.method = SolveMethod::matrix;
     options.elements = elements;
     const SolveMesh mesh = mesh_along(found, options);
@@ -82,7 +83,7 @@ TEST(SolveMesh, HasAboutAsManyElementsAsAskedFor) {
 
 TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
   const Found found = find(slats(8));
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 100;
   const SolveMesh few = mesh_along(found, options);
@@ -99,7 +100,7 @@ TEST(SolveMesh, LeavesOutLinesWhereTheyMakeTooManyElements) {
 
 TEST(SolveMesh, KeepsToTheLengthAskedFor) {
   const Found found = find(s1());
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.max_length = 0.2;
   const SolveMesh mesh = mesh_along(found, options);
@@ -124,7 +125,7 @@ std::pair<double, double> umbra_area(const SolveResult& result) {
 }
 
 TEST(SolveWithLines, TheUmbraIsItsElements) {
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 500;
   const SolveResult with = solve(s1(), options);
@@ -144,7 +145,7 @@ std::string left_out(const SolveResult& result, const std::string& stage) {
 }
 
 TEST(SolveWithLines, AreLeftOutWhereTheyAreNeedless) {
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 100;
   EXPECT_EQ(left_out(solve(s1(), options), "discontinuities"), "");
@@ -170,7 +171,7 @@ TEST(SolveWithLines, SecondarySourcesAddLines) {
   test::add_polygon(scene,
                     {{1.8613, -1.9, 0.1}, {1.8613, -1.9, 2}, {1.8613, 1.8, 2}, {1.8613, 1.8, 0.1}},
                     scene.faces.back().material);
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 300;
   const std::size_t without = solve(scene, options).curves;
@@ -194,7 +195,7 @@ TEST(SolveWithLines, RefusesOptionsOutOfRange) {
 
 TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
   Scene scene = slats(30);
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.max_elements = 20;
   test::expect_error([&] { solve(scene, options); }, ErrorCode::too_large,
@@ -202,7 +203,7 @@ TEST(SolveWithLines, RefusesAtOnceWhatTakesTooManyElements) {
 }
 
 TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 30;
   const SolveResult result = solve(slats(8), options);
@@ -220,7 +221,7 @@ TEST(SolveWithLines, ThinLouvresStayWithinTheElementsAskedFor) {
       test::add_polygon(scene, face, dark);
   }
   for (const SolveMethod method : {SolveMethod::fields, SolveMethod::matrix}) {
-    SolveOptions options;
+    SolveOptions options = with_limits({}, 10);
     options.method = method;
     options.refine = Refinement::uniform;
     for (const int asked : {300, 1000}) {
@@ -237,7 +238,7 @@ TEST(SolveWithLines, ThinLouvresStayWithinTheElementsAskedFor) {
 
 TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
   const Scene soup = test::unit_soup(40, 2);
-  SolveOptions options;
+  SolveOptions options = with_limits({}, 10);
   options.method = SolveMethod::matrix;
   options.elements = 400;
   options.max_elements = 1000;
@@ -254,7 +255,7 @@ TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
 
 TEST(SolveWithLines, SoupsAreSolvedAndSayWhatIsLeftOut) {
   for (const Scene& scene : {test::unit_soup(15, 1), test::grid_soup(12, 3, 1)}) {
-    SolveOptions options;
+    SolveOptions options = with_limits({}, 10);
     options.method = SolveMethod::matrix;
     options.elements = 500;
     options.events.most_work = 300;

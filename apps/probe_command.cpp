@@ -4,8 +4,8 @@
 #include "io/files/same_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
-#include "solver/pipeline/limits.h"
 #include "solver/pipeline/light_at_points.h"
+#include "solver/pipeline/limits.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/surface_grid.h"
 

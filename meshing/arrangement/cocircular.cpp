@@ -118,7 +118,7 @@ class TieSettler {
 
 }  // namespace
 
-void settle_ties(std::span<const Vec2> points, std::vector<std::array<bool, 3>> constrained,
+void settle_ties(std::span<const Vec2> points, const std::vector<std::array<bool, 3>>& constrained,
                  HullTriangulation& hull) {
   TieSettler(points, constrained, hull).run();
   for (auto& t : hull.triangles)

@@ -17,7 +17,7 @@ inline constexpr double inside_circle = 1e-8;
 /// leftmost point, the highest of several, rounded; and triangles the order of their corners'
 /// numbers, each with its lowest first. `constrained` tells edges that stay, [k] from corner k to k
 /// + 1.
-void settle_ties(std::span<const Vec2> points, std::vector<std::array<bool, 3>> constrained,
+void settle_ties(std::span<const Vec2> points, const std::vector<std::array<bool, 3>>& constrained,
                  HullTriangulation& hull);
 
 }  // namespace halfshade

@@ -76,7 +76,7 @@ HullTriangulation constrained_delaunay(std::span<const Vec2> points,
           {f->neighbor(2)->info(), f->neighbor(0)->info(), f->neighbor(1)->info()});
       constrained.push_back({f->is_constrained(2), f->is_constrained(0), f->is_constrained(1)});
     }
-    settle_ties(points, std::move(constrained), result);
+    settle_ties(points, constrained, result);
     return result;
   } catch (const std::exception& failure) {
     throw Error(ErrorCode::invalid_input, {},

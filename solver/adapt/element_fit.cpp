@@ -10,7 +10,7 @@ namespace {
 /// What degrees beyond those sampled may add to an error, at most, as a factor of it.
 constexpr double most_unseen = 1.6;
 /// Degrees with less than this share of the light are rounding, and nothing.
-constexpr double rounding = 1e-13;
+constexpr double share_of_rounding = 1e-13;
 
 /// Per order, the basis of the next one at the places of its sampling rule.
 struct SamplingBases {
@@ -40,7 +40,7 @@ ElementFit fit_element(int order, const ChannelArray& samples) {
   fit.order = order;
   for (int degree = 0; degree <= order + 1; ++degree)
     if (const double size = all.middleRows(basis_size(degree - 1), degree + 1).norm();
-        size > rounding * fit.layer[0])
+        size > share_of_rounding * fit.layer[0])
       fit.layer[at(degree)] = size;
   const int size = basis_size(order);
   fit.coefficients = all.topRows(size).array();

@@ -27,7 +27,7 @@ struct NoisyElement {
   double left = 0;       ///< mean square of what the polynomial cannot follow
   double by_chance = 0;  ///< mean square of what it is off because samples are few and noisy
 
-  double unseen = 0;     ///< mean square of what neighbours see and too few samples here may miss
+  double unseen = 0;  ///< mean square of what neighbours see and too few samples here may miss
 
   double square_error() const { return left + by_chance + unseen; }
 };

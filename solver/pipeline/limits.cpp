@@ -5,19 +5,19 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t fewest_elements = 40000, elements_each = 40, most_elements = 1000000;
-constexpr int fewest_unknowns = 1000000, unknowns_each = 4;
+constexpr std::size_t lowest_limit = 40000, limit_each = 40, highest_limit = 1000000;
+constexpr int lowest_of_unknowns = 1000000, unknowns_each = 4;
 
 }  // namespace
 
 SolveOptions with_limits(SolveOptions options, std::size_t polygons) {
   if (options.max_elements == 0)
-    options.max_elements = static_cast<int>(
-        options.method == SolveMethod::matrix
-            ? fewest_elements
-            : std::clamp(elements_each * polygons, fewest_elements, most_elements));
+    options.max_elements =
+        static_cast<int>(options.method == SolveMethod::matrix
+                             ? lowest_limit
+                             : std::clamp(limit_each * polygons, lowest_limit, highest_limit));
   if (options.max_unknowns == 0)
-    options.max_unknowns = std::max(fewest_unknowns, unknowns_each * options.max_elements);
+    options.max_unknowns = std::max(lowest_of_unknowns, unknowns_each * options.max_elements);
   return options;
 }
 

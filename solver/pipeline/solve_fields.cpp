@@ -21,7 +21,9 @@ namespace {
 constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
 /// Where direct light is what takes the time, as rays find it: more, for reflected light takes
 /// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
-constexpr double direct_share_of_rays = 0.8;
+constexpr double direct_share_of_rays = 0.7;
+/// Of the square of all irradiance: direct light, where some of it is reflected.
+constexpr double direct_part = 0.85;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
 /// by so much more than the goal, for the residual corrects what that does; values do not enter it.
 constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;
@@ -113,6 +115,11 @@ void fill_powers(SolveResult& result) {
     channel.residual = result.reflected.residual;
     channel.iterations = result.reflected.iterations;
   }
+}
+
+/// Of the tolerance: what reflected light may be off where direct light is off such a share.
+double left_by(double of_direct) {
+  return std::sqrt(1 - direct_part * of_direct * of_direct - values_share * values_share);
 }
 
 /// The goal asked for and what matters to it.
@@ -210,10 +217,14 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   std::string of_values;
   if (reflects) {
     // Where direct light could not be had as exact, reflected light need not be more exact.
-    const double tolerance = std::max(options.tolerance, direct.light.report.relative_error);
+    const double of_direct = direct.light.report.relative_error;
+    const double tolerance = std::max(options.tolerance, of_direct);
+    ReflectedOptions of_reflected = reflected_options(plan, options, tolerance, goal);
+    if (!goal && of_direct < options.tolerance)
+      of_reflected.tolerance =
+          std::min(of_reflected.tolerance, left_by(of_direct / tolerance) * tolerance);
     TotalField total = add_reflected_light(prepared.scene(), std::move(direct),
-                                           {reflected_options(plan, options, tolerance, goal),
-                                            values_options(options, tolerance, goal)},
+                                           {of_reflected, values_options(options, tolerance, goal)},
                                            progress, stages);
     result.reflected = total.reflected->report();
     result.reflected_light = std::move(total.reflected);

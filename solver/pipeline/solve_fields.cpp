@@ -21,7 +21,7 @@ namespace {
 constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
 /// Where direct light is what takes the time, as rays find it: more, for reflected light takes
 /// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
-constexpr double direct_share_of_rays = 0.8;
+constexpr double direct_share_of_rays = 0.75;
 /// Of the square of all irradiance: direct light, where some of it is reflected.
 constexpr double direct_part = 0.85;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off

@@ -14,10 +14,12 @@ namespace {
 constexpr int highest_order = 2;
 /// Samples for one coefficient, at least.
 constexpr int samples_each = 2;
+/// Standard deviations of a sum of squares of noise that more is no noise.
+constexpr double sure = 2;
 
 struct NoisyPolynomial {
   ChannelArray coefficients;
-  double left = 0, by_chance = std::numeric_limits<double>::infinity();
+  double left = 0, surely_left = 0, by_chance = std::numeric_limits<double>::infinity();
 };
 
 /// Without a finite error if the samples do not tell it.
@@ -42,7 +44,9 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples, do
   const double trace = inverse.trace();
   if (!(normal.isPositive() && std::isfinite(spread) && trace > 0 && std::isfinite(trace)))
     return result;
-  result.left = std::max(spread - noise, 0.);
+  result.left = spread - noise;
+  const double deviation = noise * std::sqrt(2 / static_cast<double>(count - size));
+  result.surely_left = std::max(result.left - sure * deviation, 0.);
   result.by_chance = std::max(spread, noise) * trace;
   return result;
 }
@@ -70,6 +74,7 @@ void fit(NoisyElement& element) {
     element.order = order;
     element.coefficients = std::move(polynomial.coefficients);
     element.left = polynomial.left;
+    element.surely_left = polynomial.surely_left;
     element.by_chance = polynomial.by_chance;
   }
   element.is_fitted = true;

@@ -24,12 +24,17 @@ struct NoisyElement {
   bool is_fitted = false;
   int order = 0;
   ChannelArray coefficients = ChannelArray::Zero(1, 3);
-  double left = 0;       ///< mean square of what the polynomial cannot follow
-  double by_chance = 0;  ///< mean square of what it is off because samples are few and noisy
-
+  /// Mean square of what the polynomial cannot follow: right in the mean of many elements, so that
+  /// noise makes it negative in some.
+  double left = 0;
+  double surely_left = 0;  ///< of it, what noise is not likely to have made; ≥ 0
+  double by_chance = 0;    ///< mean square of what it is off because samples are few and noisy
   double unseen = 0;  ///< mean square of what neighbours see and too few samples here may miss
 
+  /// In the mean of many elements.
   double square_error() const { return left + by_chance + unseen; }
+  /// Of this one; ≥ 0.
+  double known_error() const { return surely_left + by_chance + unseen; }
 };
 
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place);

@@ -26,7 +26,7 @@ constexpr std::array<std::pair<double, int>, 3> first_samples = {{{0.5, 6}, {0.0
 /// Of the same: what a round aims at, if more samples or parts leave this share of an element's.
 constexpr double aim_of_round = 0.8, left_of_improved = 0.5;
 /// No element has more samples than this; parts have no fewer than that.
-constexpr int most_samples = 24, least_samples = 6;
+constexpr int most_samples = 96, least_samples = 6;
 /// Where this share of an element's error comes of too few samples, it gets more of them.
 constexpr double few_samples = 0.5;
 /// An element whose light varies by less than this share of it is worth samples for order 2.
@@ -43,7 +43,7 @@ constexpr double fresh_for_one = 0.2;  ///< element
 constexpr double even_share = 0.5;
 /// Of the square of the error allowed: what is looked for at least.
 constexpr double least_estimate = 1e-3;
-constexpr double deviations = 2;
+constexpr double deviations = 3;
 
 void check_noisy(const AdaptiveFieldOptions& options) {
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.max_elements < 1 ||
@@ -187,9 +187,9 @@ class NoisyFit {
     for (std::size_t e = 0; e < elements_.size(); ++e) {
       double seen = 0;  // by neighbours
       for (const int n : table_.neighbours[e])
-        if (n >= 0) seen += elements_[at(n)].left / 3;
+        if (n >= 0) seen += elements_[at(n)].surely_left / 3;
       NoisyElement& element = elements_[e];
-      element.unseen = missed * std::max(seen - element.left, 0.) /
+      element.unseen = missed * std::max(seen - std::max(element.left, 0.), 0.) /
                        static_cast<double>(element.samples.size() + 1);
     }
   }
@@ -245,7 +245,7 @@ class NoisyFit {
 
   /// Of places that are drawn to compare, but for a factor.
   double density(const NoisyElement& element, double even) const {
-    return (1 - even_share) * element.square_error() + even_share * even;
+    return (1 - even_share) * element.known_error() + even_share * even;
   }
 
   double total_area() const { return std::accumulate(table_.area.begin(), table_.area.end(), 0.); }
@@ -300,32 +300,31 @@ class NoisyFit {
   }
 
   static bool is_short_of_samples(const NoisyElement& element) {
-    return element.by_chance > few_samples * element.square_error();
+    return element.by_chance > few_samples * element.known_error();
   }
 
   /// Where light varies little, what is missing may be an order.
   static int samples_to_split(const NoisyElement& element) {
     const double mean = element.coefficients.row(0).matrix().norm();
-    return std::sqrt(element.left) < varies_little * mean ? 2 * basis_size(2) : least_samples;
+    return std::sqrt(std::max(element.left, 0.)) < varies_little * mean ? 2 * basis_size(2)
+                                                                        : least_samples;
   }
 
   /// The fewest elements that are likely to make the error do, and without which it would.
   std::vector<int> worst() const {
     std::vector<int> order(elements_.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto square_error = [&](int e) {
-      return elements_[at(e)].area * elements_[at(e)].square_error();
-    };
+    const auto error = [&](int e) { return elements_[at(e)].area * elements_[at(e)].known_error(); };
     std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return square_error(a) > square_error(b); });
+                     [&](int a, int b) { return error(a) > error(b); });
     double without = square_error_, after = square_error_;
     std::size_t count = 0;
     const double may_stay = noisy_share_left_alone * allowed() / correction_;
     const double aim = aim_of_round * allowed() / correction_;
     while (count < order.size() && without > may_stay && after > aim) {
-      const double error = square_error(order[count++]);
-      without -= error;
-      after -= (1 - left_of_improved) * error;
+      const double here = error(order[count++]);
+      without -= here;
+      after -= (1 - left_of_improved) * here;
     }
     order.resize(count);
     return order;
@@ -342,7 +341,7 @@ class NoisyFit {
     for (int e = 0; e < out.field.count(); ++e) {
       const NoisyElement& element = elements_[at(e)];
       out.field.of(e) = element.coefficients.rowwise() * unscaled.transpose();
-      out.error[e] = std::sqrt(correction_ * element.square_error()) * unscaled.maxCoeff();
+      out.error[e] = std::sqrt(correction_ * element.known_error()) * unscaled.maxCoeff();
     }
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;

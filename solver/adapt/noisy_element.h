@@ -19,7 +19,8 @@ struct NoisyElement {
   Vec3 normal;
   int surface = 0;
   double area = 0;
-  int wanted = 0;  ///< samples
+  double reach = -1;  ///< square of what light there does not exceed, as a share; < 0: not known
+  int wanted = 0;     ///< samples
   std::vector<NoisySample> samples;
   bool is_fitted = false;
   int order = 0;
@@ -29,7 +30,7 @@ struct NoisyElement {
   double left = 0;
   double surely_left = 0;  ///< of it, what noise is not likely to have made; ≥ 0
   double by_chance = 0;    ///< mean square of what it is off because samples are few and noisy
-  double unseen = 0;  ///< mean square of what neighbours see and too few samples here may miss
+  double unseen = 0;       ///< mean square of what neighbours see and too few samples here may miss
 
   /// In the mean of many elements.
   double square_error() const { return left + by_chance + unseen; }

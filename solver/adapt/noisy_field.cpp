@@ -39,7 +39,8 @@ constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
 constexpr std::size_t most_fresh = 40000, least_fresh = 10000;
 constexpr double fresh_for_one = 0.2;  ///< element
-/// Of the density of fresh places, what has nothing to do with the estimate.
+/// Of the density of fresh places, what has nothing to do with the estimate: half of it by area,
+/// half by the square of what light may be there, which bounds what one place can add.
 constexpr double even_share = 0.5;
 /// Of the square of the error allowed: what is looked for at least.
 constexpr double least_estimate = 1e-3;
@@ -58,13 +59,16 @@ class NoisyFit {
  public:
   NoisyFit(PatchMesh& mesh, const NoisyFieldAt& field, const FieldBound& bound,
            const AdaptiveFieldOptions& options, const Progress& progress)
-      : mesh_(mesh), field_(field), options_(options), progress_(progress) {
+      : mesh_(mesh), field_(field), bound_(bound), options_(options), progress_(progress) {
     take_elements();
-    const std::vector<double> share = shares(bound);
-    for (std::size_t e = 0; e < elements_.size(); ++e)
-      elements_[e].wanted = std::find_if(first_samples.begin(), first_samples.end(), [&](auto& s) {
-                              return share[e] >= s.first;
-                            })->second;
+    const double mean = sum_of_reaches() / static_cast<double>(elements_.size());
+    const auto share = [&](const NoisyElement& element) {
+      return mean > 0 ? element.area * element.reach / mean : 1;
+    };
+    for (NoisyElement& element : elements_)
+      element.wanted = std::find_if(first_samples.begin(), first_samples.end(), [&](auto& s) {
+                         return share(element) >= s.first;
+                       })->second;
   }
 
   AdaptiveField run() {
@@ -86,21 +90,10 @@ class NoisyFit {
   }
 
  private:
-  /// How much each element may matter, as a share of the mean.
-  std::vector<double> shares(const FieldBound& bound) const {
-    std::vector<double> most(elements_.size()), result;
-    parallel_for(elements_.size(), [&](std::size_t e) {
-      const NoisyElement& element = elements_[e];
-      most[e] = bound(point_at(element, TrianglePlace::Constant(1. / 3)));
-    });
-    // Squares of light of any size must not over- or underflow.
-    const double largest = *std::max_element(most.begin(), most.end());
-    for (std::size_t e = 0; e < elements_.size(); ++e)
-      result.push_back(elements_[e].area * std::pow(largest > 0 ? most[e] / largest : 1, 2));
-    const double mean =
-        std::accumulate(result.begin(), result.end(), 0.) / static_cast<double>(result.size());
-    for (double& share : result) share = mean > 0 ? share / mean : 1;
-    return result;
+  double sum_of_reaches() const {
+    return std::accumulate(
+        elements_.begin(), elements_.end(), 0.,
+        [](double sum, const NoisyElement& element) { return sum + element.area * element.reach; });
   }
 
   /// Square of the error.
@@ -138,6 +131,20 @@ class NoisyFit {
       if (known >= 0) parts[index_before.at(known)].push_back(e);
     }
     for (const auto& [whole, ids] : parts) share_samples(before[at(whole)], ids, elements_);
+    find_reaches();
+  }
+
+  void find_reaches() {
+    std::vector<double> most(elements_.size());
+    parallel_for(elements_.size(), [&](std::size_t e) {
+      if (elements_[e].reach < 0)
+        most[e] = bound_(point_at(elements_[e], TrianglePlace::Constant(1. / 3)));
+    });
+    // Squares of light of any size must not over- or underflow.
+    if (largest_ < 0) largest_ = *std::max_element(most.begin(), most.end());
+    for (std::size_t e = 0; e < elements_.size(); ++e)
+      if (elements_[e].reach < 0)
+        elements_[e].reach = largest_ > 0 ? std::pow(std::min(most[e] / largest_, 1.), 2) : 1;
   }
 
   /// As many samples as are wanted, and what follows from them.
@@ -209,11 +216,17 @@ class NoisyFit {
   /// error is thought to be, and elsewhere.
   void compare() {
     const double estimated = std::max(square_error_, least_estimate * allowed());
-    const double even = estimated / total_area();
+    const double even = even_share / 2 * estimated / total_area();
+    const double reaches = sum_of_reaches();
+    // Of places that are drawn, but for a factor: where light may reach far, it may be far off.
+    const auto density = [&](const NoisyElement& element) {
+      return (1 - even_share) * element.known_error() + even +
+             (reaches > 0 ? even_share / 2 * estimated * element.reach / reaches : 0);
+    };
     std::vector<double> reached;
     double sum = 0;
     for (const NoisyElement& element : elements_)
-      reached.push_back(sum += element.area * density(element, even));
+      reached.push_back(sum += element.area * density(element));
     const auto count =
         std::clamp(static_cast<std::size_t>(fresh_for_one * static_cast<double>(elements_.size())),
                    least_fresh, most_fresh);
@@ -233,7 +246,7 @@ class NoisyFit {
       NoisyElement& element = elements_[places[k].first];
       const Rgb fitted = value_at(element, places[k].second);
       const double product =
-          ((values[k].a - fitted) * (values[k].b - fitted)).sum() * sum / density(element, even);
+          ((values[k].a - fitted) * (values[k].b - fitted)).sum() * sum / density(element);
       mean += product / static_cast<double>(count);
       mean_square += product * product / static_cast<double>(count);
       element.samples.push_back({places[k].second, values[k]});
@@ -241,11 +254,6 @@ class NoisyFit {
     const double variance = std::max(mean_square - mean * mean, 0.) / static_cast<double>(count);
     correction_ = std::max((mean + deviations * std::sqrt(variance)) / estimated, 1.);
     correction_of_round_ = report_.rounds;
-  }
-
-  /// Of places that are drawn to compare, but for a factor.
-  double density(const NoisyElement& element, double even) const {
-    return (1 - even_share) * element.known_error() + even_share * even;
   }
 
   double total_area() const { return std::accumulate(table_.area.begin(), table_.area.end(), 0.); }
@@ -314,9 +322,10 @@ class NoisyFit {
   std::vector<int> worst() const {
     std::vector<int> order(elements_.size());
     std::iota(order.begin(), order.end(), 0);
-    const auto error = [&](int e) { return elements_[at(e)].area * elements_[at(e)].known_error(); };
-    std::stable_sort(order.begin(), order.end(),
-                     [&](int a, int b) { return error(a) > error(b); });
+    const auto error = [&](int e) {
+      return elements_[at(e)].area * elements_[at(e)].known_error();
+    };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) > error(b); });
     double without = square_error_, after = square_error_;
     std::size_t count = 0;
     const double may_stay = noisy_share_left_alone * allowed() / correction_;
@@ -353,10 +362,12 @@ class NoisyFit {
 
   PatchMesh& mesh_;
   const NoisyFieldAt& field_;
+  const FieldBound& bound_;
   const AdaptiveFieldOptions& options_;
   const Progress& progress_;
   ElementTable table_;
   std::vector<NoisyElement> elements_;
+  double largest_ = -1;  ///< bound of the first elements; < 0: not known yet
   std::unordered_map<int, int> index_of_node_;
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0;

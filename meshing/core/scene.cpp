@@ -52,6 +52,16 @@ void check_face(const Scene& scene, int f) {
   if (face.group < 0 || face.group >= static_cast<int>(scene.groups.size()))
     reject(scene, fmt::format("{} names group {}, but there are {}", face_label(scene, f),
                               face.group + 1, scene.groups.size()));
+  if (face.paint < -1 || face.paint >= static_cast<int>(scene.paints.size()))
+    reject(scene, fmt::format("{} names paint {}, but there are {}", face_label(scene, f),
+                              face.paint + 1, scene.paints.size()));
+}
+
+void check_paint(const Scene& scene, const Paint& paint) {
+  if (!paint.texture || paint.texture->levels.empty()) reject(scene, "a paint has no picture");
+  if (!paint.along.allFinite() || !paint.from.allFinite())
+    reject(scene, fmt::format("the picture '{}' lies at coordinates that are not finite",
+                              paint.texture->name));
 }
 
 void check_vertices(const Scene& scene) {
@@ -126,6 +136,7 @@ void validate(const Scene& scene) {
   for (const Material& material : scene.materials) check_material(scene, material);
   for (int f = 0; f < static_cast<int>(scene.faces.size()); ++f) check_face(scene, f);
   check_vertices(scene);
+  for (const Paint& paint : scene.paints) check_paint(scene, paint);
   for (const Camera& camera : scene.cameras) check_camera(scene, camera);
 }
 

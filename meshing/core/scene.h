@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/core/texture.h"
 #include "meshing/core/types.h"
 
 #include <string>
@@ -22,6 +23,7 @@ struct Face {
   int material = 0;           ///< into Scene::materials
   int group = 0;              ///< into Scene::groups
   int line = 0;               ///< where the file has it; 0 where the format has no lines
+  int paint = -1;             ///< into Scene::paints: multiplies the reflectance; −1: none
 };
 
 /// A perspective camera.
@@ -40,6 +42,7 @@ struct Scene {
   std::vector<Vec3> vertices;
   std::vector<Face> faces;
   std::vector<Material> materials;
+  std::vector<Paint> paints;
   std::vector<std::string> groups;
   std::vector<Camera> cameras;
 };
@@ -57,8 +60,8 @@ double diagonal(const Scene& scene);
 
 /// Checks that everything the rest of halfshade relies on holds: indices in range, ≥ 3 vertices per
 /// face, finite coordinates whose size and spread double precision can carry, 0 ≤ rho ≤ 1,
-/// finite exitance ≥ 0, at least one face, usable cameras. Throws Error(invalid_input) with the
-/// file and face of the first violation.
+/// finite exitance ≥ 0, finite paints, at least one face, usable cameras. Throws
+/// Error(invalid_input) with the file and face of the first violation.
 void validate(const Scene& scene);
 
 /// Throws Error(invalid_input) unless some face emits light.

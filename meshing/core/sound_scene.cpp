@@ -10,6 +10,11 @@ LocalTolerance tolerance_of(const Surface& a, const Surface& b) {
   return tolerance_of(joint_scale(a.scale, b.scale));
 }
 
+Rgb reflectance_at(const SoundScene& scene, const Surface& surface, const Vec3& position) {
+  const Rgb& rho = scene.materials[at(surface.material)].rho;
+  return surface.paint < 0 ? rho : Rgb(rho * colour_at(scene.paints[at(surface.paint)], position));
+}
+
 double area(const Surface& surface) {
   double twice = 0;
   for (const Ring& ring : surface.rings)

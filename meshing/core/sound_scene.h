@@ -13,8 +13,8 @@ namespace halfshade {
 using Ring = std::vector<Vec2>;
 using Segment2 = std::array<Vec2, 2>;
 
-/// A planar polygon with holes, of one material and group, that exchanges light on the side its
-/// frame's normal points to.
+/// A planar polygon with holes, of one material, paint and group, that exchanges light on the side
+/// its frame's normal points to.
 struct Surface {
   PlaneFrame frame;         ///< all 2-D coordinates below are in it
   std::vector<Ring> rings;  ///< the outer boundary (counter-clockwise), then the holes (clockwise)
@@ -23,6 +23,7 @@ struct Surface {
   LocalScale scale;                ///< of all that hangs together with it, and its own size
   int material = 0;
   int group = 0;
+  int paint = -1;          ///< multiplies the material's reflectance; −1: none
   int plane = 0;           ///< surfaces in one plane, facing either way, share this id
   bool back = false;       ///< the back of a two-sided face; its front is a surface of its own
   std::vector<int> faces;  ///< input faces it is made of; one that was triangulated may repeat
@@ -48,6 +49,7 @@ struct Repair {
 struct SoundScene {
   std::vector<Surface> surfaces;
   std::vector<Material> materials;  ///< as in the scene
+  std::vector<Paint> paints;        ///< as in the scene
   std::vector<std::string> groups;  ///< as in the scene
   std::vector<int> face_lines;      ///< Face::line of every input face
   double diagonal = 0;              ///< of the bounding box of all input faces, scene units
@@ -57,6 +59,9 @@ struct SoundScene {
 /// Lengths below which parts of a surface, or of two of them, count as one.
 LocalTolerance tolerance_of(const Surface& surface);
 LocalTolerance tolerance_of(const Surface& a, const Surface& b);
+
+/// Reflectance at a point of a surface.
+Rgb reflectance_at(const SoundScene& scene, const Surface& surface, const Vec3& position);
 
 /// Area of a surface in squared scene units.
 double area(const Surface& surface);

@@ -95,7 +95,7 @@ class Resolver {
   // Numbered by first face.
   int bucket_of(int f) {
     const CoplanarFace& face = faces_[at(f)];
-    const auto key = std::tuple(face.material, face.group, face.back);
+    const auto key = std::tuple(face.material, face.group, face.paint, face.back);
     return buckets_.emplace(key, static_cast<int>(buckets_.size())).first->second;
   }
 
@@ -160,6 +160,7 @@ class Resolver {
     draft.frame = frame_;
     draft.material = face.material;
     draft.group = face.group;
+    draft.paint = face.paint;
     draft.back = face.back;
     draft.rings = std::move(rings);
     std::vector<Vec3> corners;
@@ -178,7 +179,7 @@ class Resolver {
   SnapRadii snap_;
   Overlay overlay_;
   std::vector<int> ids_;  // point of the overlay → point of the scene
-  std::map<std::tuple<int, int, bool>, int> buckets_;
+  std::map<std::tuple<int, int, int, bool>, int> buckets_;
   CoplanarResult result_;
 };
 

@@ -15,6 +15,7 @@ struct CoplanarFace {
   int face = 0;
   int material = 0;
   int group = 0;
+  int paint = -1;
   bool back = false;   ///< the back of a two-sided face
   bool emits = false;  ///< has exitance
   double area = 0;
@@ -28,6 +29,7 @@ struct SurfaceDraft {
   PlaneFrame frame;
   int material = 0;
   int group = 0;
+  int paint = -1;
   bool back = false;
   LocalScale scale;                     ///< of its outer ring
   std::vector<std::vector<int>> rings;  ///< as in Surface

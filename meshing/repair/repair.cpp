@@ -31,6 +31,7 @@ CoplanarFace coplanar_face(const Scene& scene, const FacePiece& piece,
   result.face = piece.face;
   result.material = face.material;
   result.group = face.group;
+  result.paint = face.paint;
   result.back = back;
   result.emits = (scene.materials[at(face.material)].exitance > 0).any();
   result.area = area_vector(polygon).norm();
@@ -134,6 +135,7 @@ Surface finish(SurfaceDraft&& draft, const std::vector<Vec3>& points) {
   surface.scale = draft.scale;
   surface.material = draft.material;
   surface.group = draft.group;
+  surface.paint = draft.paint;
   surface.plane = draft.plane;
   surface.back = draft.back;
   surface.faces = std::move(draft.faces);
@@ -154,6 +156,7 @@ Surface finish(SurfaceDraft&& draft, const std::vector<Vec3>& points) {
 SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   SoundScene sound;
   sound.materials = scene.materials;
+  sound.paints = scene.paints;
   sound.groups = scene.groups;
   for (const Face& face : scene.faces) sound.face_lines.push_back(face.line);
   sound.diagonal = diagonal(scene);

@@ -1,12 +1,16 @@
 #include "solver/elements/material_arrays.h"
 
+#include "solver/elements/painted_triangle.h"
+
 namespace halfshade {
 
 MaterialArrays material_arrays(const SoundScene& scene, const ElementTable& elements) {
   MaterialArrays arrays{ChannelArray(elements.count(), 3), ChannelArray(elements.count(), 3)};
   for (int e = 0; e < elements.count(); ++e) {
     const Material& material = scene.materials.at(at(elements.material[at(e)]));
-    arrays.rho.row(e) = material.rho.transpose();
+    const Surface& surface = scene.surfaces[at(elements.surface[at(e)])];
+    arrays.rho.row(e) =
+        surface.paint < 0 ? material.rho : mean_reflectance(scene, surface, elements.triangle(e));
     arrays.exitance.row(e) = material.exitance.transpose();
   }
   return arrays;

@@ -1,6 +1,8 @@
 #include "solver/pipeline/face_radiosity.h"
 
+#include "meshing/core/planar.h"
 #include "solver/elements/material_arrays.h"
+#include "solver/elements/painted_triangle.h"
 #include "solver/elements/solution_parts.h"
 #include "solver/factors/saved_factors.h"
 #include "solver/pipeline/limits.h"
@@ -9,6 +11,7 @@
 #include "solver/pipeline/solve_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace halfshade {
@@ -78,11 +81,27 @@ Exchange exchange_of(const FactorMatrix& factors) {
   return exchange;
 }
 
+/// Mean of a face's picture, by triangles from its first corner, of which those outside cancel.
+Rgb mean_of_picture(const Scene& scene, int face) {
+  const std::vector<Vec3> corners = face_corners(scene, face);
+  const Vec3 whole = area_vector(corners);
+  Rgb sum = Rgb::Zero();
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const std::array<Vec3, 3> triangle = {corners[0], corners[k - 1], corners[k]};
+    const double share = area_vector(triangle).dot(whole) / whole.squaredNorm();
+    sum += share * mean_colour(scene.paints[at(scene.faces[at(face)].paint)], triangle);
+  }
+  return sum.max(0).min(1);
+}
+
 MaterialArrays materials_of_rows(const FactorScene& faces, const Scene& scene) {
   MaterialArrays arrays{ChannelArray(faces.rows(), 3), ChannelArray(faces.rows(), 3)};
   for (int i = 0; i < faces.rows(); ++i) {
-    const Material& material = scene.materials[at(scene.faces[at(faces.keys[at(i)].id)].material)];
+    const int face = faces.keys[at(i)].id;
+    const Material& material = scene.materials[at(scene.faces[at(face)].material)];
     arrays.rho.row(i) = material.rho.transpose();
+    if (scene.faces[at(face)].paint >= 0)
+      arrays.rho.row(i) *= mean_of_picture(scene, face).transpose();
     arrays.exitance.row(i) = material.exitance.transpose();
   }
   return arrays;

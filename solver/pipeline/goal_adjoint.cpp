@@ -1,6 +1,9 @@
 #include "solver/pipeline/goal_adjoint.h"
 
+#include "solver/elements/painted_triangle.h"
 #include "solver/pipeline/solve_options.h"
+
+#include <algorithm>
 
 namespace halfshade {
 namespace {
@@ -31,28 +34,28 @@ SoundScene lit_by_group(const SoundScene& scene, int group) {
 
 }  // namespace
 
-const Rgb& GoalAdjoint::rho(int surface) const {
-  return scene.materials[at(scene.surfaces[at(surface)].material)].rho;
+Rgb GoalAdjoint::rho(int surface, const Vec3& position) const {
+  return reflectance_at(scene, scene.surfaces[at(surface)], position);
 }
 
 Rgb GoalAdjoint::leaving(int surface, const Vec3& position) const {
-  const Rgb reflected = rho(surface) * light.irradiance(surface, position).max(0);
+  const Rgb reflected = rho(surface, position) * light.irradiance(surface, position).max(0);
   return scene.surfaces[at(surface)].group == group ? Rgb(1 + reflected) : reflected;
 }
 
 Rgb GoalAdjoint::leaving_exactly(int surface, const SurfacePoint& point, int rays) const {
   const double first = scene.surfaces[at(surface)].group == group ? 1 : 0;
-  if ((rho(surface) == 0).all()) return Rgb::Constant(first);
-  return first + rho(surface) * light.gather(point, rays);
+  const Rgb reflected = rho(surface, point.position);
+  if ((reflected == 0).all()) return Rgb::Constant(first);
+  return first + reflected * light.gather(point, rays);
 }
 
 double GoalAdjoint::integral() const {
   double sum = 1;
-  const ChannelArray mean = means(light.field());
   for (int e = 0; e < light.elements().count(); ++e) {
-    const Rgb arriving = mean.row(e).transpose().max(0);
-    sum += light.elements().area[at(e)] / area *
-           (rho(light.elements().surface[at(e)]) * arriving).maxCoeff();
+    const Rgb reflected = mean_reflected(scene, scene.surfaces[at(light.elements().surface[at(e)])],
+                                         light.elements(), light.field(), e);
+    sum += light.elements().area[at(e)] / area * std::max(reflected.maxCoeff(), 0.);
   }
   return sum;
 }

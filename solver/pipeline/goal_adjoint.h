@@ -18,7 +18,7 @@ struct GoalAdjoint {
   ReflectedLight light;  ///< all irradiance there
 
   /// ρ of a surface.
-  const Rgb& rho(int surface) const;
+  Rgb rho(int surface, const Vec3& position) const;
 
   /// What leaves, by polynomials.
   Rgb leaving(int surface, const Vec3& position) const;

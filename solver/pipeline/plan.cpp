@@ -107,7 +107,8 @@ std::string channels_needless(const SoundScene& scene, const SolveOptions& optio
   const bool grey =
       std::all_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
         const Material& material = scene.materials[at(surface.material)];
-        return is_grey(material.rho) && is_grey(material.exitance);
+        return is_grey(material.rho) && is_grey(material.exitance) &&
+               (surface.paint < 0 || halfshade::is_grey(*scene.paints[at(surface.paint)].texture));
       });
   return grey ? "every material is grey" : "";
 }

@@ -1,6 +1,8 @@
 #include "solver/pipeline/solve_fields.h"
 
+#include "meshing/core/parallel.h"
 #include "solver/elements/material_arrays.h"
+#include "solver/elements/painted_triangle.h"
 #include "solver/pipeline/direct_field.h"
 #include "solver/pipeline/goal_correction.h"
 #include "solver/pipeline/total_field.h"
@@ -89,10 +91,26 @@ AdaptiveFieldOptions values_options(const SolveOptions& options, double toleranc
   return result;
 }
 
+/// Of painted elements: the share that is reflected of what arrives, as it is spread over them.
+void reflect_by_paint(const SoundScene& scene, const ElementTable& elements,
+                      const ElementField& irradiance, ChannelArray& rho) {
+  parallel_for(at(elements.count()), [&](std::size_t e) {
+    const Surface& surface = scene.surfaces[at(elements.surface[e])];
+    if (surface.paint < 0) return;
+    const int element = static_cast<int>(e);
+    const Rgb arriving = irradiance.of(element).row(0).transpose();
+    const Rgb share = mean_reflected(scene, surface, elements, irradiance, element) / arriving;
+    const Rgb& most = scene.materials[at(surface.material)].rho;
+    for (int c = 0; c < 3; ++c)
+      if (arriving[c] > 0) rho(element, c) = std::clamp(share[c], 0., most[c]);
+  });
+}
+
 void fill_solution(const SoundScene& scene, const Eigen::ArrayXd& error, SolveResult& result) {
   const MaterialArrays materials = material_arrays(scene, result.elements);
   Solution& solution = result.solution;
   solution.rho = materials.rho;
+  reflect_by_paint(scene, result.elements, result.irradiance, solution.rho);
   solution.exitance = materials.exitance;
   solution.direct_irradiance = means(result.direct);
   solution.irradiance = means(result.irradiance);

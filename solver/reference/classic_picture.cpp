@@ -80,8 +80,9 @@ class LocalIllumination {
     const Material& m = material(seen.surface);
     const Shading place{seen.point.position, seen.point.normal, -direction,
                         scene_.surfaces[at(seen.surface)].plane};
-    Rgb radiance = (m.exitance + m.rho * ambient_) / pi;
-    const auto add = [&](const EmitterPoint& from) { radiance += shaded_by(from, place, m.rho); };
+    const Rgb rho = reflectance_at(scene_, scene_.surfaces[at(seen.surface)], place.position);
+    Rgb radiance = (m.exitance + rho * ambient_) / pi;
+    const auto add = [&](const EmitterPoint& from) { radiance += shaded_by(from, place, rho); };
     if (options_.shadows == ClassicShadows::soft) {
       if (const auto from = emitters_.point(numbers.pair(0))) add(*from);
     } else {
@@ -128,6 +129,10 @@ Rgb evenly_spread_light(const SoundScene& scene) {
     all += own;
     power += own * material.exitance;
     reflecting += own * material.rho;
+    if (surface.paint >= 0)  // as if all of the picture were seen
+      reflecting +=
+          own * material.rho *
+          (scene.paints[at(surface.paint)].texture->levels.back().texels[0].cast<double>() - 1);
   }
   if (!(all > 0)) return Rgb::Zero();
   const Rgb rho = reflecting / all;

@@ -115,7 +115,7 @@ ArrivingLight LightPaths::trace(const ReferencePoint& point, int bounces,
     const Vec3 way = spread_direction(here.normal, numbers.pair(use_of(bounce, way_ahead)));
     const std::optional<End> next = next_end(here, way);
     if (next) sum += weight * from_ahead(here, *next, way);
-    if (next) weight *= material(*next).rho;
+    if (next) weight *= reflectance_at(scene_, scene_.surfaces[at(next->surface)], next->position);
     const bool last = !next || bounce == bounces || (weight == 0).all();
     if (last ||
         (bounce >= sure_bounces && !survives(numbers.number(use_of(bounce, roulette)), weight))) {

@@ -14,11 +14,12 @@ TracedPicture reference_picture(const SoundScene& scene, const CameraRays& camer
       [&](const Vec3& origin, const Vec3& direction, const SampleNumbers& numbers) -> SeenLight {
         const auto seen = paths.seen(origin, direction);
         if (!seen) return {};
-        const Material& material = scene.materials[at(scene.surfaces[at(seen->surface)].material)];
-        Rgb radiosity = material.exitance;
-        if ((material.rho > 0).any())
-          radiosity += material.rho * paths.trace(seen->point, -1, numbers).total;
-        return {radiosity / std::numbers::pi, (material.exitance > 0).any()};
+        const Surface& surface = scene.surfaces[at(seen->surface)];
+        const Rgb& exitance = scene.materials[at(surface.material)].exitance;
+        const Rgb rho = reflectance_at(scene, surface, seen->point.position);
+        Rgb radiosity = exitance;
+        if ((rho > 0).any()) radiosity += rho * paths.trace(seen->point, -1, numbers).total;
+        return {radiosity / std::numbers::pi, (exitance > 0).any()};
       },
       progress);
 }

@@ -22,7 +22,7 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
     const int s = systems.of_element[at(e)];
     const Rgb first = first_leaving.of(e).row(0).transpose();
     const Rgb arriving = irradiance.of(e).row(0).transpose();
-    const Rgb leaving = first + light.rho[at(mesh.root(e))] * arriving;
+    const Rgb leaving = first + light.mean_rho(mesh, e) * arriving;
     of_element.push_back(mesh.area(e) * unsure[at(e)].factor * leaving.abs());
     put_in.row(s) += mesh.area(e) * first.transpose();
     not_known.row(s) += of_element.back().transpose();

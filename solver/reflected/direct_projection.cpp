@@ -11,14 +11,12 @@
 namespace halfshade {
 namespace {
 
-/// The projection of direct light on an element: by a rule, and of what is left of it by strata²
-/// random points, one in each of as many parts of equal area. Light breaks anywhere, and where
-/// breaks are parallel to elements a regular pattern would miss them all alike.
-ChannelArray project(const ReflectedMesh& mesh, const FirstLight& light, int element, int strata) {
+/// The projection of `direct`, light at a place of an element: by a rule, and of what is left of it
+/// by strata² random points, one in each of as many parts of equal area. Light breaks anywhere, and
+/// where breaks are parallel to elements a regular pattern would miss them all alike.
+template <class LightAt>
+ChannelArray project(const ReflectedMesh& mesh, const LightAt& direct, int element, int strata) {
   const int triangle = mesh.triangle[at(element)], order = mesh.order[at(triangle)];
-  const auto direct = [&](const TrianglePlace& place) -> Vec3 {
-    return light.direct_at(mesh.root(element), mesh.position(element, place)).matrix();
-  };
   const ElementNodes& nodes = element_nodes_of(order);
   Eigen::MatrixXd values(static_cast<Eigen::Index>(nodes.places.size()), 3);
   for (std::size_t k = 0; k < nodes.places.size(); ++k)
@@ -44,6 +42,7 @@ ChannelArray project(const ReflectedMesh& mesh, const FirstLight& light, int ele
 
 void DirectProjection::update(const ReflectedMesh& mesh, const FirstLight& light) {
   of_triangle_.resize(at(mesh.forest.count()));
+  painted_.resize(at(mesh.forest.count()));
   double total = 0;
   for (int e = 0; e < mesh.count(); ++e) total += mesh.area(e);
   parallel_for(at(mesh.count()), [&](std::size_t i) {
@@ -52,18 +51,40 @@ void DirectProjection::update(const ReflectedMesh& mesh, const FirstLight& light
     if (kept && kept->rows() == basis_size(mesh.order[at(t)])) return;
     const double points = points_ * mesh.area(e) / total;
     const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(points))));
-    kept = std::make_unique<ChannelArray>(project(mesh, light, e, strata));
+    const int root = mesh.root(e);
+    kept = std::make_unique<ChannelArray>(project(
+        mesh,
+        [&](const TrianglePlace& place) -> Vec3 {
+          return light.direct_at(root, mesh.position(e, place)).matrix();
+        },
+        e, strata));
+    if (!light.painted.is_painted(root) || light.through_operator) return;
+    painted_[at(t)] = std::make_unique<ChannelArray>(project(
+        mesh,
+        [&](const TrianglePlace& place) -> Vec3 {
+          return light.leaving(root, mesh.position(e, place)).matrix();
+        },
+        e, strata));
   });
+}
+
+Rgb DirectProjection::mean_leaving(const ReflectedMesh& mesh, const FirstLight& light,
+                                   int element) const {
+  const auto& painted = painted_[at(mesh.triangle[at(element)])];
+  return painted ? Rgb(painted->row(0).transpose())
+                 : Rgb(light.rho[at(mesh.root(element))] * mean(mesh, element));
 }
 
 ElementField DirectProjection::leaving(const ReflectedMesh& mesh, const FirstLight& light) const {
   ElementField field = zero_field(mesh);
   for (int e = 0; e < mesh.count(); ++e) {
-    const std::size_t root = at(mesh.root(e));
+    const std::size_t root = at(mesh.root(e)), triangle = at(mesh.triangle[at(e)]);
     if (light.through_operator)
       field.of(e).row(0) = light.exitance[root].transpose();
+    else if (painted_[triangle])
+      field.of(e) = *painted_[triangle];
     else
-      field.of(e) = of_triangle_[at(mesh.triangle[at(e)])]->rowwise() * light.rho[root].transpose();
+      field.of(e) = of_triangle_[triangle]->rowwise() * light.rho[root].transpose();
   }
   return field;
 }

@@ -113,7 +113,7 @@ void conserve_power(const ReflectedMesh& mesh, const LightSystems& systems,
     if (!systems.closed[at(s)]) gain.row(s).setZero();
   for (int e = 0; e < mesh.count(); ++e)
     irradiance.rest.of(e).rowwise() *= 1 + gain.row(systems.of_element[at(e)]);
-  add_constants(mesh, systems, gain * irradiance.constant, nullptr, irradiance.rest);
+  add_constants(mesh, systems, gain * irradiance.constant, irradiance.rest);
 }
 
 void reflect_change(const ReflectedSystem& system, const ElementField& before,
@@ -124,8 +124,7 @@ void reflect_change(const ReflectedSystem& system, const ElementField& before,
   change.coefficients -= before.coefficients;
   for (int e = 0; e < change.count(); ++e)
     change.of(e).bottomRows(change.of(e).rows() - 1).setZero();
-  const std::vector<Rgb> absorbed = absorptances(light);
-  const ChannelArray power = -integrals(mesh, systems, change, &absorbed);
+  const ChannelArray power = -absorbed_integrals(mesh, light, systems, change);
   const ElementField arriving = exchange.apply(mesh, reflected_part(mesh, light, change));
   const ReflectedSolution more = solve_reflected(system, arriving, power, tolerance, &ambient);
   irradiance.constant += more.irradiance.constant;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/reflected/hot_cells.h"
+#include "solver/reflected/painted_elements.h"
 #include "solver/reflected/reflected_light.h"
 #include "solver/reflected/reflecting_scene.h"
 
@@ -11,8 +12,9 @@ namespace halfshade {
 /// What the roots of a scene reflect, and the light that leaves them for the first time.
 struct FirstLight {
   std::vector<int> surface;        ///< of each root
-  std::vector<Rgb> rho, exitance;  ///< of each root
-  DirectIrradiance direct;         ///< H_d
+  std::vector<Rgb> rho, exitance;  ///< of each root; where it is painted, rho is the most
+  PaintedElements painted;
+  DirectIrradiance direct;  ///< H_d
   bool through_operator = false;
   HotCells hot;  ///< of what leaves; none before they are looked for
 
@@ -24,10 +26,20 @@ struct FirstLight {
   /// S at a point of a root.
   Rgb leaving(int root, const Vec3& position) const {
     if (through_operator) return exitance[at(root)];
-    const Rgb& reflected = rho[at(root)];
-    return (reflected == 0).all() ? Rgb(Rgb::Zero())
-                                  : Rgb(reflected * direct(surface[at(root)], position));
+    const Rgb& most = rho[at(root)];
+    return (most == 0).all() ? Rgb(Rgb::Zero())
+                             : Rgb(most * painted.colour_at(root, position) *
+                                   direct(surface[at(root)], position));
   }
+
+  /// ρ f of a polynomial on an element.
+  ChannelArray reflected(const ReflectedMesh& mesh, int element, const ChannelArray& f) const;
+
+  /// Mean of (1 − ρ) f, without cancellation where nothing is painted.
+  Rgb absorbed(const ReflectedMesh& mesh, int element, const ChannelArray& f) const;
+
+  /// Mean reflectance of an element.
+  Rgb mean_rho(const ReflectedMesh& mesh, int element) const;
 };
 
 FirstLight first_light(const SoundScene& scene, const ElementTable& roots, DirectIrradiance direct,

@@ -29,7 +29,7 @@ LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
     const int s = systems.of_element[at(e)];
     systems.closed[at(s)] = scene.cells.closed[at(scene.cells.before(mesh.root(e)))];
     systems.area[s] += mesh.area(e);
-    systems.absorption.row(s) += mesh.area(e) * (1 - light.rho[at(mesh.root(e))]).transpose();
+    systems.absorption.row(s) += mesh.area(e) * (1 - light.mean_rho(mesh, e)).transpose();
   }
   return systems;
 }
@@ -44,50 +44,59 @@ ChannelArray power_put_in(const ReflectedMesh& mesh, const FirstLight& light,
     const Rgb falling = mesh.area(e) * direct.mean(mesh, e);
     emitted.row(s) += mesh.area(e) * light.exitance[root].transpose();
     arriving.row(s) += falling.transpose();
-    reflected.row(s) += (light.rho[root] * falling).transpose();
+    reflected.row(s) += mesh.area(e) * direct.mean_leaving(mesh, light, e).transpose();
   }
   if (light.through_operator) return emitted;
   return (arriving > 0).select(reflected * emitted / arriving, 0.);
 }
 
 ChannelArray integrals(const ReflectedMesh& mesh, const LightSystems& systems,
-                       const ElementField& field, const std::vector<Rgb>* weight) {
+                       const ElementField& field) {
   ChannelArray result = ChannelArray::Zero(systems.count(), 3);
-  for (int e = 0; e < mesh.count(); ++e) {
-    Rgb mean = field.of(e).row(0).transpose();
-    if (weight) mean *= (*weight)[at(mesh.root(e))];
-    result.row(systems.of_element[at(e)]) += mesh.area(e) * mean.transpose();
-  }
+  for (int e = 0; e < mesh.count(); ++e)
+    result.row(systems.of_element[at(e)]) += mesh.area(e) * field.of(e).row(0);
+  return result;
+}
+
+ChannelArray absorbed_integrals(const ReflectedMesh& mesh, const FirstLight& light,
+                                const LightSystems& systems, const ElementField& field) {
+  ChannelArray result = ChannelArray::Zero(systems.count(), 3);
+  for (int e = 0; e < mesh.count(); ++e)
+    result.row(systems.of_element[at(e)]) +=
+        mesh.area(e) * light.absorbed(mesh, e, field.of(e)).transpose();
   return result;
 }
 
 void add_constants(const ReflectedMesh& mesh, const LightSystems& systems,
-                   const ChannelArray& value, const std::vector<Rgb>* weight, ElementField& field) {
+                   const ChannelArray& value, ElementField& field) {
+  for (int e = 0; e < mesh.count(); ++e) field.of(e).row(0) += value.row(systems.of_element[at(e)]);
+}
+
+void add_absorbed(const ReflectedMesh& mesh, const FirstLight& light, const LightSystems& systems,
+                  const ChannelArray& value, ElementField& field) {
   for (int e = 0; e < mesh.count(); ++e) {
-    Rgb added = value.row(systems.of_element[at(e)]).transpose();
-    if (weight) added *= (*weight)[at(mesh.root(e))];
-    field.of(e).row(0) += added.transpose();
+    const auto added = value.row(systems.of_element[at(e)]);
+    if (!light.painted.is_painted(mesh.root(e))) {
+      field.of(e).row(0) += added * (1 - light.rho[at(mesh.root(e))]).transpose();
+      continue;
+    }
+    ChannelArray even = ChannelArray::Zero(field.of(e).rows(), 3);
+    even.row(0) = added;
+    field.of(e) += even - light.reflected(mesh, e, even);
   }
 }
 
 ElementField SplitIrradiance::whole(const ReflectedMesh& mesh, const LightSystems& systems) const {
   ElementField sum = rest;
-  add_constants(mesh, systems, constant, nullptr, sum);
+  add_constants(mesh, systems, constant, sum);
   return sum;
 }
 
 ElementField leaving_rest(const ReflectedMesh& mesh, const FirstLight& light,
                           const LightSystems& systems, const SplitIrradiance& irradiance) {
   ElementField leaving = reflected_part(mesh, light, irradiance.rest);
-  const std::vector<Rgb> absorbed = absorptances(light);
-  add_constants(mesh, systems, -irradiance.constant, &absorbed, leaving);
+  add_absorbed(mesh, light, systems, -irradiance.constant, leaving);
   return leaving;
-}
-
-std::vector<Rgb> absorptances(const FirstLight& light) {
-  std::vector<Rgb> result;
-  for (const Rgb& rho : light.rho) result.push_back(1 - rho);
-  return result;
 }
 
 }  // namespace halfshade

@@ -29,13 +29,21 @@ LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
 ChannelArray power_put_in(const ReflectedMesh& mesh, const FirstLight& light,
                           const DirectProjection& direct, const LightSystems& systems);
 
-/// ∫ of a field over each system; with `weight` of each root, if given.
+/// ∫ of a field over each system.
 ChannelArray integrals(const ReflectedMesh& mesh, const LightSystems& systems,
-                       const ElementField& field, const std::vector<Rgb>* weight = nullptr);
+                       const ElementField& field);
 
-/// Adds `value` of its system to an element's field everywhere, times `weight` of its root.
+/// ∫ (1 − ρ) of a field over each system.
+ChannelArray absorbed_integrals(const ReflectedMesh& mesh, const FirstLight& light,
+                                const LightSystems& systems, const ElementField& field);
+
+/// Adds `value` of its system to an element's field everywhere.
 void add_constants(const ReflectedMesh& mesh, const LightSystems& systems,
-                   const ChannelArray& value, const std::vector<Rgb>* weight, ElementField& field);
+                   const ChannelArray& value, ElementField& field);
+
+/// The same times 1 − ρ.
+void add_absorbed(const ReflectedMesh& mesh, const FirstLight& light, const LightSystems& systems,
+                  const ChannelArray& value, ElementField& field);
 
 /// Irradiance as a constant of each closed system, and the rest. What a system that absorbs next to
 /// nothing holds is nearly all in the constant, which the balance of power gives exactly.
@@ -49,8 +57,5 @@ struct SplitIrradiance {
 /// What leaves where that irradiance arrives, less the constant: ρ rest − (1 − ρ) constant.
 ElementField leaving_rest(const ReflectedMesh& mesh, const FirstLight& light,
                           const LightSystems& systems, const SplitIrradiance& irradiance);
-
-/// 1 − ρ of each root.
-std::vector<Rgb> absorptances(const FirstLight& light);
 
 }  // namespace halfshade

@@ -99,8 +99,7 @@ Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickF
 ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
                             const ElementField& field) {
   ElementField result = field;
-  for (int e = 0; e < field.count(); ++e)
-    result.of(e).rowwise() *= light.rho[at(mesh.root(e))].transpose();
+  for (int e = 0; e < field.count(); ++e) result.of(e) = light.reflected(mesh, e, field.of(e));
   return result;
 }
 

@@ -66,6 +66,7 @@ void scale_light(ReflectedLight::State& state) {
 
 void finish(ReflectedLight::State& state) {
   if (state.field.count() != state.mesh.count()) state.field = zero_field(state.mesh);
+  state.light.painted.update(state.mesh, state.light.rho);
   state.leaving_rest = reflected_part(state.mesh, state.light, state.field);
   state.leaving.emplace(state.leaving_rest);
   state.field.coefficients.rowwise() /= state.scale.transpose();

@@ -92,6 +92,7 @@ class Rounds {
     ReflectedReport& report = state_.report;
     report.end = ReflectedEnd::interrupted;
     direct_.update(mesh_, state_.light);
+    state_.light.painted.update(mesh_, state_.light.rho);
     IrradianceOperator& kept = parts_ ? static_cast<IrradianceOperator&>(*parts_) : *kept_rays_;
     if (!kept.update(mesh_, progress_)) return false;
     if (parts_) {

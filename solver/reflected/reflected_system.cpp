@@ -67,7 +67,7 @@ void require_absorption(const ReflectedSystem& system, const ChannelArray& power
 class RestOperator {
  public:
   RestOperator(const ReflectedSystem& system, const ElementField& ambient)
-      : system_(system), ambient_(ambient), absorbed_(absorptances(system.light)) {}
+      : system_(system), ambient_(ambient) {}
 
   ChannelArray operator()(const ChannelArray& y) const {
     const auto& [mesh, light, exchange, systems] = system_;
@@ -75,8 +75,8 @@ class RestOperator {
     field.coefficients = y;
     ElementField leaving = reflected_part(mesh, light, field);
     const ChannelArray weighted =
-        ratio(integrals(mesh, systems, field, &absorbed_), systems.absorption);
-    add_constants(mesh, systems, of_closed(systems, weighted), &absorbed_, leaving);
+        ratio(absorbed_integrals(mesh, light, systems, field), systems.absorption);
+    add_absorbed(mesh, light, systems, of_closed(systems, weighted), leaving);
     const ChannelArray mean =
         of_closed(systems, integrals(mesh, systems, field).colwise() / systems.area);
     ChannelArray image = y - exchange.apply(mesh, leaving).coefficients;
@@ -89,7 +89,6 @@ class RestOperator {
  private:
   ReflectedSystem system_;
   const ElementField& ambient_;
-  std::vector<Rgb> absorbed_;
 };
 
 /// What arrives in all, scaled to a mean of 1 in each system.
@@ -129,9 +128,9 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
       gmres(RestOperator(system, solution.ambient), irradiance.rest.coefficients,
             groups_of(mesh, systems, irradiance.rest), tolerance, most_iterations);
   irradiance.rest.coefficients = solved.x;
-  const std::vector<Rgb> absorbed = absorptances(light);
   irradiance.constant -= of_closed(
-      systems, ratio(integrals(mesh, systems, irradiance.rest, &absorbed), systems.absorption));
+      systems,
+      ratio(absorbed_integrals(mesh, light, systems, irradiance.rest), systems.absorption));
   solution.iterations = solved.iterations;
   solution.residual = solved.residual;
   solution.amplification = solved.amplification;

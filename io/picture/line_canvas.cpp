@@ -1,5 +1,6 @@
 #include "io/picture/line_canvas.h"
 
+#include "io/files/srgb.h"
 #include "io/picture/tone_map.h"
 #include "meshing/core/planar.h"
 
@@ -9,9 +10,7 @@
 namespace halfshade::detail {
 
 Rgb linear_of_srgb(const Rgb& encoded) {
-  // IEC 61966-2-1.
-  return encoded.unaryExpr(
-      [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); });
+  return encoded.unaryExpr([](double v) { return from_srgb(v); });
 }
 
 Rgb decode_srgb(const std::array<std::uint8_t, 3>& bytes) {

@@ -14,6 +14,12 @@
 
 namespace halfshade {
 
+/// What multiplies the value of a triangle: a picture and a constant.
+struct ShadedPaint {
+  int paint = -1;  ///< into ShadedMesh::paints; −1: none
+  Rgb gain = Rgb::Ones();
+};
+
 /// Triangles that carry radiosity in W/m², or another quantity, ready to be drawn.
 struct ShadedMesh {
   std::vector<Vec3> points;
@@ -22,6 +28,8 @@ struct ShadedMesh {
   std::vector<std::array<bool, 3>> is_border;
   std::vector<Rgb> point_value;  ///< empty: each triangle has one value
   std::vector<Rgb> triangle_value;
+  std::vector<ShadedPaint> painted;  ///< of each triangle; empty: none is
+  std::vector<Paint> paints;
   std::vector<std::uint8_t> emits;  ///< 1 for triangles with exitance; the exposure ignores them
   std::vector<Camera> cameras;
   bool headlight =

@@ -1,5 +1,6 @@
 #include "io/files/camera_numbers.h"
 #include "io/files/extension.h"
+#include "io/files/paint_numbers.h"
 #include "io/picture/detail/vtk_input.h"
 #include "io/picture/result_file.h"
 #include "solver/elements/polynomial.h"
@@ -73,6 +74,21 @@ std::vector<Camera> cameras(vtkFieldData* data, const path& file) {
   return to_cameras(numbers);
 }
 
+std::vector<detail::PaintOn> paints(vtkFieldData* data) {
+  const auto whole = [&](const std::string& name, int components) {
+    std::vector<int> result;
+    for (const double x : field_numbers(data, name.c_str(), components))
+      result.push_back(static_cast<int>(std::clamp(x, -1., 1e9)));
+    return result;
+  };
+  detail::PaintNumbers numbers;
+  numbers.paints = field_numbers(data, "paints", detail::paint_components);
+  numbers.sizes = whole("texture_sizes", 2);
+  for (std::size_t k = 0; 2 * k < numbers.sizes.size(); ++k)
+    numbers.textures.push_back(whole(fmt::format("texture_{}", k), 3));
+  return detail::to_paints(numbers);
+}
+
 ResultFile to_result(vtkPointSet* grid, const path& file) {
   ResultFile result;
   result.path = file;
@@ -87,6 +103,10 @@ ResultFile to_result(vtkPointSet* grid, const path& file) {
   result.point_arrays = arrays_of(grid->GetPointData(), points, file);
   result.cell_arrays = arrays_of(grid->GetCellData(), cells, file);
   result.cameras = cameras(grid->GetFieldData(), file);
+  for (detail::PaintOn& paint : paints(grid->GetFieldData())) {
+    result.paints.push_back(std::move(paint.paint));
+    result.paint_most.push_back(paint.most);
+  }
   return result;
 }
 

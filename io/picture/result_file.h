@@ -24,6 +24,8 @@ struct ResultFile {
   std::vector<int> order;               ///< of each cell, ≥ 1
   std::vector<ResultArray> point_arrays, cell_arrays;
   std::vector<Camera> cameras;
+  std::vector<Paint> paints;    ///< that the array `paint` of the cells names
+  std::vector<Rgb> paint_most;  ///< reflectance where the picture is white
 };
 
 /// Throws Error(invalid_input) for anything that halfshade has not written, whatever is in the

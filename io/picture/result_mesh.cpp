@@ -86,9 +86,12 @@ void cut_curved(const ResultFile& file, ShadedMesh& mesh) {
   LinearPieces pieces = linear_pieces(triangles, field, invisible_share * largest);
   const std::vector<Rgb> value = std::move(mesh.triangle_value);
   const std::vector<std::uint8_t> emits = std::move(mesh.emits);
+  const std::vector<ShadedPaint> painted = std::move(mesh.painted);
   mesh.triangle_value.clear();
   mesh.emits.clear();
+  mesh.painted.clear();
   for (const int e : pieces.element) {
+    if (!painted.empty()) mesh.painted.push_back(painted[at(e)]);
     mesh.triangle_value.push_back(value[at(e)]);
     mesh.emits.push_back(emits[at(e)]);
   }
@@ -98,9 +101,25 @@ void cut_curved(const ResultFile& file, ShadedMesh& mesh) {
   mesh.is_border = std::move(pieces.is_border);
 }
 
-/// `at_points` may be empty.
+/// Of each cell, for its radiosity.
+std::vector<ShadedPaint> paints_of(const ResultFile& file, const std::vector<std::uint8_t>& emits) {
+  const ResultArray* codes = find_array(file.cell_arrays, "paint");
+  if (codes == nullptr || codes->components != 1 || file.paints.empty()) return {};
+  const std::vector<Rgb> mean = light_values(file, file.cell_arrays, "reflectance");
+  std::vector<ShadedPaint> painted;
+  for (std::size_t e = 0; e < file.cells.size(); ++e) {
+    ShadedPaint& cell = painted.emplace_back();
+    const double code = codes->values[e];
+    if (!(code >= 0 && code < static_cast<double>(file.paints.size())) || emits[e] != 0) continue;
+    cell.paint = static_cast<int>(code);
+    cell.gain = (mean[e] > 0).select(file.paint_most[at(cell.paint)] / mean[e], 0.);
+  }
+  return painted;
+}
+
+/// `at_points` and `painted` may be empty.
 ShadedMesh mesh_with(const ResultFile& file, std::vector<Rgb> at_points, std::vector<Rgb> in_cells,
-                     std::vector<std::uint8_t> emits) {
+                     std::vector<std::uint8_t> emits, std::vector<ShadedPaint> painted = {}) {
   ShadedMesh mesh;
   mesh.points = file.points;
   for (const std::vector<int>& nodes : file.cells)
@@ -108,6 +127,8 @@ ShadedMesh mesh_with(const ResultFile& file, std::vector<Rgb> at_points, std::ve
   mesh.point_value = std::move(at_points);
   mesh.triangle_value = std::move(in_cells);
   mesh.emits = std::move(emits);
+  mesh.painted = std::move(painted);
+  mesh.paints = file.paints;
   mesh.cameras = file.cameras;
   if (!mesh.point_value.empty() &&
       std::any_of(file.order.begin(), file.order.end(), [](int p) { return p > 1; }))
@@ -178,9 +199,11 @@ std::vector<Rgb> cell_values(const ResultFile& file, const ResultArray* cells,
 }  // namespace
 
 ShadedMesh shaded(const ResultFile& file) {
+  std::vector<std::uint8_t> emits = emitting(light_values(file, file.cell_arrays, "exitance"));
+  std::vector<ShadedPaint> painted = paints_of(file, emits);
   return mesh_with(file, light_values(file, file.point_arrays, "radiosity"),
-                   light_values(file, file.cell_arrays, "radiosity"),
-                   emitting(light_values(file, file.cell_arrays, "exitance")));
+                   light_values(file, file.cell_arrays, "radiosity"), std::move(emits),
+                   std::move(painted));
 }
 
 ShadedMesh read_shaded(const std::filesystem::path& path) { return shaded(read_result(path)); }

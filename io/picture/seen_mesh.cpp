@@ -12,7 +12,8 @@ namespace {
 void check_arrays(const ShadedMesh& mesh) {
   const std::size_t n = mesh.triangles.size();
   if (mesh.triangle_value.size() != n || mesh.emits.size() != n ||
-      (!mesh.point_value.empty() && mesh.point_value.size() != mesh.points.size()))
+      (!mesh.point_value.empty() && mesh.point_value.size() != mesh.points.size()) ||
+      (!mesh.painted.empty() && mesh.painted.size() != n))
     throw Error(ErrorCode::contract, "draw", "the mesh has arrays of different lengths");
 }
 
@@ -42,7 +43,12 @@ Rgb SeenMesh::value(const Hit& hit) const {
   for (std::size_t k = 0; k < 3; ++k)
     value += std::clamp(hit.weights[k], 0.0, 1.0) *
              mesh_->point_value[at(mesh_->triangles[at(hit.triangle)][k])];
-  return value;
+  if (mesh_->painted.empty()) return value;
+  const ShadedPaint& painted = mesh_->painted[at(hit.triangle)];
+  if (painted.paint < 0) return value;
+  const auto [a, b, c] = corners(hit);
+  const Vec3 seen = hit.weights[0] * a + hit.weights[1] * b + hit.weights[2] * c;
+  return value * painted.gain * colour_at(mesh_->paints[at(painted.paint)], seen);
 }
 
 Vec3 SeenMesh::normal(const Hit& hit) const {

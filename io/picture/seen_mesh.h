@@ -17,7 +17,7 @@ class SeenMesh {
   /// The same from elsewhere.
   std::optional<Hit> cast(const Vec3& origin, const Vec3& ray) const;
 
-  /// What the mesh carries there, between the corners or one for the triangle.
+  /// What the mesh carries there, between the corners and by its picture, or one for the triangle.
   Rgb value(const Hit& hit) const;
   /// That of the whole triangle, whatever the shading.
   const Rgb& triangle_value(const Hit& hit) const {

@@ -14,6 +14,21 @@ Rgb scene_colour(const Material& material) {
   return exitance > 0 ? Rgb(lamp_brightness * (material.exitance / exitance)) : material.rho;
 }
 
+/// Where something is painted and does not shine. Values hold mean reflectances.
+void add_paints(const SoundScene& scene, const ElementTable& elements, const Solution& solution,
+                ShadedMesh& mesh) {
+  if (scene.paints.empty()) return;
+  mesh.paints = scene.paints;
+  for (int e = 0; e < elements.count(); ++e) {
+    const Surface& surface = scene.surfaces[at(elements.surface[at(e)])];
+    ShadedPaint painted;
+    if (mesh.emits[at(e)] == 0) painted.paint = surface.paint;
+    const Rgb mean = solution.rho.row(e).transpose();
+    painted.gain = (mean > 0).select(scene.materials[at(surface.material)].rho / mean, 0.);
+    mesh.painted.push_back(painted);
+  }
+}
+
 }  // namespace
 
 ShadedMesh shaded(const SolveResult& result) {
@@ -30,6 +45,7 @@ ShadedMesh shaded(const SolveResult& result) {
     mesh.triangle_value.emplace_back(linear.solution.radiosity.row(e));
     mesh.emits.push_back((linear.solution.exitance.row(e) > 0).any());
   }
+  add_paints(result.scene, linear.elements, linear.solution, mesh);
   return mesh;
 }
 
@@ -37,6 +53,7 @@ ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras) {
   ShadedMesh mesh;
   mesh.cameras = cameras;
   mesh.headlight = true;
+  mesh.paints = scene.paints;
   for (const Surface& surface : scene.surfaces) {
     const Material& material = scene.materials.at(static_cast<std::size_t>(surface.material));
     const Rgb colour = scene_colour(material);
@@ -50,6 +67,8 @@ ShadedMesh shaded(const SoundScene& scene, const std::vector<Camera>& cameras) {
       mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
       mesh.triangle_value.push_back(colour);
       mesh.emits.push_back((material.exitance > 0).any());
+      if (!mesh.paints.empty())
+        mesh.painted.push_back({mesh.emits.back() == 0 ? surface.paint : -1, Rgb::Ones()});
     }
   }
   return mesh;

@@ -1,5 +1,7 @@
 #include "io/picture/tone_map.h"
 
+#include "io/files/srgb.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -85,7 +87,7 @@ std::array<std::uint8_t, 3> encode_srgb(const Rgb& linear) {
   std::array<std::uint8_t, 3> bytes{};
   for (int c = 0; c < 3; ++c) {
     const double v = linear[c] > 0 ? std::min(linear[c], 1.0) : 0;
-    const double encoded = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+    const double encoded = detail::to_srgb(v);
     bytes[static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * encoded));
   }
   return bytes;

@@ -124,7 +124,10 @@ void apply_entry(const MaterialEntry& entry, const std::string& place, Material&
   };
   if (entry.rho) material.rho = channels(*entry.rho);
   if (entry.emissivity) material.rho = channels(1 - *entry.emissivity);
-  if (entry.rho || entry.emissivity) origin.rho_place = place;
+  if (entry.rho || entry.emissivity) {
+    origin.rho_place = place;
+    origin.picture.reset();
+  }
   if (entry.exitance) material.exitance = channels(*entry.exitance);
   if (entry.temperature || entry.net_flux) material.exitance.setZero();
   if (entry.exitance || entry.temperature || entry.net_flux) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,6 +14,13 @@
 
 /// One reader per family of formats. They throw Error(invalid_input) with file and line or element.
 namespace halfshade::reading {
+
+/// A picture that a material library names, and how it is laid: coordinates times `scale`, plus
+/// `offset`.
+struct PictureUse {
+  std::shared_ptr<const Texture> texture;
+  Vec2 scale = Vec2::Ones(), offset = Vec2::Zero();
+};
 
 /// Where a material comes from, so that a message about its values can point there.
 struct MaterialOrigin {
@@ -24,6 +32,7 @@ struct MaterialOrigin {
   HeatMaterial heat;            ///< as the last file says
   bool says_heat = false;       ///< an emissivity, a temperature or a net flux was given
   std::optional<Eigen::ArrayXd> rho_by_band, exitance_by_band;  ///< given with the bands known
+  std::optional<PictureUse> picture;                            ///< that multiplies the reflectance
 };
 
 struct MissingFile {
@@ -41,6 +50,8 @@ struct SceneDraft {
   std::vector<MissingFile> missing;
   std::unordered_map<std::string, int> material_ids;  ///< by the name in the scene file
   std::unordered_map<std::string, int> group_ids;
+  /// Where the corners of each face are in a picture; a face that has no such places has none.
+  std::vector<std::vector<Vec2>> picture_places;
   std::vector<Band> bands;             ///< channels that a file names
   std::set<std::string> named_groups;  ///< that the file names, whether they have faces or not
 };
@@ -58,6 +69,14 @@ SceneDraft read_with_assimp(const std::filesystem::path& path);
 
 /// Adds what an MTL file defines to the draft's materials.
 void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
+
+/// Reads a .png or .jpg, linear in light. Throws Error(invalid_input) for anything else.
+Texture read_texture(const std::filesystem::path& path);
+
+/// Lays pictures on the faces of materials that have one, by an affine map each. Warns where faces
+/// have no places in it, or where places are not affine, and where light is heat, which has no
+/// colours.
+void lay_pictures(SceneDraft& draft);
 
 /// True for .gltf and .glb files.
 bool is_gltf(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
-// Wavefront MTL: Kd is the reflectance, Ke the exitance in W/m²; emissivity, temperature (K) and
-// net_flux are ours.
+// Wavefront MTL: Kd is the reflectance, map_Kd a picture that multiplies it, Ke the exitance in
+// W/m²; emissivity, temperature (K) and net_flux are ours.
 
 #include "io/read/heat_values.h"
 #include "io/read/read_formats.h"
@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 
@@ -44,11 +46,73 @@ class MtlReader {
       draft_.scene.materials[present(keyword)].exitance = colour();
       draft_.origins[present(keyword)].exitance_place = place(file_, line_);
       entry_.exitance = colour();
+    } else if (small == "map_kd") {
+      picture(text);
     } else if (small == "emissivity" || small == "temperature" || small == "net_flux") {
       heat(small);
     } else {
       unused(keyword);
     }
+  }
+
+  /// The file's name is all that follows the options.
+  void picture(std::string_view text) {
+    PictureUse use;
+    std::size_t word = 1;
+    while (word < words_.size() && words_[word].starts_with('-')) {
+      const std::string_view option = words_[word++];
+      if (option == "-clamp" && word < words_.size() && words_[word] == "on")
+        warn("-clamp is not used: pictures repeat");
+      if (option == "-s" || option == "-o")
+        (option == "-s" ? use.scale : use.offset) = place_numbers(word);
+      else
+        while (word < words_.size() && is_value(words_[word])) ++word;
+    }
+    if (word == words_.size()) fail(file_, line_, "map_Kd does not name a file");
+    const std::string_view name =
+        text.substr(static_cast<std::size_t>(words_[word].data() - text.data()));
+    MaterialOrigin& origin = draft_.origins[present("map_Kd")];
+    const std::filesystem::path path = found(name);
+    if (path.empty()) {
+      warn(fmt::format("there is no picture {}: the material {} has its Kd alone, everywhere",
+                       in_quotes(name), in_quotes(material_name())));
+      return;
+    }
+    std::shared_ptr<const Texture>& known = textures_[path];
+    if (!known) {
+      known = std::make_shared<const Texture>(read_texture(path));
+      draft_.files.push_back(path);
+    }
+    use.texture = known;
+    origin.picture = std::move(use);
+  }
+
+  static bool is_value(std::string_view word) {
+    return word == "on" || word == "off" || parse_double(word).has_value();
+  }
+
+  /// One to three numbers, of which the first two count; `word` moves behind them.
+  Vec2 place_numbers(std::size_t& word) const {
+    std::vector<double> values;
+    while (word < words_.size() && values.size() < 3 && parse_double(words_[word]))
+      values.push_back(finite_number(words_[word++], file_, line_));
+    if (values.empty()) fail(file_, line_, "-s and -o need numbers");
+    return {values[0], values.size() > 1 ? values[1] : values[0]};
+  }
+
+  /// A picture beside the library; empty if there is none. Some programs write the paths of the
+  /// machine they ran on.
+  std::filesystem::path found(std::string_view name) const {
+    std::string text(name.substr(0, name.find('\0')));
+    const auto beside = [&](const std::filesystem::path& path) {
+      std::error_code ignored;
+      const std::filesystem::path file = file_.parent_path() / path;
+      return std::filesystem::is_regular_file(file, ignored) ? file : std::filesystem::path();
+    };
+    if (const auto file = beside(text); !file.empty()) return file;
+    std::replace(text.begin(), text.end(), '\\', '/');
+    if (const auto file = beside(text); !file.empty()) return file;
+    return beside(std::filesystem::path(text).filename());
   }
 
   /// Ours, by the words of materials files; other programs pass over them.
@@ -85,6 +149,11 @@ class MtlReader {
       Material& material = draft_.scene.materials[*material_];
       require_consistent(entry_, file_, heat_line_, "material " + in_quotes(material.name));
       apply_entry(entry_, place(file_, heat_line_), material, draft_.origins[*material_]);
+    }
+    if (material_ && draft_.origins[*material_].picture &&
+        draft_.origins[*material_].rho_place.empty()) {
+      draft_.scene.materials[*material_].rho.setOnes();
+      draft_.origins[*material_].rho_place = place(file_, line_);
     }
     const bool needs_rho = material_ && draft_.origins[*material_].rho_place.empty() &&
                            !draft_.origins[*material_].heat.is_adiabatic;
@@ -127,12 +196,7 @@ class MtlReader {
                    "map_Bump", "map_bump", "bump", "disp", "decal", "refl", "norm", "map_aat"}))
       return;
     std::string why;
-    std::string about(keyword);
-    if (keyword == "map_Kd") {
-      why = fmt::format("the picture {} is not read: the material {} has its Kd alone, everywhere",
-                        in_quotes(words_.back()), in_quotes(material_name()));
-      about = why;  // each of them
-    } else if (keyword == "map_Ke") {
+    if (keyword == "map_Ke") {
       why = "painted exitances are not used; the material has its Ke everywhere";
     } else if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
       const std::optional<double> value = parse_double(words_.back());
@@ -142,7 +206,7 @@ class MtlReader {
       why = fmt::format("statements that begin with {} are not used", in_quotes(keyword));
     }
     constexpr std::size_t most = 10;  // a file of another kind has thousands
-    if (warned_.size() < most && warned_.insert(about).second) warn(why);
+    if (warned_.size() < most && warned_.insert(std::string(keyword)).second) warn(why);
   }
 
   const std::string& material_name() const {
@@ -162,6 +226,7 @@ class MtlReader {
   MaterialEntry entry_;  ///< what is said of it
   int heat_line_ = 0;    ///< the last that says something of heat; 0: none
   std::set<std::size_t> defined_;
+  std::map<std::filesystem::path, std::shared_ptr<const Texture>> textures_;
   std::set<std::string> warned_;
 };
 

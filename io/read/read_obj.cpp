@@ -32,6 +32,7 @@ class ObjReader {
       statement(lines.text());
     }
     check_references();
+    collect_places();
     if (bytes.back() != '\n' && bytes.back() != '\r')
       draft_.warnings.push_back(
           fmt::format("{}: the last line does not end with a line break; if the file was cut "
@@ -48,6 +49,8 @@ class ObjReader {
     const std::string_view arguments = trimmed(text.substr(keyword.size()));
     if (keyword == "v") {
       vertex();
+    } else if (keyword == "vt") {
+      picture_place();
     } else if (keyword == "f" || keyword == "fo") {
       face();
     } else if (keyword == "g" || keyword == "o") {
@@ -75,6 +78,15 @@ class ObjReader {
                                        finite_number(words_[3], file_, line_));
   }
 
+  /// What cannot be read counts as not there, for most files with places have no picture.
+  void picture_place() {
+    const auto coordinate = [&](std::size_t k) {
+      return parse_double(words_[k]).value_or(std::numeric_limits<double>::quiet_NaN());
+    };
+    places_.emplace_back(words_.size() > 1 ? coordinate(1) : 0.,
+                         words_.size() > 2 ? coordinate(2) : 0.);
+  }
+
   void face() {
     if (words_.size() < 4)
       fail(file_, line_,
@@ -87,7 +99,11 @@ class ObjReader {
     face.group = group_;
     face.material = material_;
     face.vertices.reserve(words_.size() - 1);
-    for (std::size_t i = 1; i < words_.size(); ++i) face.vertices.push_back(corner(words_[i]));
+    place_of_corner_.emplace_back();
+    for (std::size_t i = 1; i < words_.size(); ++i) {
+      face.vertices.push_back(corner(words_[i]));
+      place_of_corner_.back().push_back(place_index(words_[i]));
+    }
     draft_.scene.faces.push_back(std::move(face));
   }
 
@@ -111,6 +127,30 @@ class ObjReader {
            fmt::format("face {} names vertex {}, but {} vertices come before it",
                        draft_.scene.faces.size() + 1, *index, count));
     return static_cast<int>(*index > 0 ? *index - 1 : count + *index);
+  }
+
+  /// The place in a picture, counted from 0; −1 if there is none.
+  long long place_index(std::string_view word) const {
+    const std::size_t slash = word.find('/');
+    if (slash == word.npos) return -1;
+    const std::string_view rest = word.substr(slash + 1);
+    const std::optional<long long> index = parse_integer(rest.substr(0, rest.find('/')));
+    if (!index || *index == 0) return -1;
+    return *index > 0 ? *index - 1
+                      : std::max(static_cast<long long>(places_.size()) + *index, -1LL);
+  }
+
+  /// Where all corners of a face have a place that is there.
+  void collect_places() {
+    const auto count = static_cast<long long>(places_.size());
+    for (const std::vector<long long>& corners : place_of_corner_) {
+      std::vector<Vec2>& places = draft_.picture_places.emplace_back();
+      if (std::any_of(corners.begin(), corners.end(), [&](long long k) {
+            return k < 0 || k >= count || !places_[static_cast<std::size_t>(k)].allFinite();
+          }))
+        continue;
+      for (const long long k : corners) places.push_back(places_[static_cast<std::size_t>(k)]);
+    }
   }
 
   void use_material(std::string_view name) {
@@ -157,8 +197,8 @@ class ObjReader {
   }
 
   void unused(std::string_view keyword, std::string_view as_written) {
-    // Texture coordinates, normals, smoothing, points and lines do not concern us.
-    static constexpr std::string_view silent[] = {"vt", "vn", "s", "l", "p"};
+    // Normals, smoothing, points and lines do not concern us.
+    static constexpr std::string_view silent[] = {"vn", "s", "l", "p"};
     if (std::find(std::begin(silent), std::end(silent), keyword) != std::end(silent)) return;
     constexpr std::size_t most = 10;  // a file of another kind has thousands
     if (unknown_.size() < most && unknown_.insert(std::string(as_written)).second)
@@ -181,8 +221,10 @@ class ObjReader {
   Words words_;
   int line_ = 0;
   std::string group_name_ = default_name;
-  int group_ = -1;     ///< −1 until the group has a face
-  int material_ = -1;  ///< −1 before the first usemtl
+  int group_ = -1;                                       ///< −1 until the group has a face
+  int material_ = -1;                                    ///< −1 before the first usemtl
+  std::vector<Vec2> places_;                             ///< in pictures
+  std::vector<std::vector<long long>> place_of_corner_;  ///< of each face; −1: none
   std::set<path> libraries_;
   std::set<std::string> unknown_;
 };

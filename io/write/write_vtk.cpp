@@ -1,15 +1,70 @@
+#include "io/files/paint_numbers.h"
 #include "io/write/detail/vtk_file.h"
 #include "io/write/result_bytes.h"
 #include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/linear_result.h"
 
+#include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkPointData.h>
 #include <vtkPointSet.h>
 
+#include <map>
+#include <utility>
+
 namespace halfshade::detail {
 namespace {
+
+/// The paints of elements that do not shine, each with the reflectance of its material.
+struct UsedPaints {
+  std::vector<int> of_element;  ///< −1: none; empty: nothing is painted
+  std::vector<PaintOn> paints;
+};
+
+UsedPaints used_paints(const SoundScene& scene, const ElementTable& elements) {
+  UsedPaints used;
+  if (scene.paints.empty()) return used;
+  std::map<std::pair<int, int>, int> ids;  // of paint and material
+  for (const int s : elements.surface) {
+    const Surface& surface = scene.surfaces[at(s)];
+    const Material& material = scene.materials[at(surface.material)];
+    if (surface.paint < 0 || (material.exitance > 0).any()) {
+      used.of_element.push_back(-1);
+      continue;
+    }
+    const auto [entry, is_new] =
+        ids.try_emplace({surface.paint, surface.material}, static_cast<int>(used.paints.size()));
+    if (is_new) used.paints.push_back({scene.paints[at(surface.paint)], material.rho});
+    used.of_element.push_back(entry->second);
+  }
+  return used;
+}
+
+/// The pictures themselves, in field data.
+void add_paints(const std::vector<PaintOn>& paints, vtkFieldData* data) {
+  if (paints.empty()) return;
+  const PaintNumbers numbers = to_numbers(paints);
+  add_numbers(data, "paints", numbers.paints, paint_components);
+  add_integers(data, "texture_sizes", numbers.sizes, 2);
+  for (std::size_t k = 0; k < numbers.textures.size(); ++k)
+    add_integers(data, fmt::format("texture_{}", k).c_str(), numbers.textures[k], 3);
+}
+
+/// Where each node is in its element's picture; for programs that lay pictures themselves.
+void add_picture_places(const UsedPaints& used, const NodeValues& nodes, vtkFieldData* data) {
+  if (used.of_element.empty()) return;
+  std::vector<double> places;
+  std::size_t node = 0;
+  for (std::size_t e = 0; e < nodes.order.size(); ++e)
+    for (int k = 0; k < basis_size(nodes.order[e]); ++k, ++node) {
+      const int paint = used.of_element[e];
+      const Vec2 place =
+          paint < 0 ? Vec2(0, 0) : used.paints[at(paint)].paint.place(nodes.points[node]);
+      places.insert(places.end(), {place.x(), place.y()});
+    }
+  add_numbers(data, "picture_place", places, 2);
+}
 
 struct CellData {
   const ElementTable& elements;
@@ -54,6 +109,8 @@ void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* da
     add_integers(data, "regions", region_codes(cells.regions), static_cast<int>(emitters));
   add_heat(cells, data);
   add_integers(data, "order", cells.order);
+  const std::vector<int> paint = used_paints(cells.result.scene, cells.elements).of_element;
+  if (!paint.empty()) add_integers(data, "paint", paint);
   add_element_data(cells.elements, data);
 }
 
@@ -64,6 +121,7 @@ void add_field_data(const SolveResult& result, vtkFieldData* data) {
   add_numbers(data, "tolerance", {result.discontinuity_tolerance});
   add_numbers(data, "curve_deviation", {result.mesh.deviation});
   add_numbers(data, "achieved_error", {result.relative_error});
+  add_paints(used_paints(result.scene, result.elements).paints, data);
 }
 
 void add_stage(const RadiosityStage* stage, vtkFieldData* data) {
@@ -102,6 +160,7 @@ std::string polynomial_bytes(const SolveResult& result) {
                 result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
+  add_picture_places(used_paints(result.scene, result.elements), nodes, grid->GetPointData());
   add_field_data(result, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
 }

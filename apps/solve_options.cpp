@@ -54,6 +54,9 @@ void add_light(CLI::App& app, SolveCommand& command) {
   add_whole(app, "--bounces", options.radiosity.bounces, {0, 100000},
             "Only light that arrives after at most N reflections: 0 is direct light, 1 adds one\n"
             "reflection (default: all)");
+  app.add_flag("--each-bounce", options.each_bounce,
+               "With --bounces N: tell the light apart by how often it was reflected, as arrays\n"
+               "irradiance_bounce_0 (direct light) to irradiance_bounce_N");
   add_not_negative(app, "--surroundings", command.surroundings,
                    "Temperature in K of all that is seen through openings; 0: dark")
       ->capture_default_str()

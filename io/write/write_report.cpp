@@ -71,6 +71,21 @@ Json groups_json(const SolveResult& result) {
   return json;
 }
 
+/// Mean irradiance that was reflected 0, 1, … times.
+Json bounces_json(const SolveResult& result) {
+  const Eigen::Map<const Eigen::ArrayXd> areas(result.elements.area.data(),
+                                               result.elements.count());
+  Json json = Json::array();
+  const auto add = [&](const ElementField& field) {
+    const Rgb mean = (means(field).colwise() * areas).colwise().sum() / areas.sum();
+    json.push_back({{"reflections", json.size()},
+                    {"mean_irradiance_w_per_m2", to_json(mean, result.radiosity.channels == 1)}});
+  };
+  add(result.direct);
+  for (const ElementField& field : result.bounces) add(field);
+  return json;
+}
+
 /// How many there are of each kind and order, and how long they are together.
 Json curves_json(const std::vector<DiscontinuityCurve>& curves) {
   struct Sums {
@@ -138,6 +153,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
   }
   if (result.subdivision.patches > 0) json["subdivision"] = subdivision_json(result.subdivision);
   json["radiosity"] = radiosity_json(result.radiosity);
+  if (!result.bounces.empty()) json["bounces"] = bounces_json(result);
   json["groups"] = groups_json(result);
   if (result.heat.is_given) json["net_exchange"] = net_exchange_json(result);
   json["outputs"] = to_json(run.outputs);

@@ -137,6 +137,12 @@ void add_stage(const RadiosityStage* stage, vtkFieldData* data) {
   add("escaped_power", &StagePower::escaped);
 }
 
+/// Irradiance by the number of reflections before it.
+void add_bounces(vtkFieldData* data, const std::vector<ChannelArray>& bounces) {
+  for (std::size_t k = 0; k < bounces.size(); ++k)
+    add_channels(data, fmt::format("irradiance_bounce_{}", k).c_str(), bounces[k]);
+}
+
 std::string linear_bytes(const SolveResult& result, std::string_view extension,
                          const RadiosityStage* stage = nullptr) {
   const LinearResult linear = linear_result(result);
@@ -147,6 +153,7 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
                 result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
   add_channels(grid->GetPointData(), "irradiance", linear.irradiance);
+  add_bounces(grid->GetPointData(), linear.bounces);
   add_field_data(result, grid->GetFieldData());
   add_stage(stage, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
@@ -160,6 +167,7 @@ std::string polynomial_bytes(const SolveResult& result) {
                 result.emitters.size(), grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
+  add_bounces(grid->GetPointData(), nodes.bounces);
   add_picture_places(used_paints(result.scene, result.elements), nodes, grid->GetPointData());
   add_field_data(result, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");

@@ -55,6 +55,7 @@ Scene scene_of_parts(Scene scene, Parts parts, const BandMaterials& materials,
 void require_joinable(const SolveResult& result, std::size_t parts) {
   const char* const option = result.goal                        ? "--goal"
                              : !result.regions.empty()          ? "--regions"
+                             : !result.bounces.empty()          ? "--each-bounce"
                              : !result.radiosity.stages.empty() ? "--progressive"
                                                                 : nullptr;
   if (option)

@@ -37,12 +37,28 @@ ElementTable piece_table(const ElementTable& whole, LinearPieces& pieces) {
   return table;
 }
 
+/// Of points on elements, in the elements' order.
+std::vector<ChannelArray> bounces_at(const SolveResult& result, const std::vector<int>& element,
+                                     const std::vector<Vec3>& points) {
+  std::vector<ChannelArray> values;
+  const auto add = [&](const ElementField& field) {
+    ChannelArray& here = values.emplace_back(static_cast<Eigen::Index>(points.size()), 3);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      here.row(static_cast<Eigen::Index>(i)) =
+          value_at(field, element[i], place_of(result.elements.triangle(element[i]), points[i]));
+  };
+  if (!result.bounces.empty()) add(result.direct);
+  for (const ElementField& field : result.bounces) add(field);
+  return values;
+}
+
 LinearResult cut(const SolveResult& result) {
   std::vector<std::array<Vec3, 3>> triangles;
   for (int e = 0; e < result.elements.count(); ++e)
     triangles.push_back(result.elements.triangle(e));
   LinearPieces pieces = linear_pieces(triangles, result.irradiance, allowed_error(result));
   LinearResult out;
+  out.bounces = bounces_at(result, pieces.element_of_point, pieces.points);
   out.elements = piece_table(result.elements, pieces);
   out.is_border = std::move(pieces.is_border);
   out.solution = solution_of_parts(result.solution, pieces.element);
@@ -72,16 +88,19 @@ NodeValues node_values(const SolveResult& result) {
   nodes.irradiance.resize(count, 3);
   nodes.radiosity.resize(count, 3);
   Eigen::Index row = 0;
+  std::vector<int> element;
   for (int e = 0; e < result.elements.count(); ++e) {
     const auto triangle = result.elements.triangle(e);
     for (const TrianglePlace& place : element_nodes(nodes.order[at(e)])) {
       nodes.points.push_back(position(triangle, place));
+      element.push_back(e);
       nodes.irradiance.row(row) = value_at(result.irradiance, e, place);
       nodes.radiosity.row(row) =
           result.solution.exitance.row(e) + result.solution.rho.row(e) * nodes.irradiance.row(row);
       ++row;
     }
   }
+  nodes.bounces = bounces_at(result, element, nodes.points);
   return nodes;
 }
 
@@ -92,6 +111,7 @@ LinearResult linear_result(const SolveResult& result) {
           result.solution,
           values_at_points(result.elements, result.solution.irradiance),
           values_at_points(result.elements, result.solution.radiosity),
+          {},
           result.regions};
 }
 

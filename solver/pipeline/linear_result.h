@@ -14,7 +14,9 @@ struct LinearResult {
   std::vector<std::array<bool, 3>> is_border;
   Solution solution;                   ///< of each triangle
   ChannelArray irradiance, radiosity;  ///< at points, W/m²
-  std::vector<Region> regions;         ///< as those of SolveResult
+  /// There: direct light, that reflected once, twice, …; if SolveOptions::each_bounce.
+  std::vector<ChannelArray> bounces;
+  std::vector<Region> regions;  ///< as those of SolveResult
 };
 
 /// A result with the polynomials of its elements, by their values at nodes.
@@ -22,6 +24,7 @@ struct NodeValues {
   std::vector<int> order;              ///< of each element; 1 also where it is constant
   std::vector<Vec3> points;            ///< one element's after the other's, see element_nodes
   ChannelArray irradiance, radiosity;  ///< there, W/m²
+  std::vector<ChannelArray> bounces;   ///< as those of LinearResult
 };
 
 /// Precondition: the result has polynomials.

@@ -15,6 +15,9 @@
 namespace halfshade {
 namespace {
 
+/// Numbers of reflections: each takes as much memory as all light.
+constexpr int most_told_apart = 100;
+
 void check(const SolveOptions& options) {
   if (options.elements < 1 || options.max_elements < 0 || !(options.max_length >= 0))
     throw Error(
@@ -33,6 +36,12 @@ void check(const SolveOptions& options) {
                 fmt::format("rounds of subdivision ({}) must not be negative and its gradient ({}) "
                             "be above 0",
                             options.subdivision.rounds, options.subdivision.gradient));
+  if (options.each_bounce &&
+      (options.method == SolveMethod::matrix || options.radiosity.bounces < 1 ||
+       options.radiosity.bounces > most_told_apart))
+    throw Error(ErrorCode::usage, "--each-bounce",
+                fmt::format("this goes with --bounces N, N from 1 to {}, and not with the matrix",
+                            most_told_apart));
   if (options.method == SolveMethod::matrix && !options.goal.empty())
     throw Error(ErrorCode::usage, {}, "--goal goes with --method fields, not with the matrix");
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)

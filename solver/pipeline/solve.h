@@ -53,6 +53,8 @@ struct SolveResult {
   Solution solution;                   ///< means over the elements
   /// Polynomials on the elements, if they are not constant: direct and all irradiance, W/m².
   ElementField direct, irradiance;
+  /// If asked for: the parts of `irradiance` that were reflected once, twice, …, W/m².
+  std::vector<ElementField> bounces;
   bool interpolated = false;  ///< they are of constant elements, see interpolated_field
   SubdivisionReport subdivision;
   AdaptiveFieldReport refinement;  ///< of direct light

@@ -197,6 +197,7 @@ ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options
     result.norm = goal->norm;
   }
   result.bounces = options.radiosity.bounces;
+  result.each_bounce = options.each_bounce;
   result.through_operator = !plan.no_exact_direct_light.empty();
   // What arrives straight from emitters arrives by the operator's first application.
   if (result.through_operator && result.bounces >= 0) ++result.bounces;
@@ -251,6 +252,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     result.elements = std::move(total.elements);
     result.direct = std::move(total.direct);
     result.irradiance = std::move(total.irradiance);
+    result.bounces = std::move(total.bounces);
     result.solution.region = std::move(total.region);
     error = std::move(total.error);
   } else {
@@ -261,6 +263,9 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     result.solution.region = std::move(direct.region);
     error = std::move(direct.light.error);
   }
+  if (options.each_bounce)  // where nothing is reflected, too
+    result.bounces.resize(at(options.radiosity.bounces),
+                          zero_field(std::vector<int>(result.elements.corners.size(), 0)));
   if (asked) fill_goal(prepared, *asked, options.tolerance, progress, stages, result);
   result.not_reached = not_reached(
       result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});

@@ -49,24 +49,45 @@ FieldAt values_of(const ReflectedLight& reflected) {
 /// Order with which direct light is told where it went through the operator.
 constexpr int told_order = 2;
 
+/// A function of surface and position as polynomials on given elements.
+template <class Value>
+ElementField fitted(const ElementTable& elements, std::vector<int> orders, const Value& value) {
+  ElementField field = zero_field(std::move(orders));
+  parallel_for(elements.corners.size(), [&](std::size_t i) {
+    const int e = static_cast<int>(i), order = field.order[i];
+    const TriangleRule& rule = sampling_rule(order);
+    ChannelArray samples(rule.weights.size(), 3);
+    for (Eigen::Index k = 0; k < samples.rows(); ++k)
+      samples.row(k) =
+          value(elements.surface[i],
+                position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
+    field.of(e) = fit_element(order, samples).coefficients;
+  });
+  return field;
+}
+
 /// Direct light that went the way of reflected light, on given elements.
 ElementField direct_by_operator(const SoundScene& scene, const ElementTable& elements,
                                 ReflectedOptions options, const Progress& progress) {
   options.bounces = 1;
+  options.each_bounce = false;
   const ReflectedLight light = reflected_light(scene, {}, options, progress);
-  ElementField field =
-      zero_field(std::vector<int>(elements.corners.size(), std::min(told_order, options.order)));
-  for (int e = 0; e < elements.count(); ++e) {
-    const int order = field.order[at(e)];
-    const TriangleRule& rule = sampling_rule(order);
-    ChannelArray samples(rule.weights.size(), 3);
-    for (Eigen::Index k = 0; k < samples.rows(); ++k)
-      samples.row(k) = light.irradiance(
-          elements.surface[at(e)],
-          position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
-    field.of(e) = fit_element(order, samples).coefficients;
+  return fitted(elements,
+                std::vector<int>(elements.corners.size(), std::min(told_order, options.order)),
+                [&](int surface, const Vec3& p) { return light.irradiance(surface, p); });
+}
+
+/// The parts of `field`, all of `light` on given elements, by the number of reflections.
+std::vector<ElementField> told_apart(const ReflectedLight& light, const ElementTable& elements,
+                                     const ElementField& field) {
+  std::vector<ElementField> parts = {field};
+  for (int n = 2; n <= light.bounces(); ++n) {
+    parts.push_back(fitted(elements, field.order, [&](int surface, const Vec3& p) {
+      return light.irradiance_after(n, surface, p);
+    }));
+    parts[0].coefficients -= parts.back().coefficients;
   }
-  return field;
+  return parts;
 }
 
 /// Coefficients of two polynomials on one element, added.
@@ -160,9 +181,17 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
 
   total.values = on_elements.report;
   total.elements = std::move(on_elements.elements);
+  if (options.reflected.each_bounce)
+    total.bounces = told_apart(*total.reflected, total.elements, on_elements.field);
   add_fields(light, direct.region, on_elements, find_wholes(total.elements, *lookup), total);
-  if (options.reflected.through_operator)
-    total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);
+  if (options.reflected.through_operator) {
+    if (total.bounces.empty()) {
+      total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);
+    } else {
+      total.direct = std::move(total.bounces.front());
+      total.bounces.erase(total.bounces.begin());
+    }
+  }
   total.relative_error = joint_error(total, report.error);
   return total;
 }

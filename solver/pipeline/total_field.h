@@ -22,6 +22,7 @@ struct TotalField {
   Eigen::ArrayXd error;  ///< root mean square over each element, the channels' squares summed; W/m²
   std::vector<Region> region;
   std::optional<ReflectedLight> reflected;
+  std::vector<ElementField> bounces;  ///< of `irradiance`: reflected once, twice, …; if asked for
   AdaptiveFieldReport values;
   double relative_error = 0;  ///< of the whole, estimated, in the L2 norm
 };

@@ -22,6 +22,8 @@ void check(const ReflectedOptions& options) {
   if (options.order < 0 || options.order > max_reflected_order)
     throw Error(ErrorCode::contract, "reflected_light",
                 fmt::format("order {} must lie in [0, {}]", options.order, max_reflected_order));
+  if (options.each_bounce && options.bounces < 0)
+    throw Error(ErrorCode::contract, "reflected_light", "each_bounce takes a number of bounces");
   if (!(options.tolerance > 0) || !(options.max_length >= 0) || options.max_rays < 32 ||
       options.max_elements < 1 || options.max_rounds < 1)
     throw Error(ErrorCode::contract, "reflected_light",
@@ -71,17 +73,35 @@ void finish(ReflectedLight::State& state) {
   state.leaving.emplace(state.leaving_rest);
   state.field.coefficients.rowwise() /= state.scale.transpose();
   state.irradiance.emplace(state.field);
+  for (ElementField& part : state.by_bounce) {
+    part.coefficients.rowwise() /= state.scale.transpose();
+    state.irradiance_by_bounce.emplace_back(part);
+  }
   state.elements = element_table(state.mesh, state.reflecting.roots);
   state.report.elements = state.mesh.count();
   state.report.unknowns = static_cast<std::size_t>(state.field.coefficients.rows());
 }
 
+Rgb value_in(const ReflectedMesh& mesh, const QuickField& field, int surface,
+             const Vec3& position) {
+  const ForestPlace leaf = mesh.forest.leaf_at(surface, position);
+  if (leaf.triangle < 0) return Rgb::Zero();
+  return field.value(mesh.element[at(leaf.triangle)], leaf.place);
+}
+
 }  // namespace
 
 Rgb ReflectedLight::irradiance(int surface, const Vec3& position) const {
-  const ForestPlace leaf = state_->mesh.forest.leaf_at(surface, position);
-  if (leaf.triangle < 0) return Rgb::Zero();
-  return state_->irradiance->value(state_->mesh.element[at(leaf.triangle)], leaf.place);
+  return value_in(state_->mesh, *state_->irradiance, surface, position);
+}
+
+int ReflectedLight::bounces() const {
+  return static_cast<int>(state_->irradiance_by_bounce.size());
+}
+
+Rgb ReflectedLight::irradiance_after(int reflections, int surface, const Vec3& position) const {
+  return value_in(state_->mesh, state_->irradiance_by_bounce.at(at(reflections - 1)), surface,
+                  position);
 }
 
 Rgb ReflectedLight::gather(const SurfacePoint& point, int rays) const {

@@ -31,9 +31,10 @@ struct ReflectedOptions {
   double tolerance = 0.01;  ///< of G, relative to all irradiance in the L2 norm, > 0
   double max_length = 0;    ///< of elements to begin with, scene units; 0: by the tolerance
   int max_elements = 20000;
-  int max_rays = 4096;  ///< from a node of mean size, ≥ 32
-  int max_rounds = 8;   ///< of solving, estimating and refining; 1: no refinement
-  int bounces = -1;     ///< −1: all; n ≥ 0: light that arrives after at most n reflections
+  int max_rays = 4096;       ///< from a node of mean size, ≥ 32
+  int max_rounds = 8;        ///< of solving, estimating and refining; 1: no refinement
+  int bounces = -1;          ///< −1: all; n ≥ 0: light that arrives after at most n reflections
+  bool each_bounce = false;  ///< keep the light of each; `bounces` must not be −1
   /// Direct light is not given but found like reflected light: what leaves first is the exitance,
   /// and the result is all irradiance. For scenes where nearly everything emits.
   bool through_operator = false;
@@ -89,6 +90,12 @@ class ReflectedLight {
 
   /// G by the polynomials. Precondition: the point lies on the surface, up to rounding.
   Rgb irradiance(int surface, const Vec3& position) const;
+
+  /// How many reflections are told apart; 0 unless ReflectedOptions::each_bounce.
+  int bounces() const;
+  /// The part of G that arrives after `reflections` of them, in [1, bounces()], or one less if
+  /// direct light goes through the operator; the parts add up to G.
+  Rgb irradiance_after(int reflections, int surface, const Vec3& position) const;
 
   /// G at any point, on a surface or not, by exactly visible parts if the solution is, else by
   /// about `rays` rays to what S and the polynomials say: two or three times as exact as the

@@ -125,6 +125,8 @@ class Rounds {
   void keep(const ReflectedSystem& system, const SplitIrradiance& irradiance) {
     state_.field = irradiance.whole(system.mesh, system.systems);
     state_.mesh = system.mesh;
+    if (options_.each_bounce)
+      state_.by_bounce = split_by_bounce(system, options_.bounces, state_.field);
   }
 
   ReflectedSolution solved(const ReflectedSystem& system) const {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 namespace halfshade {
 
@@ -31,6 +32,8 @@ struct ReflectedLight::State {
   ElementField field;
   ElementField leaving_rest;  ///< what leaves, without S
   std::optional<QuickField> irradiance, leaving;
+  std::vector<ElementField> by_bounce;  ///< if asked for, as the next
+  std::vector<QuickField> irradiance_by_bounce;
   ReflectedReport report;
   mutable std::once_flag gather_made;
   mutable std::optional<ExactGather> gather;  ///< made when it is asked for

@@ -150,4 +150,27 @@ ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces) {
   return solution;
 }
 
+std::vector<ElementField> split_by_bounce(const ReflectedSystem& system, int bounces,
+                                          const ElementField& irradiance) {
+  const auto& [mesh, light, exchange, systems] = system;
+  std::vector<ElementField> parts = {exchange.source(mesh)};
+  ElementField left = irradiance;
+  left.coefficients -= parts[0].coefficients;
+  while (parts.size() < at(bounces)) {
+    parts.push_back(exchange.apply(mesh, reflected_part(mesh, light, parts.back())));
+    left.coefficients -= parts.back().coefficients;
+  }
+  for (int e = 0; e < mesh.count(); ++e) {
+    Rgb sum = Rgb::Zero();
+    for (ElementField& part : parts) sum += part.of(e).row(0).transpose().abs();
+    for (int c = 0; c < 3; ++c)
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        auto column = parts[k].of(e).col(c);
+        const double even = k == 0 ? 1 : 0;
+        column += (sum[c] > 0 ? std::abs(column[0]) / sum[c] : even) * left.of(e).col(c);
+      }
+  }
+  return parts;
+}
+
 }  // namespace halfshade

@@ -34,4 +34,10 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
 /// The light that has been reflected 1 … bounces − 1 times before it is once more.
 ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces);
 
+/// The light that arrives after 1, 2, … `bounces` reflections, by the exchange's rays. What
+/// `irradiance` is more than all of it, because more rays or a balance of power found it, is shared
+/// among them on each element as their means are, so that they add up to it.
+std::vector<ElementField> split_by_bounce(const ReflectedSystem& system, int bounces,
+                                          const ElementField& irradiance);
+
 }  // namespace halfshade

@@ -273,5 +273,32 @@ TEST_F(WritePolynomials, ConstantElementsAreDrawnConstant) {
   EXPECT_EQ(read_shaded(path("a.vtu")).triangles.size(), result.elements.corners.size());
 }
 
+TEST(WriteBounces, AreArraysThatAddUp) {
+  SolveResult result = polynomial_result(0.5);
+  result.bounces = {result.direct, result.direct};
+  result.bounces[0].coefficients *= 0.3;
+  result.bounces[1].coefficients *= 0.2;
+  const test::TempDir folder;
+  for (const auto& [name, linear] :
+       {std::pair{"polynomials.vtu", false}, {"linear.vtu", true}, {"linear.vtp", false}}) {
+    ResultOptions options;
+    options.linear = linear;
+    write_result(result, {}, folder.path() / name, options);
+    const auto grid = test::read_vtk(folder.path() / name);
+    ASSERT_TRUE(grid->GetPointData()->HasArray("irradiance_bounce_2")) << name;
+    EXPECT_FALSE(grid->GetPointData()->HasArray("irradiance_bounce_3")) << name;
+    const auto value = [&](const std::string& array, vtkIdType k, int c) {
+      return grid->GetPointData()->GetArray(array.c_str())->GetComponent(k, c);
+    };
+    for (vtkIdType k = 0; k < grid->GetNumberOfPoints(); ++k)
+      for (int c = 0; c < 3; ++c) {
+        double sum = 0;
+        for (const char number : {'0', '1', '2'})
+          sum += value(std::string("irradiance_bounce_") + number, k, c);
+        EXPECT_NEAR(sum, value("irradiance", k, c), 1e-5);
+      }
+  }
+}
+
 }  // namespace
 }  // namespace halfshade

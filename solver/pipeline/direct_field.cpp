@@ -30,6 +30,11 @@ constexpr double least_angle = 10;
 /// Of the elements that there may be, this share may be there before any is divided.
 constexpr double share_at_first = 0.5;
 
+/// Of the elements and unknowns that there may be, where light is reflected: the rest is for parts
+/// of elements that are large because direct light is dark or even there, and reflected light is
+/// not.
+constexpr double share_of_direct = 0.85;
+
 /// Looks at faces and crossings for each unknown that there may be, where very many faces lie
 /// before an emitter: by default some ten to twenty seconds on two cores.
 constexpr double crowd_work_for_one = 60;
@@ -276,6 +281,10 @@ class DirectFieldSearch {
   }
 
   void fit_on_patches(AdaptiveFieldOptions fit) {
+    if (plan_.no_factors.empty()) {
+      fit.max_elements = std::max(1, static_cast<int>(share_of_direct * fit.max_elements));
+      fit.max_unknowns = std::max(1, static_cast<int>(share_of_direct * fit.max_unknowns));
+    }
     fit.is_too_much = [this] { return crowd_work_ > crowd_work_for_one * options_.max_unknowns; };
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;

@@ -10,18 +10,19 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <tuple>
+#include <utility>
 
 namespace halfshade::reading {
 namespace {
 
-/// Of a picture from the pieces' means, over the face's mean, root mean square: what is left.
+/// What a picture may differ by from its pieces' means, root mean square, over the face's mean.
 constexpr double even_enough = 0.02;
-/// Of one face.
+/// That one face is cut into.
 constexpr std::size_t most_pieces = 64;
-/// Of what a block's values differ, what a cut must end to be preferred to an edge of the picture:
-/// where a chequerboard is cut once, both parts still have the same mean.
-constexpr double worth_cutting = 0.05;
+/// Of a block's squared deviation, what a cut must take away to be preferred to one along the
+/// sharpest edge: where a chequerboard is cut once, both parts still have the same mean. Between 0
+/// and 0.1 it matters little for other pictures.
+constexpr double worth_cutting = 0.02;
 
 /// Values over an area.
 struct Sum {
@@ -52,7 +53,7 @@ struct Piece {
   Sum sum;
   std::size_t axis = 0;
   int line = -1;    ///< −1: it cannot be cut
-  double gain = 0;  ///< of what its values differ; what is cut first has most
+  double gain = 0;  ///< squared deviation that it takes away; what has most is cut first
 };
 
 /// One axis of a block: sums between neighbouring lines, and squares of jumps across lines.
@@ -120,8 +121,8 @@ class FaceCut {
   }
 
   static void choose_cut(const std::array<Profile, 2>& profiles, Piece& piece) {
-    // Gain, jump and how near to the middle, the larger the better, of the best lines by either.
-    using Rank = std::tuple<double, double>;
+    // Gain, or jump, then how near to the middle.
+    using Rank = std::pair<double, double>;
     Rank most = {0, 0}, steepest = {0, -HUGE_VAL};
     std::pair<std::size_t, int> best = {0, -1}, edge = {0, -1};
     for (std::size_t axis = 0; axis < 2; ++axis) {
@@ -137,16 +138,16 @@ class FaceCut {
         if (const Rank rank = {rounded(std::max(gain, 0.)), -off_middle}; rank > most)
           most = rank, best = {axis, k};
         const Rank rank = {rounded(profiles[axis].jump[at(k)]), -off_middle};
-        if (std::get<0>(rank) > 0 && rank > steepest) steepest = rank, edge = {axis, k};
+        if (rank.first > 0 && rank > steepest) steepest = rank, edge = {axis, k};
       }
     }
     const double least = worth_cutting * piece.sum.deviation();
-    const bool by_gain = edge.second < 0 || std::get<0>(most) >= least;
+    const bool by_gain = edge.second < 0 || most.first >= least;
     const auto& cut = by_gain ? best : edge;
     if (cut.second < 0) return;
     piece.axis = cut.first;
     piece.line = piece.block.low[cut.first] + cut.second;
-    piece.gain = std::max(std::get<0>(most), least);
+    piece.gain = std::max(most.first, least);
   }
 
   const PictureGrid& grid_;
@@ -274,8 +275,7 @@ class Cutter {
     material.name = fmt::format("{}, part {}", material.name, number);
     material.exitance = exitance;
     scene_.materials.push_back(std::move(material));
-    MaterialOrigin origin = draft_.origins[at(from)];
-    draft_.origins.push_back(std::move(origin));
+    draft_.origins.push_back(MaterialOrigin(draft_.origins[at(from)]));
     return static_cast<int>(scene_.materials.size()) - 1;
   }
 
@@ -285,7 +285,7 @@ class Cutter {
         draft_.warnings.push_back(fmt::format(
             "{}: the picture that material {} shines with has more detail than even pieces show: "
             "its {} faces were cut into {} pieces, at most {} each, from which it differs by up to "
-            "{:.2g} % of its mean (root mean square), most on {}",
+            "{:.2g} % of its mean (root mean square), most on {}; their power is right",
             scene_.source, in_quotes(draft_.origins[at(material)].name), parted.faces,
             parted.parts.size(), most_pieces, 100 * parted.uneven,
             face_label(scene_, parted.worst)));

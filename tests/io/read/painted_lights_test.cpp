@@ -91,6 +91,12 @@ const Painting hills = {200, 150, [](int x, int y) {
                           return std::array{byte, 255 - byte, 100};
                         }};
 
+/// More texels than a grid has cells, in one direction.
+const Painting many = {9000, 12, [](int x, int y) {
+                         const int byte = 128 + static_cast<int>(100 * std::sin(x * x * 1e-6)) - y;
+                         return std::array{byte, 40 + x % 200, 20 * y};
+                       }};
+
 /// From bright to a fifth of it, even in light.
 const Painting ramp = {120, 2, [](int x, int) {
                          const double light = 1 - 0.8 * (x + 0.5) / 120;
@@ -191,9 +197,9 @@ std::string as_obj(const Outline& outline) {
 }
 
 TEST(PaintedLights, HaveThePowerOfThePicture) {
-  for (const Painting& painting : {two, hills, noise})
+  for (const Painting& painting : {two, hills, noise, many})
     for (const Outline& outline : outlines) {
-      constexpr int count = 1500;
+      constexpr int count = 600;
       Rgb truth = Rgb::Zero();
       for (int i = 0; i < count; ++i)
         for (int k = 0; k < count; ++k) {

@@ -133,6 +133,7 @@ void apply_entry(const MaterialEntry& entry, const std::string& place, Material&
   if (entry.exitance || entry.temperature || entry.net_flux) {
     origin.exitance_place = place;
     origin.exitance_by_band.reset();
+    origin.exitance_picture.reset();
     origin.heat = {entry.temperature, entry.net_flux.has_value()};
   }
   origin.says_heat = origin.says_heat || entry.emissivity || entry.temperature || entry.net_flux;

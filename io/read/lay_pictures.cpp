@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace halfshade::reading {
 namespace {
@@ -53,24 +54,37 @@ class Layer {
  public:
   explicit Layer(SceneDraft& draft) : draft_(draft), scene_(draft.scene) {}
 
-  void run() {
+  std::vector<PaintedEmitter> run() {
+    std::vector<PaintedEmitter> lamps;
     for (int f = 0; f < static_cast<int>(scene_.faces.size()); ++f) {
-      const auto& picture = draft_.origins[at(scene_.faces[at(f)].material)].picture;
-      if (picture) lay(f, *picture);
+      const MaterialOrigin& origin = draft_.origins[at(scene_.faces[at(f)].material)];
+      if (!origin.picture && !origin.exitance_picture) continue;
+      if (at(f) >= draft_.picture_places.size() || draft_.picture_places[at(f)].empty()) {
+        if (without_++ == 0) first_without_ = f;
+        continue;
+      }
+      if (origin.picture) lay(f, *origin.picture);
+      if (origin.exitance_picture) {
+        const std::vector<Vec3> corners = face_corners(scene_, f);
+        lamps.push_back({f, fitted(f, *origin.exitance_picture, corners,
+                                   places_of(f, *origin.exitance_picture))});
+      }
     }
     say();
+    return lamps;
   }
 
  private:
-  void lay(int f, const PictureUse& use) {
-    const std::vector<Vec3> corners = face_corners(scene_, f);
-    if (at(f) >= draft_.picture_places.size() || draft_.picture_places[at(f)].empty()) {
-      if (without_++ == 0) first_without_ = f;
-      return;
-    }
+  std::vector<Vec2> places_of(int f, const PictureUse& use) const {
     std::vector<Vec2> places;
     for (const Vec2& place : draft_.picture_places[at(f)])
       places.push_back(place.cwiseProduct(use.scale) + use.offset);
+    return places;
+  }
+
+  void lay(int f, const PictureUse& use) {
+    const std::vector<Vec3> corners = face_corners(scene_, f);
+    const std::vector<Vec2> places = places_of(f, use);
     Face& face = scene_.faces[at(f)];
     const std::size_t count = scene_.paints.size();
     for (std::size_t k = 0; k < std::min(count, neighbours) && face.paint < 0; ++k) {
@@ -80,39 +94,47 @@ class Layer {
     }
     if (face.paint >= 0) return;
     face.paint = static_cast<int>(count);
-    scene_.paints.push_back(laid(use.texture, corners, places));
-    const double off = miss(scene_.paints.back(), corners, places);
-    if (!(off > seen_bend)) return;
-    if (bent_++ == 0 || off > most_bent_) most_bent_ = off, worst_ = f;
+    scene_.paints.push_back(fitted(f, use, corners, places));
+  }
+
+  Paint fitted(int f, const PictureUse& use, const std::vector<Vec3>& corners,
+               const std::vector<Vec2>& places) {
+    Paint paint = laid(use.texture, corners, places);
+    const double off = miss(paint, corners, places);
+    if (!(off > seen_bend)) return paint;
+    bent_.insert(f);
+    if (off > most_bent_) most_bent_ = off, worst_ = f;
+    return paint;
   }
 
   void say() {
     if (without_ > 0)
       draft_.warnings.push_back(fmt::format(
           "{}: {} faces have a material with a picture, but no places in it (vt), first {}; they "
-          "have its Kd alone",
+          "have its Kd and Ke alone",
           scene_.source, without_, face_label(scene_, first_without_)));
-    if (bent_ > 0)
+    if (!bent_.empty())
       draft_.warnings.push_back(fmt::format(
           "{}: on {} faces the picture is bent or warped; it is laid on without that, most off on "
           "{}: by {:.2g} of the picture",
-          scene_.source, bent_, face_label(scene_, worst_), most_bent_));
+          scene_.source, bent_.size(), face_label(scene_, worst_), most_bent_));
   }
 
   SceneDraft& draft_;
   Scene& scene_;
   int without_ = 0, first_without_ = 0;
-  int bent_ = 0, worst_ = 0;
+  std::set<int> bent_;
+  int worst_ = 0;
   double most_bent_ = 0;
 };
 
 }  // namespace
 
-void lay_pictures(SceneDraft& draft) {
-  const bool has_pictures =
-      std::any_of(draft.origins.begin(), draft.origins.end(),
-                  [](const MaterialOrigin& origin) { return origin.picture.has_value(); });
-  if (!has_pictures) return;
+std::vector<PaintedEmitter> lay_pictures(SceneDraft& draft) {
+  const bool has_pictures = std::any_of(
+      draft.origins.begin(), draft.origins.end(),
+      [](const MaterialOrigin& origin) { return origin.picture || origin.exitance_picture; });
+  if (!has_pictures) return {};
   const bool is_heat =
       !draft.bands.empty() || std::any_of(draft.origins.begin(), draft.origins.end(),
                                           [](const auto& origin) { return origin.says_heat; });
@@ -120,9 +142,9 @@ void lay_pictures(SceneDraft& draft) {
     draft.warnings.push_back(
         fmt::format("{}: pictures are not used where bands, emissivities or temperatures are given",
                     draft.scene.source));
-    return;
+    return {};
   }
-  Layer(draft).run();
+  return Layer(draft).run();
 }
 
 }  // namespace halfshade::reading

@@ -33,6 +33,7 @@ struct MaterialOrigin {
   bool says_heat = false;       ///< an emissivity, a temperature or a net flux was given
   std::optional<Eigen::ArrayXd> rho_by_band, exitance_by_band;  ///< given with the bands known
   std::optional<PictureUse> picture;                            ///< that multiplies the reflectance
+  std::optional<PictureUse> exitance_picture;                   ///< that multiplies the exitance
 };
 
 struct MissingFile {
@@ -73,10 +74,23 @@ void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
 /// Reads a .png or .jpg, linear in light. Throws Error(invalid_input) for anything else.
 Texture read_texture(const std::filesystem::path& path);
 
+/// A face whose exitance a picture multiplies.
+struct PaintedEmitter {
+  int face = 0;
+  Paint paint;
+};
+
 /// Lays pictures on the faces of materials that have one, by an affine map each. Warns where faces
 /// have no places in it, or where places are not affine, and where light is heat, which has no
-/// colours.
-void lay_pictures(SceneDraft& draft);
+/// colours. What multiplies reflectances is the scene's then; the rest is returned.
+std::vector<PaintedEmitter> lay_pictures(SceneDraft& draft);
+
+/// Cuts lamps along lines of their pictures into pieces that shine evenly, each with the mean of
+/// the picture over it, until the picture differs little from them or there are many. The first
+/// piece takes the face's place, others come after all faces; parts of a material that differ in
+/// exitance become materials of their own. Faces no longer have `picture_places` then. Warns where
+/// the picture differs more.
+void cut_painted_lights(SceneDraft& draft, const std::vector<PaintedEmitter>& lamps);
 
 /// True for .gltf and .glb files.
 bool is_gltf(const std::filesystem::path& path);

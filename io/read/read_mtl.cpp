@@ -1,5 +1,5 @@
-// Wavefront MTL: Kd is the reflectance, map_Kd a picture that multiplies it, Ke the exitance in
-// W/m²; emissivity, temperature (K) and net_flux are ours.
+// Wavefront MTL: Kd is the reflectance, Ke the exitance in W/m², map_Kd and map_Ke are pictures
+// that multiply them; emissivity, temperature (K) and net_flux are ours.
 
 #include "io/read/heat_values.h"
 #include "io/read/read_formats.h"
@@ -47,7 +47,10 @@ class MtlReader {
       draft_.origins[present(keyword)].exitance_place = place(file_, line_);
       entry_.exitance = colour();
     } else if (small == "map_kd") {
-      picture(text);
+      if (auto use = picture(text, "Kd")) draft_.origins[*material_].picture = std::move(use);
+    } else if (small == "map_ke") {
+      if (auto use = picture(text, "Ke"))
+        draft_.origins[*material_].exitance_picture = std::move(use);
     } else if (small == "emissivity" || small == "temperature" || small == "net_flux") {
       heat(small);
     } else {
@@ -55,8 +58,9 @@ class MtlReader {
     }
   }
 
-  /// The file's name is all that follows the options.
-  void picture(std::string_view text) {
+  /// A picture that multiplies Kd or Ke; none if the file is not there. The file's name is all that
+  /// follows the options.
+  std::optional<PictureUse> picture(std::string_view text, const char* multiplied) {
     PictureUse use;
     std::size_t word = 1;
     while (word < words_.size() && words_[word].starts_with('-')) {
@@ -68,15 +72,16 @@ class MtlReader {
       else
         while (word < words_.size() && is_value(words_[word])) ++word;
     }
-    if (word == words_.size()) fail(file_, line_, "map_Kd does not name a file");
+    if (word == words_.size())
+      fail(file_, line_, fmt::format("map_{} does not name a file", multiplied));
     const std::string_view name =
         text.substr(static_cast<std::size_t>(words_[word].data() - text.data()));
-    MaterialOrigin& origin = draft_.origins[present("map_Kd")];
+    present(words_[0]);
     const std::filesystem::path path = found(name);
     if (path.empty()) {
-      warn(fmt::format("there is no picture {}: the material {} has its Kd alone, everywhere",
-                       in_quotes(name), in_quotes(material_name())));
-      return;
+      warn(fmt::format("there is no picture {}: the material {} has its {} alone, everywhere",
+                       in_quotes(name), in_quotes(material_name()), multiplied));
+      return std::nullopt;
     }
     std::shared_ptr<const Texture>& known = textures_[path];
     if (!known) {
@@ -84,7 +89,7 @@ class MtlReader {
       draft_.files.push_back(path);
     }
     use.texture = known;
-    origin.picture = std::move(use);
+    return use;
   }
 
   static bool is_value(std::string_view word) {
@@ -145,16 +150,7 @@ class MtlReader {
   }
 
   void finish_material() {
-    if (material_ && heat_line_ > 0) {
-      Material& material = draft_.scene.materials[*material_];
-      require_consistent(entry_, file_, heat_line_, "material " + in_quotes(material.name));
-      apply_entry(entry_, place(file_, heat_line_), material, draft_.origins[*material_]);
-    }
-    if (material_ && draft_.origins[*material_].picture &&
-        draft_.origins[*material_].rho_place.empty()) {
-      draft_.scene.materials[*material_].rho.setOnes();
-      draft_.origins[*material_].rho_place = place(file_, line_);
-    }
+    if (material_) complete(draft_.scene.materials[*material_], draft_.origins[*material_]);
     const bool needs_rho = material_ && draft_.origins[*material_].rho_place.empty() &&
                            !draft_.origins[*material_].heat.is_adiabatic;
     if (needs_rho) {
@@ -164,6 +160,30 @@ class MtlReader {
                       in_quotes(material.name), material.rho[0]));
     }
     material_.reset();
+  }
+
+  void complete(Material& material, MaterialOrigin& origin) {
+    if (origin.exitance_picture && origin.exitance_place.empty()) {
+      material.exitance.setOnes();
+      origin.exitance_place = place(file_, line_);
+      entry_.exitance = material.exitance;
+    }
+    if (origin.exitance_picture && material.exitance.isZero(0))
+      draft_.warnings.push_back(
+          fmt::format("{}: material {} has a picture map_Ke, but its Ke, which is multiplied by "
+                      "it, is 0: it does not shine",
+                      file_.string(), in_quotes(material.name)));
+    if (heat_line_ > 0) {
+      require_consistent(entry_, file_, heat_line_, "material " + in_quotes(material.name));
+      const MaterialOrigin pictures = origin;  // whose use is decided with heat known
+      apply_entry(entry_, place(file_, heat_line_), material, origin);
+      origin.picture = pictures.picture;
+      origin.exitance_picture = pictures.exitance_picture;
+    }
+    if (origin.picture && origin.rho_place.empty()) {
+      material.rho.setOnes();
+      origin.rho_place = place(file_, line_);
+    }
   }
 
   std::size_t present(std::string_view keyword) const {
@@ -196,9 +216,7 @@ class MtlReader {
                    "map_Bump", "map_bump", "bump", "disp", "decal", "refl", "norm", "map_aat"}))
       return;
     std::string why;
-    if (keyword == "map_Ke") {
-      why = "painted exitances are not used; the material has its Ke everywhere";
-    } else if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
+    if (keyword == "d" || keyword == "Tr" || keyword == "map_d") {
       const std::optional<double> value = parse_double(words_.back());
       if (value && *value == (keyword == "Tr" ? 0.0 : 1.0)) return;
       why = "all surfaces are opaque; transparency is not used";

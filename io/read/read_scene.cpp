@@ -136,7 +136,8 @@ SceneFile read_scene(const path& file, const path& materials) {
   check_libraries(draft);
   Heat heat = reading::apply_heat(draft);
   check_materials(draft);
-  reading::lay_pictures(draft);
+  reading::cut_painted_lights(draft, reading::lay_pictures(draft));
+  drop_unused_materials(draft);
   for (const reading::MissingFile& missing : draft.missing)
     draft.warnings.push_back(missing.place + ": " + missing.sentence);
   std::vector<std::string> guesses = guesses_in(draft);

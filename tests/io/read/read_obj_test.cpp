@@ -147,7 +147,7 @@ TEST(ReadMtl, SpreadsASingleNumberOverTheChannels) {
 
 TEST(ReadMtl, WarnsOfWhatIsNotUsed) {
   EXPECT_THAT(read_material("Kd 1 1 1\nmap_Kd wood.png\n").warnings,
-              ElementsAre(HasSubstr("scene.mtl:3: the picture 'wood.png' is not read")));
+              ElementsAre(HasSubstr("scene.mtl:3: there is no picture 'wood.png'")));
   EXPECT_THAT(read_material("Kd 1 1 1\nmap_Kd -s 2 2 1 wood.png\nmap_Kd oak.png\n").warnings,
               ElementsAre(HasSubstr("'wood.png'"), HasSubstr("'oak.png'")));
   EXPECT_THAT(read_material("Kd 1 1 1\nd 0.5\n").warnings, ElementsAre(HasSubstr("opaque")));

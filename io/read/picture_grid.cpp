@@ -8,12 +8,13 @@
 namespace halfshade::reading {
 namespace {
 
-constexpr int most_cells = 128;    // along an axis
-constexpr int fewest_cells = 32;   // the same, where the picture bends between texels
-constexpr int finest_part = 1024;  // of a texel: what lies within it is one colour
-constexpr int most_samples = 64;   // of a cell, before a smaller copy of the picture is taken
-constexpr double off_line = 1e-5;  // of a picture: files round places to six digits
-constexpr double far_away = 1e9;   // pictures away: doubles no longer know the texel
+constexpr int most_cells = 128;     // along an axis
+constexpr int fewest_cells = 32;    // the same, where the picture bends between texels
+constexpr int finest_part = 1024;   // of a texel: what lies within it is one colour
+constexpr int most_samples = 64;    // of a cell, before a smaller copy of the picture is taken
+constexpr int most_in_line = 1024;  // the same where the copy would be too coarse across
+constexpr double off_line = 1e-5;   // of a picture: files round places to six digits
+constexpr double far_away = 1e9;    // pictures away: doubles no longer know the texel
 
 /// What a polygon covers along one axis of a picture.
 struct Extent {
@@ -144,9 +145,10 @@ PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon)
   for (;; ++level) {
     const Fit u = fit(seen[0], levels[level].width), v = fit(seen[1], levels[level].height);
     grid.lines = {u.lines, v.lines};
-    if (u.texels * v.texels <= most_samples)
-      samples = {static_cast<int>(u.texels), static_cast<int>(v.texels)};
-    if (u.texels * v.texels <= most_samples || level + 1 == levels.size()) break;
+    const bool is_line = std::min(u.texels, v.texels) < 2;
+    const bool is_enough = u.texels * v.texels <= (is_line ? most_in_line : most_samples);
+    if (is_enough) samples = {static_cast<int>(u.texels), static_cast<int>(v.texels)};
+    if (is_enough || level + 1 == levels.size()) break;
   }
   sample(levels[level], seen, samples, grid);
   Areas(paint, polygon, grid).share({polygon.begin(), polygon.end()}, grid.whole());

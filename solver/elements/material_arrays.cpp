@@ -8,10 +8,12 @@ MaterialArrays material_arrays(const SoundScene& scene, const ElementTable& elem
   MaterialArrays arrays{ChannelArray(elements.count(), 3), ChannelArray(elements.count(), 3)};
   for (int e = 0; e < elements.count(); ++e) {
     const Material& material = scene.materials.at(at(elements.material[at(e)]));
-    const Surface& surface = scene.surfaces[at(elements.surface[at(e)])];
-    arrays.rho.row(e) =
-        surface.paint < 0 ? material.rho : mean_reflectance(scene, surface, elements.triangle(e));
+    arrays.rho.row(e) = material.rho.transpose();
     arrays.exitance.row(e) = material.exitance.transpose();
+    if (scene.paints.empty()) continue;
+    const Surface& surface = scene.surfaces[at(elements.surface[at(e)])];
+    if (surface.paint >= 0)
+      arrays.rho.row(e) = mean_reflectance(scene, surface, elements.triangle(e)).transpose();
   }
   return arrays;
 }

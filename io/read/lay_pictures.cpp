@@ -110,8 +110,8 @@ class Layer {
   void say() {
     if (without_ > 0)
       draft_.warnings.push_back(fmt::format(
-          "{}: {} faces have a material with a picture, but no places in it (vt), first {}; they "
-          "have its Kd and Ke alone",
+          "{}: {} faces have a material with a picture, but no places in it, first {}; they "
+          "have its colours alone",
           scene_.source, without_, face_label(scene_, first_without_)));
     if (!bent_.empty())
       draft_.warnings.push_back(fmt::format(

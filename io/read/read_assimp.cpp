@@ -16,8 +16,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <initializer_list>
 #include <limits>
 #include <map>
+#include <memory>
+#include <optional>
 #include <vector>
 
 namespace halfshade::reading {
@@ -116,7 +119,24 @@ class AssimpReader {
         face.vertices.push_back(static_cast<int>(first + v));
       }
       scene.faces.push_back(std::move(face));
+      add_places(mesh, input, mirrored);
     }
+  }
+
+  /// Where the corners of a face, just added, are in the pictures of its material.
+  void add_places(const aiMesh& mesh, const aiFace& face, bool mirrored) {
+    std::vector<Vec2>& places = draft_.picture_places.emplace_back();
+    if (mesh.mMaterialIndex >= input_.mNumMaterials) return;
+    const auto use = place_sets_.find(mesh.mMaterialIndex);
+    if (use == place_sets_.end() || !mesh.HasTextureCoords(use->second)) return;
+    for (unsigned i = 0; i < face.mNumIndices; ++i) {
+      const unsigned v = face.mIndices[mirrored ? face.mNumIndices - 1 - i : i];
+      const aiVector3D& place = mesh.mTextureCoords[use->second][v];
+      places.emplace_back(static_cast<double>(place.x), static_cast<double>(place.y));
+    }
+    const bool is_finite = std::all_of(places.begin(), places.end(),
+                                       [](const Vec2& place) { return place.allFinite(); });
+    if (!is_finite) places.clear();
   }
 
   int material(unsigned index) {
@@ -134,6 +154,7 @@ class AssimpReader {
     id = material_id(draft_, unique);
     Material& material = draft_.scene.materials.back();
     read_material(input, material);
+    read_pictures(index, material, draft_.origins.back());
     if (const auto strength = emissive_strengths_.find(name); strength != emissive_strengths_.end())
       material.exitance *= strength->second;
     return id;
@@ -157,12 +178,73 @@ class AssimpReader {
       material.two_sided = two_sided != 0;
   }
 
+  void read_pictures(unsigned index, Material& material, MaterialOrigin& origin) {
+    origin.picture = picture(index, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+    origin.exitance_picture = picture(index, {aiTextureType_EMISSIVE});
+    // Where there is a picture, COLLADA has no colour beside it, and that of 3DS does not count.
+    if (is_gltf(file_)) return;
+    if (origin.picture) material.rho.setOnes();
+    if (origin.exitance_picture) material.exitance.setOnes();
+  }
+
+  std::optional<PictureUse> picture(unsigned index, std::initializer_list<aiTextureType> types) {
+    const aiMaterial& input = *input_.mMaterials[index];
+    for (const aiTextureType type : types) {
+      aiString name;
+      unsigned set = 0;
+      if (input.GetTexture(type, 0, &name, nullptr, &set) != aiReturn_SUCCESS) continue;
+      const std::shared_ptr<const Texture> texture = texture_named(name.C_Str());
+      if (!texture) return std::nullopt;
+      if (aiUVTransform moved; input.Get(AI_MATKEY_UVTRANSFORM(type, 0), moved) == aiReturn_SUCCESS)
+        warn_of_transform(name.C_Str());
+      const auto [known, is_new] = place_sets_.try_emplace(index, set);
+      if (!is_new && known->second != set)
+        draft_.warnings.push_back(
+            fmt::format("{}: material {} has pictures with different places; all are laid as the "
+                        "first is",
+                        file_.string(), in_quotes(input.GetName().C_Str())));
+      return PictureUse{texture, Vec2::Ones(), Vec2::Zero()};
+    }
+    return std::nullopt;
+  }
+
+  void warn_of_transform(const std::string& name) {
+    draft_.warnings.push_back(
+        fmt::format("{}: that the picture {} is moved, turned or scaled is not used",
+                    file_.string(), in_quotes(name)));
+  }
+
+  /// A picture in the file or beside it; none, with a warning, if there is none.
+  std::shared_ptr<const Texture> texture_named(const std::string& name) {
+    const auto [entry, is_new] = textures_.try_emplace(name);
+    if (!is_new) return entry->second;
+    const aiTexture* inside = input_.GetEmbeddedTexture(name.c_str());
+    if (inside != nullptr && inside->mHeight == 0) {  // a file's bytes
+      const std::string bytes(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
+      entry->second = std::make_shared<const Texture>(read_texture(file_ / name, bytes));
+      return entry->second;
+    }
+    const std::filesystem::path path = find_picture(file_, name);
+    if (path.empty()) {
+      draft_.warnings.push_back(
+          fmt::format("{}: there is no picture {}: its material has its colours alone",
+                      file_.string(), in_quotes(name)));
+      return nullptr;
+    }
+    draft_.files.push_back(path);
+    entry->second = std::make_shared<const Texture>(read_texture(path, read_bytes(path)));
+    return entry->second;
+  }
+
   const std::filesystem::path& file_;
   const aiScene& input_;
   SceneDraft draft_;
   long long skipped_ = 0;
   std::vector<int> material_ids_;  ///< of assimp's materials, −1 until used
   std::map<std::string, double> emissive_strengths_;
+  std::map<unsigned, unsigned>
+      place_sets_;  ///< material → which of a mesh's places its pictures use
+  std::map<std::string, std::shared_ptr<const Texture>> textures_;
 };
 
 /// Notes which files are read: a scene may name others.
@@ -222,7 +304,7 @@ SceneDraft read_with_assimp(const std::filesystem::path& path) {
   if (input == nullptr)
     fail(path, 0, fmt::format("the file cannot be read: {}", importer.GetErrorString()));
   SceneDraft draft = AssimpReader(path, *input).read();
-  draft.files = std::move(files);
+  draft.files.insert(draft.files.begin(), files.begin(), files.end());
   return draft;
 }
 

@@ -71,8 +71,13 @@ SceneDraft read_with_assimp(const std::filesystem::path& path);
 /// Adds what an MTL file defines to the draft's materials.
 void read_mtl(const std::filesystem::path& path, SceneDraft& draft);
 
-/// Reads a .png or .jpg, linear in light. Throws Error(invalid_input) for anything else.
-Texture read_texture(const std::filesystem::path& path);
+/// A picture named by a scene or library, in a file beside it; empty if there is none. Some
+/// programs write the paths of the machine they ran on.
+std::filesystem::path find_picture(const std::filesystem::path& scene, std::string_view name);
+
+/// Reads the bytes of a PNG or JPEG, linear in light. Throws Error(invalid_input) with `path` for
+/// anything else.
+Texture read_texture(const std::filesystem::path& path, const std::string& bytes);
 
 /// A face whose exitance a picture multiplies.
 struct PaintedEmitter {

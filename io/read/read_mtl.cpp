@@ -77,7 +77,7 @@ class MtlReader {
     const std::string_view name =
         text.substr(static_cast<std::size_t>(words_[word].data() - text.data()));
     present(words_[0]);
-    const std::filesystem::path path = found(name);
+    const std::filesystem::path path = find_picture(file_, name);
     if (path.empty()) {
       warn(fmt::format("there is no picture {}: the material {} has its {} alone, everywhere",
                        in_quotes(name), in_quotes(material_name()), multiplied));
@@ -85,7 +85,7 @@ class MtlReader {
     }
     std::shared_ptr<const Texture>& known = textures_[path];
     if (!known) {
-      known = std::make_shared<const Texture>(read_texture(path));
+      known = std::make_shared<const Texture>(read_texture(path, read_bytes(path)));
       draft_.files.push_back(path);
     }
     use.texture = known;
@@ -103,21 +103,6 @@ class MtlReader {
       values.push_back(finite_number(words_[word++], file_, line_));
     if (values.empty()) fail(file_, line_, "-s and -o need numbers");
     return {values[0], values.size() > 1 ? values[1] : values[0]};
-  }
-
-  /// A picture beside the library; empty if there is none. Some programs write the paths of the
-  /// machine they ran on.
-  std::filesystem::path found(std::string_view name) const {
-    std::string text(name.substr(0, name.find('\0')));
-    const auto beside = [&](const std::filesystem::path& path) {
-      std::error_code ignored;
-      const std::filesystem::path file = file_.parent_path() / path;
-      return std::filesystem::is_regular_file(file, ignored) ? file : std::filesystem::path();
-    };
-    if (const auto file = beside(text); !file.empty()) return file;
-    std::replace(text.begin(), text.end(), '\\', '/');
-    if (const auto file = beside(text); !file.empty()) return file;
-    return beside(std::filesystem::path(text).filename());
   }
 
   /// Ours, by the words of materials files; other programs pass over them.

@@ -1,20 +1,15 @@
-#include "io/files/extension.h"
 #include "io/files/srgb.h"
-#include "io/files/vtk_messages.h"
 #include "io/read/read_formats.h"
 #include "io/read/read_text.h"
 
 #include <fmt/format.h>
-#include <vtkDataArray.h>
-#include <vtkExecutive.h>
-#include <vtkImageData.h>
-#include <vtkJPEGReader.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
 
 #include <algorithm>
 #include <array>
+#include <csetjmp>
 #include <cstdint>
+#include <cstdio>  // jpeglib.h takes it for granted
+#include <jpeglib.h>
 #include <memory>
 #include <png.h>
 
@@ -59,38 +54,73 @@ Picture read_png(const std::filesystem::path& path, const std::string& bytes) {
   return picture;
 }
 
-Picture read_jpeg(const std::filesystem::path& path) {
-  vtkNew<vtkJPEGReader> reader;
-  detail::VtkMessages messages;
-  messages.listen_to(reader);
-  messages.listen_to(reader->GetExecutive());
-  if (reader->CanReadFile(path.c_str()) == 0) fail_damaged(path);
-  reader->SetFileName(path.c_str());
-  reader->UpdateInformation();
-  if (reader->GetErrorCode() != 0 || !messages.first.empty()) fail_damaged(path);
-  const int* extent = reader->GetDataExtent();
-  check_size(path, extent[1] + std::int64_t{1}, extent[3] + std::int64_t{1});
-  reader->Update();
-  vtkDataArray* values = reader->GetOutput()->GetPointData()->GetScalars();
-  if (reader->GetErrorCode() != 0 || !messages.first.empty() || values == nullptr)
-    fail_damaged(path);
-  Picture picture{extent[1] + 1, extent[3] + 1, {}};
-  const int last = values->GetNumberOfComponents() - 1;  // 0: grey
-  for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
-    for (int c = 0; c < 3; ++c)
-      picture.values.push_back(
-          static_cast<std::uint8_t>(values->GetComponent(i, std::min(c, last))));
+/// By libjpeg itself: VTK's reader prints, and takes what is missing as grey.
+class JpegReader {
+ public:
+  explicit JpegReader(const std::string& bytes) : bytes_(bytes) {
+    info_.err = jpeg_std_error(&errors_.manager);
+    errors_.manager.error_exit = [](j_common_ptr info) {
+      std::longjmp(reinterpret_cast<Errors*>(info->err)->back, 1);
+    };
+    errors_.manager.output_message = [](j_common_ptr) {};
+    jpeg_create_decompress(&info_);
+  }
+  ~JpegReader() { jpeg_destroy_decompress(&info_); }
+  JpegReader(const JpegReader&) = delete;
+  JpegReader& operator=(const JpegReader&) = delete;
+
+  // Nothing that has a destructor may live in functions that libjpeg jumps back to.
+
+  /// False if there is no header.
+  bool read_header() {
+    if (setjmp(errors_.back) != 0) return false;
+    jpeg_mem_src(&info_, reinterpret_cast<const unsigned char*>(bytes_.data()), bytes_.size());
+    jpeg_read_header(&info_, TRUE);
+    info_.out_color_space = JCS_RGB;
+    return true;
+  }
+  std::int64_t width() const { return info_.image_width; }
+  std::int64_t height() const { return info_.image_height; }
+
+  /// Into rows from the lowest on. False if anything is missing or wrong.
+  bool read_rows(std::uint8_t* values) {
+    if (setjmp(errors_.back) != 0) return false;
+    jpeg_start_decompress(&info_);
+    while (info_.output_scanline < info_.output_height) {
+      JSAMPROW row = values + std::size_t{3} * info_.output_width *
+                                  (info_.output_height - 1 - info_.output_scanline);
+      jpeg_read_scanlines(&info_, &row, 1);
+    }
+    jpeg_finish_decompress(&info_);
+    return errors_.manager.num_warnings == 0;
+  }
+
+ private:
+  struct Errors {
+    jpeg_error_mgr manager;  // must be the first
+    std::jmp_buf back;
+  };
+
+  const std::string& bytes_;
+  jpeg_decompress_struct info_{};
+  Errors errors_{};
+};
+
+Picture read_jpeg(const std::filesystem::path& path, const std::string& bytes) {
+  JpegReader reader(bytes);
+  if (!reader.read_header()) fail_damaged(path);
+  check_size(path, reader.width(), reader.height());
+  Picture picture{static_cast<int>(reader.width()), static_cast<int>(reader.height()), {}};
+  picture.values.resize(static_cast<std::size_t>(3 * reader.width() * reader.height()));
+  if (!reader.read_rows(picture.values.data())) fail_damaged(path);
   return picture;
 }
 
 }  // namespace
 
-Texture read_texture(const std::filesystem::path& path) {
-  const std::string bytes = read_bytes(path);
-  const std::string extension = extension_of(path);
-  if (extension != ".png" && extension != ".jpg" && extension != ".jpeg")
-    fail(path, 0, "pictures are read from .png and .jpg files only");
-  const Picture picture = extension == ".png" ? read_png(path, bytes) : read_jpeg(path);
+Texture read_texture(const std::filesystem::path& path, const std::string& bytes) {
+  const bool is_jpeg = bytes.starts_with("\xff\xd8");
+  const Picture picture = is_jpeg ? read_jpeg(path, bytes) : read_png(path, bytes);
   std::array<float, 256> linear;
   for (std::size_t k = 0; k < linear.size(); ++k)
     linear[k] = static_cast<float>(detail::from_srgb(static_cast<double>(k) / 255));
@@ -99,6 +129,19 @@ Texture read_texture(const std::filesystem::path& path) {
     texels.emplace_back(linear[picture.values[i]], linear[picture.values[i + 1]],
                         linear[picture.values[i + 2]]);
   return make_texture(path.string(), picture.width, picture.height, std::move(texels));
+}
+
+std::filesystem::path find_picture(const std::filesystem::path& scene, std::string_view name) {
+  std::string text(name.substr(0, name.find('\0')));
+  const auto beside = [&](const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::path file = scene.parent_path() / path;
+    return std::filesystem::is_regular_file(file, ignored) ? file : std::filesystem::path();
+  };
+  if (const auto file = beside(text); !file.empty()) return file;
+  std::replace(text.begin(), text.end(), '\\', '/');
+  if (const auto file = beside(text); !file.empty()) return file;
+  return beside(std::filesystem::path(text).filename());
 }
 
 }  // namespace halfshade::reading

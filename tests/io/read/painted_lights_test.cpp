@@ -122,7 +122,7 @@ Rgb power(const Scene& scene) {
 TEST(PaintedLights, TwoColoursAreTwoPieces) {
   const SceneFile file =
       read(two, whole + "f 1 2 4\n", "Kd .3 .3 .3\nKe 10 20 30\nmap_Ke lamp.png\n");
-  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("have its Kd and Ke alone")));
+  EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("have its colours alone")));
   const Scene& scene = file.scene;
   ASSERT_EQ(scene.faces.size(), 3U);
   ASSERT_EQ(scene.materials.size(), 3U);

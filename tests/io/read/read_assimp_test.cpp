@@ -1,3 +1,5 @@
+#include "io/files/little_endian.h"
+#include "io/picture/picture.h"
 #include "io/read/read_scene.h"
 #include "tests/support/assimp_samples.h"
 #include "tests/support/files.h"
@@ -22,7 +24,10 @@ using test::expect_refused;
 using test::gltf_triangle;
 using test::read_text;
 using test::TempDir;
+using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
 Vec3 normal(const Scene& scene, int face) {
@@ -65,6 +70,90 @@ TEST(ReadGltf, AppliesTransformsNamesAndMaterials) {
     EXPECT_TRUE((scene.materials[0].exitance == Rgb(1, 0.5, 0)).all());
     EXPECT_TRUE(scene.materials[0].two_sided);
   }
+}
+
+/// A red and a green texel side by side.
+std::string red_and_green() {
+  const TempDir folder;
+  Picture picture{2, 1, 1, {255, 0, 0, 0, 255, 0}, {}};
+  write_png(picture, folder.path() / "two.png");
+  return test::contents(folder.path() / "two.png");
+}
+
+/// The triangle with (0, 0), (1, 0), (0, 1) of its picture, from the upper left, at its corners.
+json painted_gltf(const std::string& uri) {
+  json gltf = gltf_triangle();
+  std::string places;
+  for (const float x : {0.F, 0.F, 1.F, 0.F, 0.F, 1.F}) detail::put(places, x);
+  gltf["buffers"].push_back(
+      {{"byteLength", places.size()},
+       {"uri", "data:application/octet-stream;base64," + test::base64(places)}});
+  gltf["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 0}, {"byteLength", places.size()}});
+  gltf["accessors"].push_back(
+      {{"bufferView", 2}, {"componentType", 5126}, {"count", 3}, {"type", "VEC2"}});
+  gltf["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = 2;
+  gltf["images"] = {{{"uri", uri}, {"mimeType", "image/png"}}};
+  gltf["textures"] = {{{"source", 0}}};
+  gltf["materials"][0]["emissiveFactor"] = {0, 0, 0};
+  gltf["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", 0}};
+  return gltf;
+}
+
+void expect_red_then_green(const Scene& scene) {
+  ASSERT_EQ(scene.paints.size(), 2U);  // of both nodes
+  const auto paint_on = [&](const char* group) {
+    return scene.paints.at(at(scene.faces[at(face_in_group(scene, group))].paint));
+  };
+  const Paint paint = paint_on("plain"), twin = paint_on("twin");
+  EXPECT_TRUE(colour_at(paint, {0.1, 0.2, 0}).isApprox(Rgb(1, 0, 0)));
+  EXPECT_TRUE(colour_at(paint, {0.9, 0.05, 0}).isApprox(Rgb(0, 1, 0)));
+  EXPECT_TRUE(colour_at(twin, {9.9, 20.1, 30}).isApprox(Rgb(1, 0, 0)));
+  EXPECT_TRUE(colour_at(twin, {8.1, 20.05, 30}).isApprox(Rgb(0, 1, 0)));
+  EXPECT_TRUE((scene.materials[0].rho == Rgb(0.25, 0.5, 0.75)).all());
+}
+
+TEST(ReadGltf, TakesPicturesInItAndBesideIt) {
+  const std::string data = "data:image/png;base64," + test::base64(red_and_green());
+  const SceneFile inside = read_text("a.gltf", painted_gltf(data).dump());
+  EXPECT_THAT(inside.warnings, IsEmpty());
+  expect_red_then_green(inside.scene);
+
+  const TempDir folder;
+  folder.write("two.png", red_and_green());
+  const SceneFile beside = read_scene(folder.write("a.gltf", painted_gltf("two.png").dump()));
+  EXPECT_THAT(beside.warnings, IsEmpty());
+  expect_red_then_green(beside.scene);
+  EXPECT_EQ(beside.files.back().filename(), "two.png");
+}
+
+TEST(ReadGltf, SaysWhatIsNotDoneWithPictures) {
+  const SceneFile missing = read_text("a.gltf", painted_gltf("none.png").dump());
+  EXPECT_THAT(missing.warnings, ElementsAre(HasSubstr("there is no picture 'none.png'")));
+  json moved = painted_gltf("data:image/png;base64," + test::base64(red_and_green()));
+  moved["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]
+       ["KHR_texture_transform"] = {{"scale", {2, 2}}};
+  moved["extensionsUsed"] = {"KHR_texture_transform"};
+  EXPECT_THAT(read_text("a.gltf", moved.dump()).warnings,
+              Contains(HasSubstr("moved, turned or scaled")));
+  expect_error(
+      [] {
+        read_text("a.gltf", painted_gltf("data:image/png;base64," + test::base64("none")).dump());
+      },
+      ErrorCode::invalid_input, {"damaged"});
+}
+
+TEST(ReadGltf, CutsLampsAlongTheirPictures) {
+  json gltf = painted_gltf("data:image/png;base64," + test::base64(red_and_green()));
+  gltf["materials"][0]["emissiveFactor"] = {1, 1, 1};
+  gltf["materials"][0]["emissiveTexture"] = {{"index", 0}};
+  gltf["materials"][0]["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 40;
+  const Scene scene = read_text("a.gltf", gltf.dump()).scene;
+  Rgb most = Rgb::Zero();
+  for (const Material& material : scene.materials) most = most.max(material.exitance);
+  EXPECT_GT(scene.faces.size(), 3U);
+  EXPECT_NEAR(most[0], 40, 1);
+  EXPECT_NEAR(most[1], 40, 1);
+  EXPECT_EQ(most[2], 0);
 }
 
 TEST(ReadGltf, KeepsTheFrontOfMirroredNodes) {

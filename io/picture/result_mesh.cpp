@@ -1,3 +1,4 @@
+#include "io/picture/painted_points.h"
 #include "io/picture/result_file.h"
 #include "meshing/core/error.h"
 #include "solver/elements/linear_pieces.h"
@@ -130,9 +131,12 @@ ShadedMesh mesh_with(const ResultFile& file, std::vector<Rgb> at_points, std::ve
   mesh.painted = std::move(painted);
   mesh.paints = file.paints;
   mesh.cameras = file.cameras;
-  if (!mesh.point_value.empty() &&
-      std::any_of(file.order.begin(), file.order.end(), [](int p) { return p > 1; }))
-    cut_curved(file, mesh);
+  if (mesh.point_value.empty()) return mesh;
+  if (std::any_of(file.order.begin(), file.order.end(), [](int p) { return p > 1; }))
+    cut_curved(file, mesh);  // whose cells share no points
+  else if (!mesh.painted.empty())
+    detail::separate_painted(light_values(file, file.point_arrays, "irradiance"),
+                             light_values(file, file.cell_arrays, "reflectance"), mesh);
   return mesh;
 }
 

@@ -1,4 +1,5 @@
 #include "io/files/consistency.h"
+#include "io/picture/painted_points.h"
 #include "io/picture/picture.h"
 #include "meshing/triangulation/planar_mesh.h"
 #include "solver/pipeline/linear_result.h"
@@ -12,6 +13,12 @@ constexpr double lamp_brightness = 4;
 Rgb scene_colour(const Material& material) {
   const double exitance = material.exitance.maxCoeff();
   return exitance > 0 ? Rgb(lamp_brightness * (material.exitance / exitance)) : material.rho;
+}
+
+std::vector<Rgb> rows(const ChannelArray& values) {
+  std::vector<Rgb> result;
+  for (Eigen::Index i = 0; i < values.rows(); ++i) result.emplace_back(values.row(i));
+  return result;
 }
 
 /// Where something is painted and does not shine. Values hold mean reflectances.
@@ -46,6 +53,8 @@ ShadedMesh shaded(const SolveResult& result) {
     mesh.emits.push_back((linear.solution.exitance.row(e) > 0).any());
   }
   add_paints(result.scene, linear.elements, linear.solution, mesh);
+  if (!mesh.painted.empty())
+    detail::separate_painted(rows(linear.irradiance), rows(linear.solution.rho), mesh);
   return mesh;
 }
 

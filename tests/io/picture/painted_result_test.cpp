@@ -51,6 +51,28 @@ TEST(PaintedResult, IsDrawnWithItsPicture) {
   expect_red_left_blue_right(draw(shaded(result), result.cameras[0], options));
 }
 
+/// Constant elements share points with neighbours that show other parts of the picture.
+TEST(PaintedResult, OfConstantElementsIsTheSame) {
+  SolveOptions options;
+  options.method = SolveMethod::matrix;
+  options.elements = 100;
+  SolveResult result = solve(test::two_coloured_room(true), options);
+  result.cameras = painted_result().cameras;
+  const test::TempDir folder;
+  write_result(result, {}, folder.path() / "room.vtu");
+  PictureOptions picture;
+  picture.width = picture.height = 60;
+  const Picture fields = draw(shaded(painted_result()), result.cameras[0], picture);
+  for (const ShadedMesh& mesh : {shaded(result), read_shaded(folder.path() / "room.vtu")}) {
+    const Picture constants = draw(mesh, result.cameras[0], picture);
+    expect_red_left_blue_right(constants);
+    for (const double y : {0.3, 0.5, 0.7})
+      for (const double x : {0.1, 0.35, 0.47, 0.53, 0.65, 0.9})
+        EXPECT_LT((pixel(constants, x, y) - pixel(fields, x, y)).abs().maxCoeff(), 40)
+            << x << ' ' << y;
+  }
+}
+
 TEST(PaintedResult, FilesHoldThePicture) {
   const test::TempDir folder;
   PictureOptions options;

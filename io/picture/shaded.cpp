@@ -46,12 +46,10 @@ ShadedMesh shaded(const SolveResult& result) {
   mesh.triangles = linear.elements.corners;
   mesh.is_border = linear.is_border;
   mesh.cameras = result.cameras;
-  for (Eigen::Index i = 0; i < linear.radiosity.rows(); ++i)
-    mesh.point_value.emplace_back(linear.radiosity.row(i));
-  for (Eigen::Index e = 0; e < linear.elements.count(); ++e) {
-    mesh.triangle_value.emplace_back(linear.solution.radiosity.row(e));
+  mesh.point_value = rows(linear.radiosity);
+  mesh.triangle_value = rows(linear.solution.radiosity);
+  for (Eigen::Index e = 0; e < linear.elements.count(); ++e)
     mesh.emits.push_back((linear.solution.exitance.row(e) > 0).any());
-  }
   add_paints(result.scene, linear.elements, linear.solution, mesh);
   if (!mesh.painted.empty())
     detail::separate_painted(rows(linear.irradiance), rows(linear.solution.rho), mesh);

@@ -58,10 +58,10 @@ struct SolveOptions {
   int max_elements = 0;         ///< refuse to make more, ≥ 1; 0: see with_limits
   bool discontinuities = true;  ///< mesh along the curves where the light breaks
   DiscontinuityOptions
-      events;                ///< which curves to look for; most_work 0: what `tolerance` is worth
-  bool each_bounce = false;  ///< tell light apart by how often it was reflected; needs `bounces`
+      events;            ///< which curves to look for; most_work 0: what `tolerance` is worth
   int secondary = 0;     ///< look for those of this many of the brightest reflecting surfaces, too
   bool regions = false;  ///< say what each element sees of each emitter
+  bool each_bounce = false;  ///< tell light apart by how often it was reflected; needs `bounces`
   DirectLightBy direct_light = DirectLightBy::automatic;
   ReflectedVisibility visibility = ReflectedVisibility::automatic;  ///< of reflected light
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12

@@ -128,11 +128,10 @@ Rgb evenly_spread_light(const SoundScene& scene) {
     const double own = area(surface);
     all += own;
     power += own * material.exitance;
-    reflecting += own * material.rho;
+    Rgb rho = material.rho;
     if (surface.paint >= 0)  // as if all of the picture were seen
-      reflecting +=
-          own * material.rho *
-          (scene.paints[at(surface.paint)].texture->levels.back().texels[0].cast<double>() - 1);
+      rho *= scene.paints[at(surface.paint)].texture->levels.back().texels[0].cast<double>();
+    reflecting += own * rho;
   }
   if (!(all > 0)) return Rgb::Zero();
   const Rgb rho = reflecting / all;

@@ -162,7 +162,7 @@ std::vector<ElementField> split_by_bounce(const ReflectedSystem& system, int bou
   }
   for (int e = 0; e < mesh.count(); ++e) {
     Rgb sum = Rgb::Zero();
-    for (ElementField& part : parts) sum += part.of(e).row(0).transpose().abs();
+    for (const ElementField& part : parts) sum += part.of(e).row(0).transpose().abs();
     for (int c = 0; c < 3; ++c)
       for (std::size_t k = 0; k < parts.size(); ++k) {
         auto column = parts[k].of(e).col(c);

@@ -7,6 +7,7 @@
 #include "solver/adapt/fitted_element.h"
 #include "solver/adapt/near_looks.h"
 #include "solver/adapt/possible_wholes.h"
+#include "solver/adapt/sample_forecast.h"
 #include "solver/adapt/watched_errors.h"
 #include "solver/elements/balancing_scale.h"
 
@@ -31,6 +32,8 @@ constexpr int checks = 4;
 constexpr double noticeably = 2;
 /// Close to corners and edges: so many samples, and half of what all others take.
 constexpr std::size_t least_near_looks = 20000;
+/// More samples than there should be, and no reason yet to begin in another way.
+constexpr double almost = 3;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth = 2.5;
 
@@ -282,21 +285,23 @@ class Adaptation {
     return true;
   }
 
+  /// Not if there are to be some more only.
+  bool takes_too_many_samples() {
+    const auto samples = static_cast<double>(report_.samples);
+    const auto in_the_end = forecast_.in_the_end(samples, square_error_ / allowed());
+    return samples > options_.max_samples &&
+           !(in_the_end && *in_the_end < almost * options_.max_samples);
+  }
+
   /// False, with a limit set, if nothing can be done.
   bool improve() {
-    if (options_.max_samples > 0 && !merging_ &&
-        static_cast<double>(report_.samples) > options_.max_samples) {
+    if (options_.max_samples > 0 && !merging_ && takes_too_many_samples())
       report_.limit = FieldLimit::samples;
-      return false;
-    }
-    if (options_.is_too_much && options_.is_too_much()) {
+    else if (options_.is_too_much && options_.is_too_much())
       report_.limit = FieldLimit::work;
-      return false;
-    }
-    if (report_.rounds >= most_rounds) {
+    else if (report_.rounds >= most_rounds)
       report_.limit = FieldLimit::rounds;
-      return false;
-    }
+    if (report_.limit != FieldLimit::none) return false;
     std::vector<int> to_split;
     auto unknowns = static_cast<double>(unknowns_);
     const auto count_before = static_cast<double>(elements_.size());
@@ -374,6 +379,7 @@ class Adaptation {
   ElementTable table_;
   std::vector<FittedElement> elements_;
   std::unordered_map<int, int> index_of_node_;
+  SampleForecast forecast_;
   std::unordered_map<int, ElementFit> whole_fits_;  ///< of nodes that may become elements
   bool merging_ = false;      ///< has begun: what it takes is no limit any more
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known

@@ -27,8 +27,9 @@ struct AdaptiveFieldOptions {
   bool split = true;              ///< false: elements stay as they are
   bool merge = false;             ///< splits are undone in the end where they are not needed
   int max_elements = 40000;
-  int max_unknowns = 1000000;         ///< per channel
-  double max_samples = 0;             ///< gives up rather than take more; 0: no limit
+  int max_unknowns = 1000000;  ///< per channel
+  double max_samples = 0;  ///< gives up rather than take more, or three times as many if that is
+                           ///< likely to be enough; 0: no limit
   std::function<bool()> is_too_much;  ///< gives up where it says so, before a round; none: never
 };
 

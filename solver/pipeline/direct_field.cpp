@@ -81,14 +81,14 @@ bool has_budget(const SolveOptions& options) {
 }
 
 /// Elements that are to be divided: where narrow surfaces would take too many, they are narrow,
-/// too; and where as few as there can be are asked for.
+/// too, and somewhat so where few are asked for; not quite, for parts of needles are needles.
 PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& options, bool few,
                               const Progress& progress) {
   PlanarMeshOptions mesh_options;
   mesh_options.max_triangles =
       static_cast<std::size_t>(share_at_first * static_cast<double>(options.max_elements));
   for (const double angle : {least_angle, 3., 1.}) {
-    if (few) break;
+    if (few && angle == least_angle) continue;
     mesh_options.min_angle = angle;
     try {
       return PatchMesh(scene, mesh_options, progress);

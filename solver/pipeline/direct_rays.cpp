@@ -13,6 +13,7 @@ namespace {
 constexpr std::size_t many_surfaces = 100;
 constexpr double loose = 0.01;
 constexpr int tried_places = 100;
+constexpr int tried_surfaces = 100;
 /// What counts of an exact look, and of one where so much lies before an emitter that it is cut
 /// into cells, take in rays; see SightEffort and DirectLight::crowd_work.
 constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, rays_of_box = 0.03,
@@ -21,6 +22,40 @@ constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, 
 constexpr double deviation_for_tolerance = 1.5;
 /// A place may take so much of what an exact look takes: rays do with half the places or fewer.
 constexpr double as_quick = 1;
+
+/// What exact looks take, in rays.
+struct ExactWork {
+  SightEffort effort;
+  double crowd_work = 0;
+  double irradiance = 0, reached = 0;  ///< sum, and at how many places there is any
+
+  double rays() const {
+    return rays_of_look * static_cast<double>(effort.looks) +
+           rays_of_turn * static_cast<double>(effort.turns) +
+           rays_of_exact_turn * static_cast<double>(effort.exact_turns) +
+           rays_of_box * static_cast<double>(effort.boxes) + rays_of_crowd * crowd_work;
+  }
+};
+
+ExactWork look_exactly(const DirectLightIndex& index, std::span<const SurfacePoint> points,
+                       const Progress& progress) {
+  ExactWork work;
+  for (const DirectLight& light : index.irradiance(points, progress)) {
+    work.effort += light.effort;
+    work.crowd_work += static_cast<double>(light.crowd_work);
+    const double irradiance = light.irradiance.mean();
+    if (!(irradiance > 0)) continue;
+    work.irradiance += irradiance;
+    ++work.reached;
+  }
+  return work;
+}
+
+double rays_in_all(const RayLight& light, std::span<const SurfacePoint> points) {
+  double sum = 0;
+  for (const SurfacePoint& point : points) sum += light.cost(point);
+  return sum;
+}
 
 }  // namespace
 
@@ -32,29 +67,20 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
       options.force.discontinuities || options.force.exact_direct_light || options.order >= 0 ||
       options.tolerance < loose || scene.surfaces.size() < many_surfaces)
     return {};
-  const std::vector<SurfacePoint> points = spread_places(scene, tried_places).points;
-  SightEffort effort;
-  double crowd_work = 0, sum = 0, reached = 0;
-  for (const DirectLight& light : prepared.direct_light().irradiance(points, progress)) {
-    effort += light.effort;
-    crowd_work += static_cast<double>(light.crowd_work);
-    const double irradiance = light.irradiance.mean();
-    if (!(irradiance > 0)) continue;
-    sum += irradiance;
-    ++reached;
-  }
-  if (!(reached > 0) || progress.stopped()) return {};
-  const double exact = rays_of_look * static_cast<double>(effort.looks) +
-                       rays_of_turn * static_cast<double>(effort.turns) +
-                       rays_of_exact_turn * static_cast<double>(effort.exact_turns) +
-                       rays_of_box * static_cast<double>(effort.boxes) + rays_of_crowd * crowd_work;
+  // Elements gather where light varies, on the largest surface or on all the small ones: rays have
+  // to be better for both.
+  const std::vector<SurfacePoint> by_area = spread_places(scene, tried_places).points;
+  const std::vector<SurfacePoint> by_surface = places_of_surfaces(scene, tried_surfaces);
+  const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
+  const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
+  if (!(exact.reached > 0) || progress.stopped()) return {};
   RayLightOptions rays;
-  rays.deviation = deviation_for_tolerance * options.tolerance * sum / reached;
-  rays.most_rays = std::max(exact / static_cast<double>(effort.looks), 1.);
+  rays.deviation = deviation_for_tolerance * options.tolerance * exact.irradiance / exact.reached;
+  rays.most_rays = std::max(exact.rays() / static_cast<double>(exact.effort.looks), 1.);
   const RayLight light(scene, prepared.direct_light(), prepared.visibility(), rays);
-  double by_rays = 0;
-  for (const SurfacePoint& point : points) by_rays += light.cost(point);
-  return by_rays < as_quick * exact ? rays : RayLightOptions{};
+  const bool are_better = rays_in_all(light, by_area) < as_quick * exact.rays() &&
+                          rays_in_all(light, by_surface) < as_quick * exact_on_each.rays();
+  return are_better ? rays : RayLightOptions{};
 }
 
 }  // namespace halfshade

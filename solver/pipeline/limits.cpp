@@ -5,7 +5,7 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t lowest_limit = 40000, limit_each = 80, highest_limit = 1000000;
+constexpr std::size_t lowest_limit = 40000, limit_each = 400, highest_limit = 1000000;
 constexpr int lowest_of_unknowns = 1000000, unknowns_each = 4;
 
 }  // namespace

@@ -15,4 +15,7 @@ struct SpreadPlaces {
 /// So many places for equal areas, whatever the lines between them.
 SpreadPlaces spread_places(const SoundScene& scene, int count);
 
+/// One place on each of so many surfaces, or on all if there are fewer.
+std::vector<SurfacePoint> places_of_surfaces(const SoundScene& scene, int count);
+
 }  // namespace halfshade

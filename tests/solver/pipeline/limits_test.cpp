@@ -8,7 +8,7 @@ namespace {
 TEST(Limits, FollowTheSceneUnlessTheyAreGiven) {
   EXPECT_EQ(with_limits({}, 5).max_elements, 40000);
   EXPECT_EQ(with_limits({}, 5).max_unknowns, 1000000);
-  EXPECT_EQ(with_limits({}, 5000).max_elements, 400000);
+  EXPECT_EQ(with_limits({}, 1000).max_elements, 400000);
   EXPECT_EQ(with_limits({}, 3000000).max_elements, 1000000);
   EXPECT_EQ(with_limits({}, 3000000).max_unknowns, 4000000);
   SolveOptions given;

@@ -326,10 +326,13 @@ class NoisyFit {
       return elements_[at(e)].area * elements_[at(e)].known_error();
     };
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) > error(b); });
-    double without = square_error_, after = square_error_;
+    double known = 0;
+    for (const int e : order) known += error(e);
+    // The sum over elements of what noise did not surely make is not what is said of all together.
+    const double most = std::min(allowed() / correction_, known);
+    const double may_stay = noisy_share_left_alone * most, aim = aim_of_round * most;
+    double without = known, after = known;
     std::size_t count = 0;
-    const double may_stay = noisy_share_left_alone * allowed() / correction_;
-    const double aim = aim_of_round * allowed() / correction_;
     while (count < order.size() && without > may_stay && after > aim) {
       const double here = error(order[count++]);
       without -= here;

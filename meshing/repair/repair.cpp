@@ -3,6 +3,7 @@
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
 #include "meshing/core/planar.h"
+#include "meshing/repair/canonical_order.h"
 #include "meshing/repair/clean_faces.h"
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
@@ -179,6 +180,24 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   if (sound.surfaces.empty())
     throw Error(ErrorCode::invalid_input, scene.source,
                 fmt::format("none of its {} faces has an area", scene.faces.size()));
+  return sound;
+}
+
+SoundScene make_sound_in_any_order(const Scene& scene, const RepairOptions& options) {
+  const OrderedScene ordered = in_canonical_order(scene);
+  SoundScene sound;
+  try {
+    sound = make_sound(ordered.scene, options);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::too_large) throw;
+    return make_sound(scene, options);  // throws again, and names faces as the file does
+  }
+  const auto rename = [&](std::vector<int>& faces) {
+    for (int& face : faces) face = ordered.face[at(face)];
+  };
+  for (Surface& surface : sound.surfaces) rename(surface.faces);
+  for (Repair& repair : sound.repairs) rename(repair.faces);
+  for (std::size_t f = 0; f < scene.faces.size(); ++f) sound.face_lines[f] = scene.faces[f].line;
   return sound;
 }
 

@@ -30,4 +30,8 @@ struct RepairOptions {
 /// lines than can be followed, or than allowed. Deterministic.
 SoundScene make_sound(const Scene& scene, const RepairOptions& options = {});
 
+/// The same, but surfaces stand in an order of their own: to the last bit the same for any order of
+/// faces and vertices in the file, except that of two faces with the same corners the first stays.
+SoundScene make_sound_in_any_order(const Scene& scene, const RepairOptions& options = {});
+
 }  // namespace halfshade

@@ -58,7 +58,7 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
   std::vector<StageReport> reports;
   Stages(reports).run("repair", [&] {
     progress("repair", 0);
-    scene_ = make_sound(scene, options);
+    scene_ = make_sound_in_any_order(scene, options);
     return scene_.surfaces.size();
   });
   repair_ = reports.front();

@@ -132,10 +132,12 @@ TEST_P(ReferenceInRooms, AgreesWithTheSolution) {
   expect_right_means(room);
 }
 
+// Batches of few walks are skewed, which shifts scores, and few of the points in a dining room see
+// most of its error.
 INSTANTIATE_TEST_SUITE_P(All, ReferenceInRooms,
-                         testing::Values(Room{"cornell_box", 0.015, 200, 1024, true},
+                         testing::Values(Room{"cornell_box", 0.005, 200, 8192, true},
                                          Room{"table_and_chairs", 0.01, 200, 1024, false},
-                                         Room{"dining_room", 0.15, 150, 256, false}),
+                                         Room{"dining_room", 0.15, 4000, 256, false}),
                          [](const auto& room) { return room.param.name; });
 
 }  // namespace

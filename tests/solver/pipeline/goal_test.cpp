@@ -126,8 +126,16 @@ TEST(GoalWeights, AreThoseOfTheAdjointLight) {
       std::make_shared<const GoalAdjoint>(solve_adjoint(prepared.scene(), 1, SolveOptions{}, {})));
   ASSERT_TRUE(weights.weight);
   EXPECT_NEAR(weights.norm, std::sqrt(3.) * 0.9 * unit_squares, 0.05 * unit_squares);
-  EXPECT_GT(weights.weight(1, {0.5, 0.5, 0}), 0);
-  EXPECT_EQ(weights.weight(0, {0.5, 0.5, 1}), 0);  // it reflects nothing
+  const auto& surfaces = prepared.scene().surfaces;
+  ASSERT_EQ(surfaces.size(), 2u);
+  for (int s = 0; s < 2; ++s) {
+    const double height = surfaces[at(s)].frame.origin.z(),
+                 weight = weights.weight(s, {0.5, 0.5, height});
+    if (height == 0)
+      EXPECT_GT(weight, 0);
+    else
+      EXPECT_EQ(weight, 0) << "it reflects nothing";
+  }
 }
 
 // What the walls send back is left out of a solution of direct light: the correction finds it.

@@ -21,6 +21,8 @@ namespace halfshade {
 namespace {
 
 /// S1: a light of 1 × 1 at z = 2 over an occluder of 0.75 × 0.75 at z = 1 over a floor.
+constexpr int floor_of_s1 = 2;  // face
+
 Scene s1() {
   Scene scene;
   const int dark = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);
@@ -114,7 +116,7 @@ std::pair<double, double> umbra_area(const SolveResult& result) {
   double umbra = 0, cut = 0;
   for (int e = 0; e < result.elements.count(); ++e) {
     const auto k = static_cast<std::size_t>(e);
-    if (result.elements.surface[k] != 2) continue;
+    if (result.elements.face[k] != floor_of_s1) continue;
     int inside = 0;
     for (const Vec3& p : result.elements.triangle(e))
       inside += std::max(std::abs(p.x()), std::abs(p.y())) < 0.25 + 1e-6;

@@ -96,8 +96,11 @@ void ShadowArrangement::locate_crossing(Crossing& crossing) const {
   } else {
     t = std::clamp(first[0] / drop[0], 0., 1.);
   }
-  crossing.along[0] = t;
+  // Rounding may put it beyond an end of the other one: both are to point one way, for a gap
+  // between them would be missing from the boundary.
   crossing.along[1] = along_segment(start[1], along[1], normal[1], start[0] + t * along[0]);
+  const Vec3 on_other = start[1] + crossing.along[1] * along[1];
+  crossing.along[0] = along_segment(start[0], along[0], normal[0], on_other);
 }
 
 void ShadowArrangement::sort_crossings() {

@@ -14,6 +14,9 @@ constexpr std::size_t many_surfaces = 100;
 constexpr double loose = 0.01;
 constexpr int tried_places = 100;
 constexpr int tried_surfaces = 100;
+/// In rays: exact looks that take more than this are not worth trying more of; about a second.
+constexpr double most_to_tell = 5e6;
+constexpr std::size_t places_at_once = 10;
 /// What counts of an exact look, and of one where so much lies before an emitter that it is cut
 /// into cells, take in rays; see SightEffort and DirectLight::crowd_work.
 constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, rays_of_box = 0.03,
@@ -22,6 +25,14 @@ constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, 
 constexpr double deviation_for_tolerance = 1.5;
 /// A place may take so much of what an exact look takes: rays do with half the places or fewer.
 constexpr double as_quick = 1;
+
+/// The first few of them are spread like all.
+std::vector<SurfacePoint> mixed(const std::vector<SurfacePoint>& points) {
+  std::vector<SurfacePoint> result;
+  for (std::size_t first = 0; first < places_at_once; ++first)
+    for (std::size_t k = first; k < points.size(); k += places_at_once) result.push_back(points[k]);
+  return result;
+}
 
 /// What exact looks take, in rays.
 struct ExactWork {
@@ -37,16 +48,26 @@ struct ExactWork {
   }
 };
 
-ExactWork look_exactly(const DirectLightIndex& index, std::span<const SurfacePoint> points,
+/// Looks at the points, or at as many as tell enough where each takes very long: the others are
+/// dropped.
+ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>& points,
                        const Progress& progress) {
   ExactWork work;
-  for (const DirectLight& light : index.irradiance(points, progress)) {
-    work.effort += light.effort;
-    work.crowd_work += static_cast<double>(light.crowd_work);
-    const double irradiance = light.irradiance.mean();
-    if (!(irradiance > 0)) continue;
-    work.irradiance += irradiance;
-    ++work.reached;
+  for (std::size_t first = 0; first < points.size(); first += places_at_once) {
+    if (work.rays() > most_to_tell) {
+      points.resize(first);
+      break;
+    }
+    const std::size_t count = std::min(places_at_once, points.size() - first);
+    for (const DirectLight& light :
+         index.irradiance(std::span(points).subspan(first, count), progress)) {
+      work.effort += light.effort;
+      work.crowd_work += static_cast<double>(light.crowd_work);
+      const double irradiance = light.irradiance.mean();
+      if (!(irradiance > 0)) continue;
+      work.irradiance += irradiance;
+      ++work.reached;
+    }
   }
   return work;
 }
@@ -69,8 +90,8 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
     return {};
   // Elements gather where light varies, on the largest surface or on all the small ones: rays have
   // to be better for both.
-  const std::vector<SurfacePoint> by_area = spread_places(scene, tried_places).points;
-  const std::vector<SurfacePoint> by_surface = places_of_surfaces(scene, tried_surfaces);
+  std::vector<SurfacePoint> by_area = mixed(spread_places(scene, tried_places).points);
+  std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, tried_surfaces));
   const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
   const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
   if (!(exact.reached > 0) || progress.stopped()) return {};

@@ -9,8 +9,10 @@ TEST(Limits, FollowTheSceneUnlessTheyAreGiven) {
   EXPECT_EQ(with_limits({}, 5).max_elements, 40000);
   EXPECT_EQ(with_limits({}, 5).max_unknowns, 1000000);
   EXPECT_EQ(with_limits({}, 1000).max_elements, 400000);
-  EXPECT_EQ(with_limits({}, 3000000).max_elements, 1000000);
-  EXPECT_EQ(with_limits({}, 3000000).max_unknowns, 4000000);
+  EXPECT_EQ(with_limits({}, 50000).max_elements, 1000000);
+  EXPECT_EQ(with_limits({}, 50000).max_unknowns, 4000000);
+  EXPECT_EQ(with_limits({}, 300000).max_elements, 4800000);
+  EXPECT_EQ(with_limits({}, 3000000).max_elements, 10000000);
   SolveOptions given;
   given.max_elements = 70;
   given.max_unknowns = 90;

@@ -1,12 +1,9 @@
-#include "solver/direct/direct_light.h"
 #include "solver/pipeline/direct_rays.h"
 #include "solver/pipeline/solve.h"
+#include "tests/support/direct_error.h"
 #include "tests/support/discontinuity_scenes.h"
-#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
-
-#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -36,19 +33,7 @@ TEST(CrossedSlats, AreSolvedToTheToleranceWithoutCurvesAndRays) {
   EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
   EXPECT_FALSE(result.refinement.is_noisy);
   EXPECT_LE(result.relative_error, 0.02);
-  test::Random random(5);
-  double square_error = 0, square = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
-    double s = random(0, 1), t = random(0, 1);
-    if (s + t > 1) s = 1 - s, t = 1 - t;
-    const Vec3 p = position(result.elements.triangle(e), {s, t});
-    const Rgb exact =
-        prepared.direct_light().irradiance({p, result.elements.normal[at(e)]}).irradiance;
-    const double area = result.elements.area[at(e)];
-    square += area * exact.matrix().squaredNorm();
-    square_error += area * (value_at(result.irradiance, e, {s, t}) - exact).matrix().squaredNorm();
-  }
-  EXPECT_LE(std::sqrt(square_error / square), 0.02);
+  EXPECT_LE(test::direct_error(prepared, result), 0.02);
 }
 
 }  // namespace

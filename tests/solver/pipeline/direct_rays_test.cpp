@@ -1,14 +1,11 @@
 #include "solver/pipeline/direct_rays.h"
 
-#include "solver/direct/direct_light.h"
 #include "solver/pipeline/solve.h"
-#include "tests/support/random.h"
+#include "tests/support/direct_error.h"
 #include "tests/support/room_families.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
-
-#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -51,19 +48,7 @@ TEST(DirectRays, SolveToTheToleranceAsked) {
   ASSERT_TRUE(result.refinement.is_noisy);
   EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
   EXPECT_LE(result.relative_error, 0.05);
-  test::Random random(3);
-  double square_error = 0, square = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
-    double s = random(0, 1), t = random(0, 1);
-    if (s + t > 1) s = 1 - s, t = 1 - t;
-    const Vec3 p = position(result.elements.triangle(e), {s, t});
-    const Rgb exact =
-        prepared.direct_light().irradiance({p, result.elements.normal[at(e)]}).irradiance;
-    const double area = result.elements.area[at(e)];
-    square += area * exact.matrix().squaredNorm();
-    square_error += area * (value_at(result.irradiance, e, {s, t}) - exact).matrix().squaredNorm();
-  }
-  const double off = std::sqrt(square_error / square);
+  const double off = test::direct_error(prepared, result);
   EXPECT_LE(off, 0.05);
   EXPECT_LE(off, 1.1 * result.relative_error);
   EXPECT_GE(3 * off, result.relative_error);

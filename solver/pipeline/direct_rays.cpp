@@ -49,12 +49,12 @@ struct ExactWork {
 };
 
 /// Looks at the points, or at as many as tell enough where each takes very long: the others are
-/// dropped.
+/// dropped. Some light has to be among them.
 ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>& points,
                        const Progress& progress) {
   ExactWork work;
   for (std::size_t first = 0; first < points.size(); first += places_at_once) {
-    if (work.rays() > most_to_tell) {
+    if (work.rays() > most_to_tell && work.reached > 0) {
       points.resize(first);
       break;
     }

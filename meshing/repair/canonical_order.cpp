@@ -39,7 +39,7 @@ OrderedScene in_canonical_order(const Scene& scene) {
   Scene& ordered = result.scene = scene;
   std::vector<std::pair<decltype(place_of({})), int>> places;
   for (std::size_t v = 0; v < scene.vertices.size(); ++v)
-    places.emplace_back(place_of(scene.vertices[v] + Vec3::Zero()), static_cast<int>(v));
+    places.emplace_back(place_of(scene.vertices[v] + Vec3::Zero()), static_cast<int>(v));  // −0: 0
   std::sort(places.begin(), places.end());
   std::vector<int> now(scene.vertices.size());
   ordered.vertices.clear();

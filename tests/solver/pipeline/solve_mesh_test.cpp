@@ -20,9 +20,9 @@
 namespace halfshade {
 namespace {
 
-/// S1: a light of 1 × 1 at z = 2 over an occluder of 0.75 × 0.75 at z = 1 over a floor.
 constexpr int floor_of_s1 = 2;  // face
 
+/// S1: a light of 1 × 1 at z = 2 over an occluder of 0.75 × 0.75 at z = 1 over a floor.
 Scene s1() {
   Scene scene;
   const int dark = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);

@@ -4,6 +4,7 @@
 #include "meshing/geometry/link.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 
@@ -101,6 +102,18 @@ class BodyFinder {
               {{vertices.at(from), vertices.at(to)}, {side_of.at(s), side_of.at(other.surface)}});
       }
     }
+    body.centre = Vec3::Zero();
+    for (const Vec3& p : body.vertices)
+      body.centre += p / static_cast<double>(body.vertices.size());
+    for (const Vec3& p : body.vertices)
+      body.radius = std::max(body.radius, (p - body.centre).norm());
+    body.width = HUGE_VAL;
+    for (const ConvexBody::Side& side : body.sides) {
+      double deepest = 0;
+      for (const Vec3& p : body.vertices)
+        deepest = std::max(deepest, side.normal.dot(side.corner - p));
+      body.width = std::min(body.width, deepest);
+    }
     return true;
   }
 
@@ -110,7 +123,28 @@ class BodyFinder {
   std::map<Link, std::vector<Use>> uses_;
 };
 
+/// From points this near to the plane of a side, relative to their distance, it is seen edge-on:
+/// not at all.
+constexpr double edge_on_side = 1e-12;
+
 }  // namespace
+
+void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette) {
+  silhouette.is_front.clear();
+  for (const ConvexBody::Side& side : body.sides) {
+    const Vec3 towards = point - side.corner;
+    silhouette.is_front.push_back(side.normal.dot(towards) > edge_on_side * towards.lpNorm<1>());
+  }
+  silhouette.edges.clear();
+  for (std::size_t k = 0; k < body.edges.size(); ++k) {
+    const auto& [ends, sides] = body.edges[k];
+    const bool left = silhouette.is_front[at(sides[0])], right = silhouette.is_front[at(sides[1])];
+    if (left == right) continue;
+    const Vec3 from = body.vertices[at(ends[left ? 0 : 1])] - point;
+    const Vec3 to = body.vertices[at(ends[left ? 1 : 0])] - point;
+    silhouette.edges.push_back({from.cross(to), static_cast<std::uint32_t>(k)});
+  }
+}
 
 ConvexBodies find_convex_bodies(const SoundScene& scene, const OpaqueScene& opaque) {
   return BodyFinder(scene, opaque.topology()).run();

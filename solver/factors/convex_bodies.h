@@ -4,6 +4,7 @@
 #include "meshing/core/sound_scene.h"
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 namespace halfshade {
@@ -20,7 +21,23 @@ struct ConvexBody {
   std::vector<Vec3> vertices;
   std::vector<Side> sides;
   std::vector<Edge> edges;
+  Vec3 centre;        ///< of a ball round it
+  double radius = 0;  ///< scene units
+  double width = 0;   ///< least distance from a side to the farthest vertex
 };
+
+/// The edges of a body between sides that a point sees and sides that it does not.
+struct Silhouette {
+  struct Edge {
+    Vec3 normal;          ///< of the plane through the point and the edge; outwards, any length
+    std::uint32_t index;  ///< of ConvexBody::edges
+  };
+  std::vector<Edge> edges;
+  std::vector<char> is_front;  ///< each side
+};
+
+/// As seen from a point; in `silhouette`, whose memory is used again.
+void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette);
 
 struct ConvexBodies {
   std::vector<ConvexBody> bodies;

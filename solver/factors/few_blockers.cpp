@@ -33,20 +33,18 @@ Ball ball_round(const std::vector<Vec3>& points) {
   return ball;
 }
 
-}  // namespace
-
-Vec3 FewBlockers::turned(const Vec3& direction) const {
-  const PlaneFrame& frame = target_.frame;
+Vec3 turned(const PlaneFrame& frame, const Vec3& direction) {
   return {frame.e1.dot(direction), frame.e2.dot(direction), frame.normal.dot(direction)};
 }
 
-Vec3 FewBlockers::in_frame(const Vec3& point) const { return turned(point - target_.frame.origin); }
+}  // namespace
 
-FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.surfaces[at(b)]) {
+FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers)
+    : target_(scene.surfaces[at(b)]) {
   const SightSurface& own = scene.surfaces[at(a)];
   if (own.pieces.size() * target_.pieces.size() > 4) return;
-  normal_ = turned(own.frame.normal);
-  std::vector<int> blockers;
+  normal_ = turned(target_.frame, own.frame.normal);
+  const bool is_known = !blockers.empty();
   double size = 0;
   for (const Polygon3& piece : target_.pieces) {
     const Polygon3 other = clip_to_front(piece, own.frame.origin, own.frame.normal);
@@ -58,6 +56,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
       size = std::max(size, (p - other.front()).norm());
     }
     target_parts_.push_back({first, target_corners_.size()});
+    if (is_known) continue;
     for (const Polygon3& own_piece : own.pieces) {
       const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
       if (part.empty()) continue;
@@ -66,11 +65,13 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
     }
   }
   std::vector<Vec3> corners;
-  for (const Corner& corner : target_corners_)
-    corners.emplace_back(corner.at.x(), corner.at.y(), 0);
+  for (const Corner& corner : target_corners_) corners.push_back(target_.frame.to_space(corner.at));
   target_ball_ = ball_round<Ball>(corners);
-  std::sort(blockers.begin(), blockers.end());
-  blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+  centre_in_plane_ = target_.frame.to_plane(target_ball_.centre);
+  if (!is_known) {
+    std::sort(blockers.begin(), blockers.end());
+    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+  }
   nearness_ = nearness_of_target * size;
   // Where a body lies before the target's plane as a whole, all that it covers is hidden.
   const auto is_before = [&](const Vec3& p) { return target_.frame.height(p) >= -nearness_; };
@@ -87,7 +88,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
     if (body.edges.size() < borders_of_shade &&
         std::all_of(body.vertices.begin(), body.vertices.end(), is_before)) {
       bodies.push_back(blocker.body);
-      add(body);
+      solids_.push_back({blocker.body, &body});
     } else
       add(blocker);
   }
@@ -96,42 +97,33 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b) : target_(scene.
 }
 
 void FewBlockers::add(const Blocker& blocker) {
-  Shade shade;
-  for (const Vec3& corner : blocker.corners) shade.corners.push_back(in_frame(corner));
-  shade.ball = ball_round<Ball>(shade.corners);
-  shade.normal = turned(blocker.normal);
-  shade.a = shade.normal.head<2>();
-  shade.b = -shade.normal.dot(shade.corners.front());
+  const PlaneFrame& frame = target_.frame;
+  Shade shade{ball_round<Ball>(blocker.corners), &blocker, {}, 0, 0, HUGE_VAL, -HUGE_VAL};
+  shade.a = {frame.e1.dot(blocker.normal), frame.e2.dot(blocker.normal)};
+  shade.b = blocker.normal.dot(frame.origin - blocker.corners.front());
   shade.steepness = shade.a.norm();
-  shade.least = HUGE_VAL;
-  shade.most = -HUGE_VAL;
   for (const Corner& corner : target_corners_) {
     const double height = shade.a.dot(corner.at) + shade.b;
     shade.least = std::min(shade.least, height);
     shade.most = std::max(shade.most, height);
   }
-  shades_.push_back(std::move(shade));
+  shades_.push_back(shade);
 }
 
-void FewBlockers::add(const ConvexBody& body) {
-  Solid solid{{}, &body, {}, {}, {}};
-  for (const Vec3& p : body.vertices) solid.vertices.push_back(in_frame(p));
-  solid.ball = ball_round<Ball>(solid.vertices);
-  for (const ConvexBody::Side& side : body.sides) {
-    solid.corners.push_back(in_frame(side.corner));
-    solid.normals.push_back(turned(side.normal));
-  }
-  solids_.push_back(std::move(solid));
+double FewBlockers::narrowest() const {
+  double width = target_ball_.radius;
+  for (const Solid& solid : solids_) width = std::min(width, solid.shape->width);
+  for (const Shade& shade : shades_) width = std::min(width, shade.blocker->width);
+  return width;
 }
 
-/// What lies behind the plane through the point and an edge, both ends relative to the point. False
-/// if nothing of the target does.
-bool FewBlockers::add_plane(const Vec3& from, const Vec3& to, std::uint32_t border) {
-  const Vec3 normal = from.cross(to);
-  const Vec2 a = normal.head<2>();
-  const double b = -normal.dot(point_), steepness = length_about(a);
+/// What lies behind a plane through the point. False if nothing of the target does.
+bool FewBlockers::add_plane(const Vec3& normal, std::uint32_t border) {
+  const Vec2 a(target_.frame.e1.dot(normal), target_.frame.e2.dot(normal));
+  const double b = -normal.dot(from_frame_), steepness = length_about(a);
   // Parallel to the target.
   if (!(steepness > edge_on * length_about(normal))) return b <= 0;
+  if (a.dot(centre_in_plane_) + b > steepness * target_ball_.radius) return false;
   shadow_.push_back({a, b, nearness_ * steepness, border});
   return true;
 }
@@ -145,37 +137,25 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
   const double near = nearness_ * shade.steepness;
   if (farthest >= -near) return false;
   if (nearest > near) shadow_.push_back({side * shade.a, side * shade.b, near, border});
-  Vec3 from = shade.corners.back() - point_;
-  for (const Vec3& corner : shade.corners) {
+  const std::vector<Vec3>& corners = shade.blocker->corners;
+  Vec3 from = corners.back() - point_;
+  for (const Vec3& corner : corners) {
     const Vec3 to = corner - point_;
-    ++border;
-    if (!(side > 0 ? add_plane(from, to, border) : add_plane(to, from, border))) return false;
+    if (!add_plane(side * from.cross(to), ++border)) return false;
     from = to;
   }
   return true;
 }
 
-/// The same: the cone through the edges between sides that the point sees and those that it does
-/// not.
-bool FewBlockers::make_shadow(const Solid& solid, std::uint32_t border) {
-  is_front_.clear();
-  for (std::size_t k = 0; k < solid.corners.size(); ++k) {
-    const Vec3 towards = point_ - solid.corners[k];
-    is_front_.push_back(solid.normals[k].dot(towards) > edge_on * length_about(towards));
-  }
-  for (const auto& [ends, sides] : solid.body->edges) {
-    ++border;
-    const bool left = is_front_[at(sides[0])], right = is_front_[at(sides[1])];
-    if (left == right) continue;
-    if (!add_plane(solid.vertices[at(ends[left ? 0 : 1])] - point_,
-                   solid.vertices[at(ends[left ? 1 : 0])] - point_, border))
-      return false;
-  }
+/// The same: the cone through the silhouette.
+bool FewBlockers::make_shadow(const Silhouette& silhouette, std::uint32_t border) {
+  for (const Silhouette::Edge& edge : silhouette.edges)
+    if (!add_plane(edge.normal, border + edge.index + 1)) return false;
   return !shadow_.empty();
 }
 
 double FewBlockers::sum_over(const Corner* first, const Corner* last) const {
-  FlatSum sum(point_, normal_);
+  FlatSum sum(in_frame_, normal_);
   sum.start((last - 1)->at);
   for (; first != last; ++first) sum.add(first->at);
   return sum.form_factor();
@@ -183,6 +163,7 @@ double FewBlockers::sum_over(const Corner* first, const Corner* last) const {
 
 void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
   factor.hidden += sum_over(part.data(), part.data() + part.size());
+  if (!needs_signature_) return;
   std::uint32_t before = part[part.size() - 2].border, from = part.back().border;
   for (const Corner& to : part) {
     factor.signature +=
@@ -192,61 +173,78 @@ void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
   }
 }
 
+/// Of a convex part: what lies beyond the plane is appended to `corners_` as a part of its own; the
+/// rest stays.
+void FewBlockers::split(const HalfPlane& plane) {
+  const std::size_t count = rest_.size(), start = corners_.size();
+  inside_.resize(count + 2);
+  corners_.resize(start + count + 2);
+  Corner* in = inside_.data();
+  Corner* out = corners_.data() + start;
+  const Corner* from = &rest_.back();
+  double at_from = heights_[count - 1];
+  for (std::size_t k = 0; k < count; ++k) {
+    const Corner& to = rest_[k];
+    const double at_to = heights_[k];
+    if (at_from <= 0) *in++ = *from;
+    if (at_from >= 0) *out++ = *from;
+    // Where the border passes over the line, the line takes it up.
+    if ((at_from < 0 && at_to > 0) || (at_from > 0 && at_to < 0)) {
+      const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
+      const bool leaves = at_to > 0;
+      *in++ = {crossing, leaves ? plane.border : from->border};
+      *out++ = {crossing, leaves ? from->border : plane.border};
+    } else if (at_from == 0) {
+      if (at_to > 0) in[-1].border = plane.border;
+      if (at_to < 0) out[-1].border = plane.border;
+    }
+    from = &to;
+    at_from = at_to;
+  }
+  inside_.resize(static_cast<std::size_t>(in - inside_.data()));
+  const auto end = static_cast<std::size_t>(out - corners_.data());
+  if (end > start + 2) {
+    corners_.resize(end);
+    parts_.push_back({start, end});
+  } else
+    corners_.resize(start);
+  rest_.swap(inside_);
+}
+
+/// Heights of a part's corners over a plane.
+FewBlockers::Heights FewBlockers::heights_over(const HalfPlane& plane, const Corner* corners,
+                                               std::size_t count) {
+  Heights range{HUGE_VAL, -HUGE_VAL};
+  heights_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    heights_[k] = plane.height(corners[k].at);
+    range.least = std::min(range.least, heights_[k]);
+    range.most = std::max(range.most, heights_[k]);
+  }
+  return range;
+}
+
 /// Of one part: what lies outside of the shadow is added to the parts, what is left is hidden.
 /// False if all lies outside.
 bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
-  const auto is_off = [&](const HalfPlane& plane) {
-    for (std::size_t k = part.first; k < part.last; ++k)
-      if (plane.height(corners_[k].at) < 0) return false;
-    return true;
-  };
-  if (std::any_of(shadow_.begin(), shadow_.end(), is_off)) return false;
+  const std::size_t count = part.last - part.first;
+  crossing_.clear();
+  for (const HalfPlane& plane : shadow_) {
+    const Heights range = heights_over(plane, corners_.data() + part.first, count);
+    if (range.least >= 0) return false;
+    if (range.most > 0) crossing_.push_back(&plane);
+  }
   const std::size_t corners_before = corners_.size(), parts_before = parts_.size();
   rest_.assign(corners_.data() + part.first, corners_.data() + part.last);
-  for (const HalfPlane& plane : shadow_) {
-    heights_.clear();
-    double least = HUGE_VAL, most = -HUGE_VAL;
-    for (const Corner& corner : rest_) {
-      heights_.push_back(plane.height(corner.at));
-      least = std::min(least, heights_.back());
-      most = std::max(most, heights_.back());
-    }
-    if (most <= 0) continue;
-    if (least >= 0) {
+  for (const HalfPlane* plane : crossing_) {
+    const Heights range = heights_over(*plane, rest_.data(), rest_.size());
+    if (range.most <= 0) continue;
+    if (range.least >= 0) {
       corners_.resize(corners_before);
       parts_.resize(parts_before);
       return false;
     }
-    inside_.clear();
-    const std::size_t start = corners_.size();
-    const Corner* from = &rest_.back();
-    double at_from = heights_.back();
-    for (std::size_t k = 0; k < rest_.size(); ++k) {
-      const Corner& to = rest_[k];
-      const double at_to = heights_[k];
-      if (at_from <= 0) inside_.push_back(*from);
-      if (at_from >= 0) corners_.push_back(*from);
-      // Where the border passes over the line, the line takes it up.
-      if (at_from < 0 && at_to > 0) {
-        const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-        inside_.push_back({crossing, plane.border});
-        corners_.push_back({crossing, from->border});
-      } else if (at_from > 0 && at_to < 0) {
-        const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-        corners_.push_back({crossing, plane.border});
-        inside_.push_back({crossing, from->border});
-      } else if (at_from == 0) {
-        if (at_to > 0) inside_.back().border = plane.border;
-        if (at_to < 0) corners_.back().border = plane.border;
-      }
-      from = &to;
-      at_from = at_to;
-    }
-    if (corners_.size() > start + 2)
-      parts_.push_back({start, corners_.size()});
-    else
-      corners_.resize(start);
-    rest_.swap(inside_);
+    split(*plane);
   }
   if (rest_.size() > 2) add_hidden(rest_, factor);
   return true;
@@ -275,9 +273,15 @@ double FewBlockers::sum_over_parts() const {
   return sum;
 }
 
+void FewBlockers::stand_at(const Vec3& point) {
+  point_ = point;
+  from_frame_ = point - target_.frame.origin;
+  in_frame_ = turned(target_.frame, from_frame_);
+}
+
 void FewBlockers::look_from(const Vec3& point) {
-  point_ = in_frame(point);
-  towards_ = target_ball_.centre - point_;
+  stand_at(point);
+  towards_ = target_ball_.centre - point;
   const double distance = towards_.norm();
   const double sine = target_ball_.radius / distance;
   tangent_ = HUGE_VAL;
@@ -287,13 +291,42 @@ void FewBlockers::look_from(const Vec3& point) {
   towards_ /= distance;
 }
 
-/// Whether it lies outside of the cone from the point to the target's ball.
-bool FewBlockers::is_beside(const Ball& ball) const {
+/// Whether a ball lies outside of the cone from the point to the target's ball.
+bool FewBlockers::is_beside(const Vec3& centre, double radius) const {
   if (tangent_ == HUGE_VAL) return false;
-  const Vec3 to = ball.centre - point_;
+  const Vec3 to = centre - point_;
   const double along = towards_.dot(to);
-  const double reach = along * tangent_ + ball.radius * secant_ * slightly_more;
+  const double reach = along * tangent_ + radius * secant_ * slightly_more;
   return reach < 0 || to.squaredNorm() - along * along > reach * reach;
+}
+
+/// Leaves the parts that are seen. False if there are too many.
+template <class SilhouetteOf>
+bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) {
+  const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
+  std::uint32_t border = 0;
+  for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
+    const Solid& solid = solids_[k];
+    border += borders_of_shade;
+    if (is_beside(solid.shape->centre, solid.shape->radius)) continue;
+    shadow_.clear();
+    if (make_shadow(silhouette_of(solid), border)) cut_off_shadow(factor);
+  }
+  // Fronts first: what backs of closed things hide is hidden then.
+  for (const double side : {1., -1.})
+    for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
+      const Shade& shade = shades_[k];
+      const Vec3 towards = point_ - shade.blocker->corners.front();
+      const double height = shade.blocker->normal.dot(towards);
+      if (!(height * side > edge_on * length_about(towards)) ||
+          is_beside(shade.ball.centre, shade.ball.radius))
+        continue;
+      const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
+      shadow_.clear();
+      if (make_shadow(shade, height, number * borders_of_shade)) cut_off_shadow(factor);
+    }
+  factor.is_dark = parts_.empty();
+  return parts_.size() <= most_parts;
 }
 
 bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
@@ -306,27 +339,12 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
     factor.unobstructed = 0;
     return true;
   }
-  const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
-  std::uint32_t border = 0;
-  for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
-    border += borders_of_shade;
-    if (is_beside(solids_[k].ball)) continue;
-    shadow_.clear();
-    if (make_shadow(solids_[k], border)) cut_off_shadow(factor);
-  }
-  // Fronts first: what backs of closed things hide is hidden then.
-  for (const double side : {1., -1.})
-    for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
-      const Shade& shade = shades_[k];
-      const Vec3 towards = point_ - shade.corners.front();
-      const double height = shade.normal.dot(towards);
-      if (!(height * side > edge_on * length_about(towards)) || is_beside(shade.ball)) continue;
-      const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
-      shadow_.clear();
-      if (make_shadow(shade, height, number * borders_of_shade)) cut_off_shadow(factor);
-    }
-  if (parts_.size() > most_parts) return false;
-  factor.is_dark = parts_.empty();
+  const auto silhouette_of = [&](const Solid& solid) -> const Silhouette& {
+    find_silhouette(*solid.shape, point, silhouette_);
+    return silhouette_;
+  };
+  needs_signature_ = true;
+  if (!cut_off_all(silhouette_of, factor)) return false;
   if (factor.is_dark) {
     factor.signature = dark_signature;
     factor.hidden = factor.unobstructed;
@@ -337,35 +355,51 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   return true;
 }
 
+bool FewBlockers::hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor) {
+  factor = {};
+  if (!(target_.frame.height(silhouettes.point()) > 0) || target_parts_.empty()) return true;
+  look_from(silhouettes.point());
+  take_all();
+  needs_signature_ = false;
+  if (!cut_off_all(
+          [&](const Solid& solid) -> const Silhouette& { return silhouettes.of(solid.body); },
+          factor))
+    return false;
+  factor.hidden = std::max(factor.hidden, 0.);
+  return true;
+}
+
 double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
-  std::array<Vec3, 3> corners;
-  for (std::size_t k = 0; k < 3; ++k) corners[k] = in_frame(cell[k]);
   take_all();
   HiddenFactor unused;
   // What lies in the shadows from all three corners.
   const auto cut_off_common = [&](auto make) {
     if (parts_.empty() || parts_.size() > most_parts) return;
     shadow_.clear();
-    for (const Vec3& corner : corners) {
-      point_ = corner;
+    for (const Vec3& corner : cell) {
+      stand_at(corner);
       if (!make()) return;
     }
     cut_off_shadow(unused);
   };
-  for (const Solid& solid : solids_) cut_off_common([&] { return make_shadow(solid, 0); });
+  for (const Solid& solid : solids_)
+    cut_off_common([&] {
+      find_silhouette(*solid.shape, point_, silhouette_);
+      return make_shadow(silhouette_, 0);
+    });
   for (const Shade& shade : shades_) {
     double side = 0;  // the same for all corners, or nothing is sure
     cut_off_common([&] {
-      const Vec3 towards = point_ - shade.corners.front();
-      const double height = shade.normal.dot(towards);
+      const Vec3 towards = point_ - shade.blocker->corners.front();
+      const double height = shade.blocker->normal.dot(towards);
       if (side == 0) side = height;
       return height * side > 0 && std::abs(height) > edge_on * length_about(towards) &&
              make_shadow(shade, height, 0);
     });
   }
   double most = 0;
-  for (const Vec3& corner : corners) {
-    point_ = corner;
+  for (const Vec3& corner : cell) {
+    stand_at(corner);
     most = std::max(most, sum_over_parts());
   }
   return most;

@@ -19,6 +19,34 @@ struct HiddenFactor {
   double visible() const { return is_dark ? 0 : unobstructed - hidden; }
 };
 
+/// Silhouettes of bodies from one point, each found when it is asked for.
+class Silhouettes {
+ public:
+  /// `scene` must outlive it.
+  explicit Silhouettes(const SightScene& scene)
+      : scene_(scene), known_(scene.bodies.size()), stand_(scene.bodies.size(), 0) {}
+
+  void move_to(const Vec3& point) {
+    point_ = point;
+    ++now_;
+  }
+  const Vec3& point() const { return point_; }
+  const Silhouette& of(int body) {
+    if (stand_[at(body)] != now_) {
+      find_silhouette(scene_.bodies[at(body)], point_, known_[at(body)]);
+      stand_[at(body)] = now_;
+    }
+    return known_[at(body)];
+  }
+
+ private:
+  const SightScene& scene_;
+  std::vector<Silhouette> known_;
+  std::vector<std::uint64_t> stand_;  ///< where each was found, as a number; 0: nowhere
+  std::uint64_t now_ = 0;
+  Vec3 point_ = Vec3::Zero();
+};
+
 /// Form factors from points of one surface to what is hidden of another, where only few convex
 /// polygons come between: shadows are cut off the target one after the other, in the target's
 /// plane, and what is cut off is summed. Ten times and more as quick as the search for silhouettes,
@@ -26,14 +54,22 @@ struct HiddenFactor {
 class FewBlockers {
  public:
   /// Nothing is applicable if there is too much in between. `scene` must outlive it.
-  FewBlockers(const SightScene& scene, int a, int b);
+  FewBlockers(const SightScene& scene, int a, int b) : FewBlockers(scene, a, b, {}) {}
+  /// With all `blockers` that reach into the hull of the two, which are convex; none: unknown.
+  FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers);
 
   bool is_applicable() const { return is_applicable_; }
+  /// Width of the narrowest thing in between, or radius of the target: what the hidden part may
+  /// vary over, scene units.
+  double narrowest() const;
   /// Whether all that is in between are closed convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
 
   /// From a point of `a`. False if shadows cut the target into too many parts.
   bool factor(const Vec3& point, HiddenFactor& factor);
+
+  /// Only `hidden` and `is_dark` of it, with silhouettes that others use, too: quicker.
+  bool hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor);
 
   /// At most what some point of a triangle of `a` sees of the target, as a form factor: 0 only if
   /// surely nothing. What a convex thing hides from all corners it hides from all between them.
@@ -61,38 +97,41 @@ class FewBlockers {
       return std::abs(h) < near ? 0 : h;
     }
   };
+  struct Heights {
+    double least, most;
+  };
   struct Ball {
     Vec3 centre;
     double radius;
   };
-  /// A convex polygon in between, in the target's frame.
+  /// A convex polygon in between.
   struct Shade {
     Ball ball;
-    std::vector<Vec3> corners;
-    Vec3 normal;
-    Vec2 a;
+    const Blocker* blocker;
+    Vec2 a;  ///< with b and what follows: its plane in the target's
     double b, steepness;
     double least, most;  ///< heights of the target above its plane
   };
-  /// A convex solid before the target, in its frame.
+  /// A convex solid before the target.
   struct Solid {
-    Ball ball;
-    const ConvexBody* body;
-    std::vector<Vec3> vertices, corners, normals;  ///< the last two of its sides
+    int body;
+    const ConvexBody* shape;
   };
 
   void add(const Blocker& blocker);
-  void add(const ConvexBody& body);
-  Vec3 in_frame(const Vec3& point) const;
-  Vec3 turned(const Vec3& direction) const;
   bool make_shadow(const Shade& shade, double height, std::uint32_t border);
-  bool make_shadow(const Solid& solid, std::uint32_t border);
-  bool add_plane(const Vec3& from, const Vec3& to, std::uint32_t border);
+  bool make_shadow(const Silhouette& silhouette, std::uint32_t border);
+  bool add_plane(const Vec3& normal, std::uint32_t border);
+  void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
-  bool is_beside(const Ball& ball) const;
+  bool is_beside(const Vec3& centre, double radius) const;
   void take_all();
+  template <class SilhouetteOf>
+  bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);
   void cut_off_shadow(HiddenFactor& factor);
   bool cut_off_shadow(const Range& part, HiddenFactor& factor);
+  Heights heights_over(const HalfPlane& plane, const Corner* corners, std::size_t count);
+  void split(const HalfPlane& plane);
   void add_hidden(const Part& part, HiddenFactor& factor) const;
   double sum_over(const Corner* first, const Corner* last) const;
   double sum_over_parts() const;
@@ -104,14 +143,19 @@ class FewBlockers {
   Part target_corners_;
   std::vector<Range> target_parts_;
   Ball target_ball_;
+  Vec2 centre_in_plane_;
   std::vector<Solid> solids_;
   std::vector<Shade> shades_;
   // From one point:
-  Vec3 point_;    ///< in the target's frame
-  Vec3 towards_;  ///< the target's ball, unit length; with the angle that it is seen at:
+  Vec3 point_;       ///< it,
+  Vec3 from_frame_;  ///< from the origin of the target's frame,
+  Vec3 in_frame_;    ///< and in the frame
+  Vec3 towards_;     ///< the target's ball, unit length; with the angle that it is seen at:
   double tangent_ = 0, secant_ = 0;
-  std::vector<bool> is_front_;
-  std::vector<HalfPlane> shadow_;  ///< of one shade
+  bool needs_signature_ = true;
+  Silhouette silhouette_;
+  std::vector<HalfPlane> shadow_;           ///< of one shade
+  std::vector<const HalfPlane*> crossing_;  ///< of its sides, those that cross a part
   std::vector<double> heights_;
   Part corners_, inside_, rest_;
   std::vector<Range> parts_;

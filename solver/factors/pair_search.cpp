@@ -109,12 +109,12 @@ class PairSearch {
     const int a = parts(m).front(), b = parts(n).front();
     const bool is_pair = group(m).low < 0 && group(n).low < 0;
     if (!share_a_cell(group(m), group(n))) return;
-    Between own;
+    Between own;  // stays empty where more than two convex polygons are looked at
     const Sight sight = is_pair && (!known || !is_convex(a) || !is_convex(b))
                             ? sight_between(scene_, a, b)
                             : sight_between_convex(scene_, shape(m), a, shape(n), b, known, own);
     if (sight == Sight::none) return;
-    if (is_pair || sight == Sight::clear) return add(m, n, sight, found);
+    if (is_pair || sight == Sight::clear) return add(m, n, sight, own, found);
     const bool cuts_first = group(n).low < 0 || (group(m).low >= 0 && size(m) >= size(n));
     const int low = group(cuts_first ? m : n).low;
     for (const int half : {low, low + 1})
@@ -141,13 +141,18 @@ class PairSearch {
     return (r[2] - r[0]).squaredNorm();
   }
 
-  void add(const Node& m, const Node& n, Sight sight, std::vector<Found>& found) const {
+  void add(const Node& m, const Node& n, Sight sight, const Between& between,
+           std::vector<Found>& found) const {
+    std::vector<int> blockers;
+    for (const int t : between) blockers.push_back(scene_.blocker_of[at(t)]);
+    std::sort(blockers.begin(), blockers.end());
+    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
     for (const int a : parts(m))
       for (const int b : parts(n)) {
         const bool has_a = rows_.row[at(a)] >= 0, has_b = rows_.row[at(b)] >= 0;
         if (!(has_a || has_b) || !may_see(scene_, a, b)) continue;
         const bool is_first = has_a && (a < b || !has_b);
-        found.push_back({is_first ? a : b, {is_first ? b : a, sight}});
+        found.push_back({is_first ? a : b, {is_first ? b : a, sight, blockers}});
       }
   }
 
@@ -167,7 +172,7 @@ std::vector<std::vector<SightPair>> find_pairs(const FactorScene& scene, const S
       "what surfaces see of each other");
   std::vector<std::vector<SightPair>> pairs(sight.surfaces.size());
   for (auto& some : found) {
-    for (const auto& [a, pair] : some) pairs[at(a)].push_back(pair);
+    for (auto& [a, pair] : some) pairs[at(a)].push_back(std::move(pair));
     some = {};
   }
   for (auto& some : pairs)

@@ -9,7 +9,9 @@ namespace halfshade {
 
 struct SightPair {
   int other;
-  Sight sight;  ///< never none
+  Sight sight;                ///< never none
+  std::vector<int> blockers;  ///< of convex pairs that are partial: all SightScene::blockers
+                              ///< that reach into their hull; rising
 };
 
 /// For each surface with a row, those it may see: others with rows only once, by the lower of the

@@ -77,6 +77,17 @@ VisibilityIndex index_of(TriangleSoup soup) {
 /// What corners may be off a plane, of their largest coordinate.
 constexpr double off_plane = 1e-13;
 
+double width_of(const Polygon3& convex) {
+  double width = HUGE_VAL;
+  for (std::size_t k = 0; k < convex.size(); ++k) {
+    const Vec3 along = (convex[(k + 1) % convex.size()] - convex[k]).normalized();
+    double farthest = 0;
+    for (const Vec3& p : convex) farthest = std::max(farthest, along.cross(p - convex[k]).norm());
+    width = std::min(width, farthest);
+  }
+  return width;
+}
+
 /// A joined surface, or each of its triangles where it is not convex.
 void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
                   const std::vector<int>& body_of, SightScene& scene) {
@@ -86,13 +97,16 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
     const Surface& surface = joined.surfaces[at(owner[t])];
     int& known = whole[at(owner[t])];
     if (known < 0) {
-      Blocker blocker{
-          {}, surface.frame.normal, off_plane * surface.scale.magnitude, body_of[at(owner[t])]};
+      Blocker blocker;
+      blocker.normal = surface.frame.normal;
+      blocker.rounding = off_plane * surface.scale.magnitude;
+      blocker.body = body_of[at(owner[t])];
       if (is_convex(surface))
         for (const Vec2& p : surface.rings.front())
           blocker.corners.push_back(surface.frame.to_space(p));
       else
         for (const int k : soup.triangles[t]) blocker.corners.push_back(soup.points[at(k)]);
+      blocker.width = width_of(blocker.corners);
       scene.blockers.push_back(std::move(blocker));
       if (is_convex(surface)) known = static_cast<int>(scene.blockers.size()) - 1;
     }
@@ -218,6 +232,13 @@ std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3
     return plane == p || plane == q;
   });
   return triangles;
+}
+
+bool in_all_cells_of(const SightScene& scene, int a, int b) {
+  const std::vector<int>& others = scene.surfaces[at(b)].cells;
+  return std::all_of(
+      scene.surfaces[at(a)].cells.begin(), scene.surfaces[at(a)].cells.end(),
+      [&](int cell) { return std::find(others.begin(), others.end(), cell) != others.end(); });
 }
 
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {

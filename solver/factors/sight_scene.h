@@ -46,6 +46,7 @@ struct Blocker {
   Polygon3 corners;
   Vec3 normal;          ///< unit length
   double rounding = 0;  ///< of heights above its plane
+  double width = 0;     ///< least distance from a side to the farthest corner
   int body = -1;        ///< that it is a side of; −1: none
 };
 
@@ -89,6 +90,9 @@ Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, 
 /// a convex part of surface `b`, both before the plane of the other. Sorted.
 std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
                                    std::span<const Vec3> other, int b);
+
+/// Whether light from `b` may reach all triangles of surface `a`, as cells of space go.
+bool in_all_cells_of(const SightScene& scene, int a, int b);
 
 /// The parts of surface `a` that light from `b` may reach: triangles before the plane of `b`, and
 /// in a cell of space that `b` is in. `is_all` tells whether none is left out because of its cell.

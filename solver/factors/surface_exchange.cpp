@@ -1,6 +1,7 @@
 #include "solver/factors/surface_exchange.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/factors/lattice_sight.h"
 #include "solver/factors/pair_search.h"
 
 #include <algorithm>
@@ -70,8 +71,9 @@ struct HardPair {
 };
 
 HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place) {
-  // From the smaller one the larger looks more alike.
-  const bool is_swapped = sight.surfaces[at(high)].area < sight.surfaces[at(low)].area;
+  // From the smaller one the larger looks more alike. Rounding does not decide.
+  constexpr double clearly = 1 - 1e-9;
+  const bool is_swapped = sight.surfaces[at(high)].area < clearly * sight.surfaces[at(low)].area;
   return {low, high, place, is_swapped ? high : low, is_swapped ? low : high};
 }
 
@@ -131,28 +133,59 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
       if (pairs[a][k].sight == Sight::partial)
         hard.push_back(hard_pair(sight, static_cast<int>(a), pairs[a][k].other, k));
   }
-  // Half for pairs that are clear, and half for those that are not.
-  const double half = 0.5 * options.tolerance;
+  // Most of it for pairs that are not clear: the others take little.
+  const double for_clear = 0.1 * options.tolerance, for_partial = 0.9 * options.tolerance;
   const auto see_clear = [&](std::size_t a) {
     for (std::size_t k = 0; k < pairs[a].size(); ++k)
       if (pairs[a][k].sight == Sight::clear)
         found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
-                                  {half, 0, options.max_points});
+                                  {for_clear, 0, options.max_points});
+  };
+  const auto tolerance_of = [&](const HardPair& pair) {
+    const int row = scene.row[at(pair.low)], other = scene.row[at(pair.high)];
+    return SightTolerance{for_partial, shares.share(row, other, for_partial), options.max_points};
+  };
+  // By lattices, from either side, as far as these will do; then by cells.
+  const auto see_by_lattices = [&](bool looks_back) {
+    std::vector<std::vector<std::size_t>> from(sight.surfaces.size());
+    for (std::size_t h = 0; h < hard.size(); ++h)
+      from[at(looks_back ? hard[h].other : hard[h].own)].push_back(h);
+    std::vector<char> is_found(hard.size(), 0);
+    const auto see = [&](std::size_t s) {
+      std::vector<LatticePair> some;
+      for (const std::size_t h : from[s])
+        some.push_back({looks_back ? hard[h].own : hard[h].other, tolerance_of(hard[h]),
+                        pairs[at(hard[h].low)][hard[h].place].blockers});
+      const auto seen = lattice_sight(sight, static_cast<int>(s), some);
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        const HardPair& pair = hard[from[s][k]];
+        if (!seen[k]) continue;
+        found[at(pair.low)][pair.place] = *seen[k];
+        is_found[from[s][k]] = 1;
+      }
+    };
+    const bool is_done = parallel_for(from.size(), see, progress, "hidden form factors");
+    std::size_t left = 0;
+    for (std::size_t h = 0; h < hard.size(); ++h)
+      if (!is_found[h]) hard[left++] = hard[h];
+    hard.resize(left);
+    return is_done;
   };
   const auto see_partial = [&](const HardPair& pair, PointLooks& looks) {
-    const double share = shares.share(scene.row[at(pair.low)], scene.row[at(pair.high)], half);
-    found[at(pair.low)][pair.place] = partial_sight(
-        sight, looks, pair.own, pair.other, {half, share, options.max_points}, progress.stop);
+    found[at(pair.low)][pair.place] =
+        partial_sight(sight, looks, pair.own, pair.other, tolerance_of(pair), progress.stop);
   };
+  RowExchange exchange(scene.rows());
+  exchange.report.is_complete = parallel_for(pairs.size(), see_clear, progress, "form factors") &&
+                                see_by_lattices(false) && see_by_lattices(true);
   const std::vector<std::size_t> ends = sort_into_tasks(sight, hard);
   const auto see_task = [&](std::size_t task) {
     PointLooks looks(sight);
     for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
       see_partial(hard[h], looks);
   };
-  RowExchange exchange(scene.rows());
   exchange.report.is_complete =
-      parallel_for(pairs.size(), see_clear, progress, "form factors") &&
+      exchange.report.is_complete &&
       parallel_for(ends.size(), see_task, progress, "hidden form factors") && !progress.stopped();
   for (std::size_t a = 0; a < pairs.size(); ++a)
     for (std::size_t k = 0; k < found[a].size(); ++k)

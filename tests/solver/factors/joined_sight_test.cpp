@@ -2,6 +2,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/few_blockers.h"
 #include "solver/factors/joined_scene.h"
+#include "solver/factors/lattice_sight.h"
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/pair_search.h"
 #include "solver/factors/point_looks.h"
@@ -226,6 +227,55 @@ TEST(JoinedSight, BytesOfTilesDoNotDependOnThreads) {
   const FactorMatrix one = matrix_of(tiled_room(), 1e-2);
   EXPECT_EQ(one.factors, two.factors);
   EXPECT_TRUE((one.error == two.error).all());
+}
+
+/// By lattices as by cells that are far more exact, within what they say; and all pairs of a
+/// surface at once are what each of them is alone.
+TEST(JoinedSight, LatticesAgreeWithCells) {
+  const Sights room(tiled_room());
+  const SightTolerance tolerance{1e-3, 2e-4 * .04, 300000};
+  const auto all = find_pairs(room.scene, room.sight, {});
+  int found = 0, partial = 0, checked = 0, beyond = 0;
+  for (int a = 0; a < room.count(); ++a) {
+    std::vector<LatticePair> pairs;
+    for (const SightPair& pair : all[at(a)])
+      if (pair.sight == Sight::partial) pairs.push_back({pair.other, tolerance, pair.blockers});
+    const auto seen = lattice_sight(room.sight, a, pairs);
+    ASSERT_EQ(seen.size(), pairs.size());
+    for (std::size_t k = 0; k < seen.size(); ++k, ++partial) {
+      if (!seen[k]) continue;
+      ++found;
+      EXPECT_LE(seen[k]->error, tolerance.absolute + tolerance.relative * seen[k]->value);
+      if (found % 12 != 0) continue;
+      const auto alone = lattice_sight(room.sight, a, {&pairs[k], 1});
+      ASSERT_TRUE(alone.front());
+      EXPECT_EQ(alone.front()->value, seen[k]->value);
+      pairs[k].blockers = {};
+      const auto searched = lattice_sight(room.sight, a, {&pairs[k], 1});
+      ASSERT_TRUE(searched.front());
+      EXPECT_NEAR(searched.front()->value, seen[k]->value, 1e-14);
+      const MutualSight exact = partial_sight(room.sight, a, pairs[k].other, {1e-6, 1e-7, 300000});
+      const double off = std::abs(seen[k]->value - exact.value) - exact.error;
+      ++checked;
+      beyond += off > seen[k]->error;
+      EXPECT_LT(off, 3 * seen[k]->error);
+    }
+  }
+  EXPECT_GT(found, partial / 2);
+  EXPECT_GT(checked, 50);
+  EXPECT_LE(beyond, checked / 50);
+}
+
+/// Where nothing or everything is hidden from all points, a lattice says nothing.
+TEST(JoinedSight, LatticesDoNotSayWhatTheyDidNotSee) {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  add_tiles(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, 1);
+  add_tiles(scene, {0, 0, 2}, {0, 2, 0}, {2, 0, 0}, 1);
+  add_box(scene, {.501, .503, .001}, {.004, .004, .004}, 1, true);
+  const Sights small(scene);
+  const std::array<LatticePair, 1> pair = {LatticePair{1, {1e-3, 1e-3, 300000}}};
+  EXPECT_FALSE(lattice_sight(small.sight, 0, pair).front());
 }
 
 /// A wall in tiles exchanges in sum what it does in one piece, behind the same things.

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "meshing/core/types.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace halfshade {
+
+/// Points of the unit square for the cubature of functions with kinks. A Fibonacci lattice, folded
+/// at the middle of both sides so that what is not periodic is as good as what is: errors shrink
+/// like N^-2 for smooth functions, and along kinks that are parallel to a side, too (Hickernell
+/// 2002).
+struct SquareLattice {
+  /// A place to look at, and the linear extrapolation to it from lattice points nearest to it: what
+  /// a function is off by there tells how far it is from linear between the points.
+  struct Watch {
+    static constexpr std::size_t count = 6;
+    std::array<int, count> near;
+    std::array<double, count> weight;
+  };
+  std::vector<Vec2> places;
+  std::vector<Watch> inner;      ///< of each place, from the others
+  std::array<Watch, 4> corners;  ///< (0, 0), (1, 0), (1, 1), (0, 1), a little inside
+
+  static constexpr double inset = 1e-4;
+  Vec2 corner(std::size_t k) const {
+    const double low = inset, high = 1 - inset;
+    return {k == 1 || k == 2 ? high : low, k >= 2 ? high : low};
+  }
+};
+
+/// 21, 34, 55, ... points.
+std::span<const SquareLattice> square_lattices();
+
+}  // namespace halfshade

@@ -1,0 +1,82 @@
+#include "solver/factors/square_lattice.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace halfshade {
+namespace {
+
+using Function = std::function<double(const Vec2&)>;
+
+double mean(const SquareLattice& lattice, const Function& f) {
+  double sum = 0;
+  for (const Vec2& p : lattice.places) sum += f(p);
+  return sum / static_cast<double>(lattice.places.size());
+}
+
+double residual(const SquareLattice& lattice, const SquareLattice::Watch& watch, const Vec2& place,
+                const Function& f) {
+  double value = f(place);
+  for (std::size_t k = 0; k < SquareLattice::Watch::count; ++k)
+    value -= watch.weight[k] * f(lattice.places[at(watch.near[k])]);
+  return value;
+}
+
+TEST(SquareLattice, PointsLieInTheSquareAndApart) {
+  std::size_t before = 0;
+  for (const SquareLattice& lattice : square_lattices()) {
+    const std::size_t count = lattice.places.size();
+    EXPECT_GT(count, before);
+    before = count;
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_GE(lattice.places[i].minCoeff(), 0);
+      EXPECT_LE(lattice.places[i].maxCoeff(), 1);
+      for (std::size_t j = 0; j < i; ++j)
+        ASSERT_GT((lattice.places[i] - lattice.places[j]).norm(),
+                  0.05 / std::sqrt(static_cast<double>(count)));
+    }
+  }
+}
+
+TEST(SquareLattice, WhatIsLinearIsExpectedFromItsNeighbours) {
+  const Function f = [](const Vec2& p) { return 3 - 2 * p.x() + 5 * p.y(); };
+  for (const SquareLattice& lattice : square_lattices()) {
+    for (std::size_t k = 0; k < lattice.places.size(); ++k) {
+      EXPECT_NEAR(residual(lattice, lattice.inner[k], lattice.places[k], f), 0, 1e-12);
+      const auto& near = lattice.inner[k].near;
+      EXPECT_EQ(std::count(near.begin(), near.end(), static_cast<int>(k)), 0);
+    }
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(residual(lattice, lattice.corners[k], lattice.corner(k), f), 0, 1e-12);
+  }
+}
+
+/// Of a smooth function nearly like 1/N², of kinks, wherever they are, faster than 1/N.
+TEST(SquareLattice, MeansConvergeInSpiteOfKinks) {
+  const auto& coarse = square_lattices().front();
+  const auto& fine = square_lattices().back();
+  const double ratio =
+      static_cast<double>(fine.places.size()) / static_cast<double>(coarse.places.size());
+  const Function smooth = [](const Vec2& p) { return std::exp(p.x() - 2 * p.y()); };
+  const double expected = (std::exp(1) - 1) * (1 - std::exp(-2)) / 2;
+  EXPECT_LT(std::abs(mean(fine, smooth) - expected),
+            2 * std::pow(ratio, -1.75) * std::abs(mean(coarse, smooth) - expected));
+  double at_coarse = 0, at_fine = 0;
+  for (double c = 0.1; c < 1; c += 0.05) {
+    const Function kink = [&](const Vec2& p) { return std::max(0., p.x() - c); };
+    const Function slanted = [&](const Vec2& p) { return std::max(0., p.x() + p.y() - 2 * c); };
+    const double of_kink = (1 - c) * (1 - c) / 2;
+    const double d = 2 * c, of_slanted = d < 1 ? 1 - d + d * d * d / 6 : std::pow(2 - d, 3) / 6;
+    at_coarse +=
+        std::pow(mean(coarse, kink) - of_kink, 2) + std::pow(mean(coarse, slanted) - of_slanted, 2);
+    at_fine +=
+        std::pow(mean(fine, kink) - of_kink, 2) + std::pow(mean(fine, slanted) - of_slanted, 2);
+  }
+  EXPECT_LT(std::sqrt(at_fine), std::pow(ratio, -1.25) * std::sqrt(at_coarse));
+}
+
+}  // namespace
+}  // namespace halfshade

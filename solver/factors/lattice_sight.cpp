@@ -74,7 +74,8 @@ class PairOnLattices {
     const auto is_too_wide = [&](const SquareLattice& lattice) {
       return size / std::sqrt(static_cast<double>(lattice.places.size())) > few_.narrowest();
     };
-    while (goes_on_ && is_too_wide(lattices[level_])) goes_on_ = ++level_ < lattices.size();
+    while (goes_on_ && is_too_wide(lattices[level_])) go_on();
+    goes_on_ = goes_on_ && is_affordable();
   }
 
   bool goes_on() const { return goes_on_; }
@@ -123,11 +124,16 @@ class PairOnLattices {
     sum_ = square_ = 0;
     is_lit_ = is_dark_ = true;
     const double needed = count * std::pow(error / allowed, 1 / decay);
-    while (goes_on_ && static_cast<double>(lattices[level_].places.size()) < needed)
-      goes_on_ = ++level_ < lattices.size();
+    while (goes_on_ && static_cast<double>(lattices[level_].places.size()) < needed) go_on();
+    goes_on_ = goes_on_ && is_affordable();
   }
 
  private:
+  void go_on() { goes_on_ = ++level_ < square_lattices().size(); }
+  bool is_affordable() const {
+    return square_lattices()[level_].places.size() <= at(hidden_allowed_.max_points);
+  }
+
   FewBlockers few_;
   SightTolerance hidden_allowed_;
   MutualSight whole_, sight_;

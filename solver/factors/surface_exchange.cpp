@@ -99,6 +99,103 @@ std::vector<std::size_t> sort_into_tasks(const SightScene& sight, std::vector<Ha
   return ends;
 }
 
+/// What pairs of a scene see of each other, one way after the other.
+class ExactPairs {
+ public:
+  ExactPairs(const FactorScene& scene, const SightScene& sight, const FactorOptions& options,
+             const Progress& progress)
+      : scene_(scene),
+        sight_(sight),
+        // Most of it for pairs that are not clear: the others take little.
+        for_clear_{0.1 * options.tolerance, 0, options.max_points},
+        for_partial_{0.9 * options.tolerance, 0, options.max_points},
+        progress_(progress),
+        pairs_(find_pairs(scene, sight, progress)),
+        shares_(scene, pairs_),
+        found_(pairs_.size()) {
+    for (std::size_t a = 0; a < pairs_.size(); ++a) {
+      found_[a].resize(pairs_[a].size());
+      for (std::size_t k = 0; k < pairs_[a].size(); ++k)
+        if (pairs_[a][k].sight == Sight::partial)
+          hard_.push_back(hard_pair(sight, static_cast<int>(a), pairs_[a][k].other, k));
+    }
+  }
+
+  /// These return false if stopped.
+  bool see_clear() {
+    const auto see = [&](std::size_t a) {
+      for (std::size_t k = 0; k < pairs_[a].size(); ++k)
+        if (pairs_[a][k].sight == Sight::clear)
+          found_[a][k] = clear_sight(sight_, static_cast<int>(a), pairs_[a][k].other, for_clear_);
+    };
+    return parallel_for(pairs_.size(), see, progress_, "form factors");
+  }
+
+  /// Partial pairs that lattices of points are enough for, on the surface of each pair that is
+  /// looked from first, or on the other one; those are done then.
+  bool see_by_lattices(bool looks_back) {
+    std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
+    for (std::size_t h = 0; h < hard_.size(); ++h)
+      from[at(looks_back ? hard_[h].other : hard_[h].own)].push_back(h);
+    std::vector<char> is_done(hard_.size(), 0);
+    const auto see = [&](std::size_t s) {
+      std::vector<LatticePair> some;
+      for (const std::size_t h : from[s])
+        some.push_back({looks_back ? hard_[h].own : hard_[h].other, tolerance_of(hard_[h]),
+                        pairs_[at(hard_[h].low)][hard_[h].place].blockers});
+      const auto seen = lattice_sight(sight_, static_cast<int>(s), some);
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        if (!seen[k]) continue;
+        sight_of(hard_[from[s][k]]) = *seen[k];
+        is_done[from[s][k]] = 1;
+      }
+    };
+    const bool is_complete = parallel_for(from.size(), see, progress_, "hidden form factors");
+    std::size_t left = 0;
+    for (std::size_t h = 0; h < hard_.size(); ++h)
+      if (!is_done[h]) hard_[left++] = hard_[h];
+    hard_.resize(left);
+    return is_complete;
+  }
+
+  /// The other partial pairs.
+  bool see_by_cells() {
+    const std::vector<std::size_t> ends = sort_into_tasks(sight_, hard_);
+    const auto see = [&](std::size_t task) {
+      PointLooks looks(sight_);
+      for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
+        sight_of(hard_[h]) = partial_sight(sight_, looks, hard_[h].own, hard_[h].other,
+                                           tolerance_of(hard_[h]), progress_.stop);
+    };
+    return parallel_for(ends.size(), see, progress_, "hidden form factors") && !progress_.stopped();
+  }
+
+  void add_to(RowExchange& exchange) const {
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      for (std::size_t k = 0; k < found_[a].size(); ++k)
+        exchange.add(scene_.row[a], scene_.row[at(pairs_[a][k].other)], pairs_[a][k].sight,
+                     found_[a][k]);
+  }
+
+ private:
+  SightTolerance tolerance_of(const HardPair& pair) const {
+    const int row = scene_.row[at(pair.low)], other = scene_.row[at(pair.high)];
+    SightTolerance tolerance = for_partial_;
+    tolerance.absolute = shares_.share(row, other, tolerance.relative);
+    return tolerance;
+  }
+  MutualSight& sight_of(const HardPair& pair) { return found_[at(pair.low)][pair.place]; }
+
+  const FactorScene& scene_;
+  const SightScene& sight_;
+  SightTolerance for_clear_, for_partial_;
+  const Progress& progress_;
+  std::vector<std::vector<SightPair>> pairs_;
+  ErrorShares shares_;
+  std::vector<std::vector<MutualSight>> found_;  // of pairs_
+  std::vector<HardPair> hard_;                   // that are not found yet
+};
+
 }  // namespace
 
 void RowExchange::add(int row, int other, double value, double error) {
@@ -123,73 +220,11 @@ void RowExchange::add(int row, int other, Sight sight, const MutualSight& seen) 
 
 RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
                            const FactorOptions& options, const Progress& progress) {
-  const auto pairs = find_pairs(scene, sight, progress);
-  const ErrorShares shares(scene, pairs);
-  std::vector<std::vector<MutualSight>> found(pairs.size());
-  std::vector<HardPair> hard;
-  for (std::size_t a = 0; a < pairs.size(); ++a) {
-    found[a].resize(pairs[a].size());
-    for (std::size_t k = 0; k < pairs[a].size(); ++k)
-      if (pairs[a][k].sight == Sight::partial)
-        hard.push_back(hard_pair(sight, static_cast<int>(a), pairs[a][k].other, k));
-  }
-  // Most of it for pairs that are not clear: the others take little.
-  const double for_clear = 0.1 * options.tolerance, for_partial = 0.9 * options.tolerance;
-  const auto see_clear = [&](std::size_t a) {
-    for (std::size_t k = 0; k < pairs[a].size(); ++k)
-      if (pairs[a][k].sight == Sight::clear)
-        found[a][k] = clear_sight(sight, static_cast<int>(a), pairs[a][k].other,
-                                  {for_clear, 0, options.max_points});
-  };
-  const auto tolerance_of = [&](const HardPair& pair) {
-    const int row = scene.row[at(pair.low)], other = scene.row[at(pair.high)];
-    return SightTolerance{for_partial, shares.share(row, other, for_partial), options.max_points};
-  };
-  // By lattices, from either side, as far as these will do; then by cells.
-  const auto see_by_lattices = [&](bool looks_back) {
-    std::vector<std::vector<std::size_t>> from(sight.surfaces.size());
-    for (std::size_t h = 0; h < hard.size(); ++h)
-      from[at(looks_back ? hard[h].other : hard[h].own)].push_back(h);
-    std::vector<char> is_found(hard.size(), 0);
-    const auto see = [&](std::size_t s) {
-      std::vector<LatticePair> some;
-      for (const std::size_t h : from[s])
-        some.push_back({looks_back ? hard[h].own : hard[h].other, tolerance_of(hard[h]),
-                        pairs[at(hard[h].low)][hard[h].place].blockers});
-      const auto seen = lattice_sight(sight, static_cast<int>(s), some);
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        const HardPair& pair = hard[from[s][k]];
-        if (!seen[k]) continue;
-        found[at(pair.low)][pair.place] = *seen[k];
-        is_found[from[s][k]] = 1;
-      }
-    };
-    const bool is_done = parallel_for(from.size(), see, progress, "hidden form factors");
-    std::size_t left = 0;
-    for (std::size_t h = 0; h < hard.size(); ++h)
-      if (!is_found[h]) hard[left++] = hard[h];
-    hard.resize(left);
-    return is_done;
-  };
-  const auto see_partial = [&](const HardPair& pair, PointLooks& looks) {
-    found[at(pair.low)][pair.place] =
-        partial_sight(sight, looks, pair.own, pair.other, tolerance_of(pair), progress.stop);
-  };
+  ExactPairs pairs(scene, sight, options, progress);
   RowExchange exchange(scene.rows());
-  exchange.report.is_complete = parallel_for(pairs.size(), see_clear, progress, "form factors") &&
-                                see_by_lattices(false) && see_by_lattices(true);
-  const std::vector<std::size_t> ends = sort_into_tasks(sight, hard);
-  const auto see_task = [&](std::size_t task) {
-    PointLooks looks(sight);
-    for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
-      see_partial(hard[h], looks);
-  };
-  exchange.report.is_complete =
-      exchange.report.is_complete &&
-      parallel_for(ends.size(), see_task, progress, "hidden form factors") && !progress.stopped();
-  for (std::size_t a = 0; a < pairs.size(); ++a)
-    for (std::size_t k = 0; k < found[a].size(); ++k)
-      exchange.add(scene.row[a], scene.row[at(pairs[a][k].other)], pairs[a][k].sight, found[a][k]);
+  exchange.report.is_complete = pairs.see_clear() && pairs.see_by_lattices(false) &&
+                                pairs.see_by_lattices(true) && pairs.see_by_cells();
+  pairs.add_to(exchange);
   return exchange;
 }
 

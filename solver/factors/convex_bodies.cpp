@@ -102,11 +102,7 @@ class BodyFinder {
               {{vertices.at(from), vertices.at(to)}, {side_of.at(s), side_of.at(other.surface)}});
       }
     }
-    body.centre = Vec3::Zero();
-    for (const Vec3& p : body.vertices)
-      body.centre += p / static_cast<double>(body.vertices.size());
-    for (const Vec3& p : body.vertices)
-      body.radius = std::max(body.radius, (p - body.centre).norm());
+    body.ball = ball_round(body.vertices);
     body.width = HUGE_VAL;
     for (const ConvexBody::Side& side : body.sides) {
       double deepest = 0;
@@ -128,6 +124,13 @@ class BodyFinder {
 constexpr double edge_on_side = 1e-12;
 
 }  // namespace
+
+Ball ball_round(std::span<const Vec3> points) {
+  Ball ball;
+  for (const Vec3& p : points) ball.centre += p / static_cast<double>(points.size());
+  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.centre).norm());
+  return ball;
+}
 
 void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette) {
   silhouette.is_front.clear();

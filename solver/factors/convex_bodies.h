@@ -5,9 +5,18 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace halfshade {
+
+struct Ball {
+  Vec3 centre = Vec3::Zero();
+  double radius = 0;
+};
+
+/// Round the mean of some points.
+Ball ball_round(std::span<const Vec3> points);
 
 /// A convex solid, closed by convex polygons that look outwards.
 struct ConvexBody {
@@ -21,9 +30,8 @@ struct ConvexBody {
   std::vector<Vec3> vertices;
   std::vector<Side> sides;
   std::vector<Edge> edges;
-  Vec3 centre;        ///< of a ball round it
-  double radius = 0;  ///< scene units
-  double width = 0;   ///< least distance from a side to the farthest vertex
+  Ball ball;         ///< round it
+  double width = 0;  ///< least distance from a side to the farthest vertex, scene units
 };
 
 /// The edges of a body between sides that a point sees and sides that it does not.

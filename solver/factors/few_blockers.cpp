@@ -25,14 +25,6 @@ constexpr std::uint32_t borders_of_shade = 1024;
 double length_about(const Vec2& a) { return std::abs(a.x()) + std::abs(a.y()); }
 double length_about(const Vec3& a) { return std::abs(a.x()) + std::abs(a.y()) + std::abs(a.z()); }
 
-template <class Ball>
-Ball ball_round(const std::vector<Vec3>& points) {
-  Ball ball{Vec3::Zero(), 0};
-  for (const Vec3& p : points) ball.centre += p / static_cast<double>(points.size());
-  for (const Vec3& p : points) ball.radius = std::max(ball.radius, (p - ball.centre).norm());
-  return ball;
-}
-
 Vec3 turned(const PlaneFrame& frame, const Vec3& direction) {
   return {frame.e1.dot(direction), frame.e2.dot(direction), frame.normal.dot(direction)};
 }
@@ -66,7 +58,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
   }
   std::vector<Vec3> corners;
   for (const Corner& corner : target_corners_) corners.push_back(target_.frame.to_space(corner.at));
-  target_ball_ = ball_round<Ball>(corners);
+  target_ball_ = ball_round(corners);
   centre_in_plane_ = target_.frame.to_plane(target_ball_.centre);
   if (!is_known) {
     std::sort(blockers.begin(), blockers.end());
@@ -98,7 +90,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
 
 void FewBlockers::add(const Blocker& blocker) {
   const PlaneFrame& frame = target_.frame;
-  Shade shade{ball_round<Ball>(blocker.corners), &blocker, {}, 0, 0, HUGE_VAL, -HUGE_VAL};
+  Shade shade{&blocker, {}, 0, 0, HUGE_VAL, -HUGE_VAL};
   shade.a = {frame.e1.dot(blocker.normal), frame.e2.dot(blocker.normal)};
   shade.b = blocker.normal.dot(frame.origin - blocker.corners.front());
   shade.steepness = shade.a.norm();
@@ -292,11 +284,11 @@ void FewBlockers::look_from(const Vec3& point) {
 }
 
 /// Whether a ball lies outside of the cone from the point to the target's ball.
-bool FewBlockers::is_beside(const Vec3& centre, double radius) const {
+bool FewBlockers::is_beside(const Ball& ball) const {
   if (tangent_ == HUGE_VAL) return false;
-  const Vec3 to = centre - point_;
+  const Vec3 to = ball.centre - point_;
   const double along = towards_.dot(to);
-  const double reach = along * tangent_ + radius * secant_ * slightly_more;
+  const double reach = along * tangent_ + ball.radius * secant_ * slightly_more;
   return reach < 0 || to.squaredNorm() - along * along > reach * reach;
 }
 
@@ -308,7 +300,7 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
   for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
     const Solid& solid = solids_[k];
     border += borders_of_shade;
-    if (is_beside(solid.shape->centre, solid.shape->radius)) continue;
+    if (is_beside(solid.shape->ball)) continue;
     shadow_.clear();
     if (make_shadow(silhouette_of(solid), border)) cut_off_shadow(factor);
   }
@@ -318,8 +310,7 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
       const Shade& shade = shades_[k];
       const Vec3 towards = point_ - shade.blocker->corners.front();
       const double height = shade.blocker->normal.dot(towards);
-      if (!(height * side > edge_on * length_about(towards)) ||
-          is_beside(shade.ball.centre, shade.ball.radius))
+      if (!(height * side > edge_on * length_about(towards)) || is_beside(shade.blocker->ball))
         continue;
       const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
       shadow_.clear();

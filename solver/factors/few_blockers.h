@@ -100,13 +100,8 @@ class FewBlockers {
   struct Heights {
     double least, most;
   };
-  struct Ball {
-    Vec3 centre;
-    double radius;
-  };
   /// A convex polygon in between.
   struct Shade {
-    Ball ball;
     const Blocker* blocker;
     Vec2 a;  ///< with b and what follows: its plane in the target's
     double b, steepness;
@@ -124,7 +119,7 @@ class FewBlockers {
   bool add_plane(const Vec3& normal, std::uint32_t border);
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
-  bool is_beside(const Vec3& centre, double radius) const;
+  bool is_beside(const Ball& ball) const;
   void take_all();
   template <class SilhouetteOf>
   bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);

@@ -46,6 +46,7 @@ struct Blocker {
   Polygon3 corners;
   Vec3 normal;          ///< unit length
   double rounding = 0;  ///< of heights above its plane
+  Ball ball;            ///< round it
   double width = 0;     ///< least distance from a side to the farthest corner
   int body = -1;        ///< that it is a side of; −1: none
 };

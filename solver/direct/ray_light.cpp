@@ -4,115 +4,45 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
-#include "meshing/triangulation/ring_triangles.h"
 #include "solver/direct/emitter_parts.h"
+#include "solver/direct/ray_emitter.h"
+#include "solver/direct/ray_shares.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace halfshade {
 namespace {
 
 constexpr std::size_t places_of_task = 64;
 
-/// The variance of the visible share is this over the number of rays to the power of 3/2: an edge
-/// of a shadow cuts as many of the rays' cells as lie along it. With few rays that is above the 1/4
-/// of independent ones. Two halves of them, each spread on its own, do somewhat worse than all.
-constexpr double variance_of_rays = 0.7, power_of_rays = 1.5;
 /// Of the deviation: light of a part of an emitter that need not be even.
 constexpr double negligible = 0.5;
+/// The same: light of an emitter that is not worth rays of its own.
+constexpr double surely_drawn = 0.02;
 /// Rays that tell what an element sees of an emitter.
 constexpr int rays_of_region = 16;
-/// Directions that differ by less draw the same random numbers; above the rounding of coordinates.
-constexpr double same_direction = 0x1p-24;
-
-/// Evenly over a triangle, for s and t in [0, 1].
-Vec3 point_of(const std::array<Vec3, 3>& triangle, double s, double t) {
-  const auto& [a, b, c] = triangle;
-  return a + std::sqrt(s) * (b - a + t * (c - b));
-}
-
-/// An emitter as triangles, to draw points of it.
-struct RayEmitter {
-  EmitterTarget target;
-  int surface = 0, plane = 0;
-  std::vector<std::array<Vec3, 3>> triangles;
-  std::vector<double> reached;  ///< area of all triangles up to each
-
-  double area() const { return reached.back(); }
-
-  Vec3 point(double s, double t) const {
-    const double along = s * area();
-    const auto first = std::upper_bound(reached.begin(), reached.end() - 1, along);
-    const auto k = static_cast<std::size_t>(first - reached.begin());
-    const double from = k == 0 ? 0 : reached[k - 1];
-    const double rest = std::clamp((along - from) / (reached[k] - from), 0., 1.);
-    return point_of(triangles[k], rest, t);
-  }
-};
-
-RayEmitter make_ray_emitter(const SoundScene& scene, int id) {
-  const Surface& surface = scene.surfaces[at(id)];
-  RayEmitter emitter;
-  emitter.target = make_emitter_target(scene, surface);
-  emitter.surface = id;
-  emitter.plane = surface.plane;
-  std::vector<Vec3> corners;
-  for (const auto& ring : emitter.target.rings)
-    corners.insert(corners.end(), ring.begin(), ring.end());
-  double reached = 0;
-  for (const auto& [i, j, k] : ring_triangles(surface.rings)) {
-    const std::array<Vec3, 3> triangle = {corners[at(i)], corners[at(j)], corners[at(k)]};
-    const double area = 0.5 * (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).norm();
-    if (!(area > 0)) continue;
-    emitter.triangles.push_back(triangle);
-    emitter.reached.push_back(reached += area);
-  }
-  return emitter;
-}
-
-/// Places in a square that fill it evenly, however many are drawn.
-class SpreadPairs {
- public:
-  explicit SpreadPairs(std::uint64_t seed)
-      : s_(unit_share(mix_bits(seed))), t_(unit_share(mix_bits(seed + splitmix_step))) {}
-  std::array<double, 2> next() {
-    constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
-    s_ = step(s_, 1 / root);
-    t_ = step(t_, 1 / (root * root));
-    return {s_, t_};
-  }
-
- private:
-  static double step(double from, double width) {
-    const double to = from + width;
-    return to < 1 ? to : to - 1;
-  }
-
-  double s_, t_;
-};
-
-std::uint64_t seed_of(const Vec3& position, const EmitterTarget& target) {
-  const Vec3 way = target.centre - position;
-  const double size = way.lpNorm<Eigen::Infinity>();
-  std::uint64_t bits = 0;
-  for (int k = 0; k < 3 && size > 0; ++k)
-    bits =
-        mix_bits(bits ^ static_cast<std::uint64_t>(std::llround(way[k] / size / same_direction)));
-  return bits;
-}
+/// Of so many points of an emitter that is drawn, one is taken by the light along.
+constexpr int points_of_draw = 4;
 
 /// What rays to one emitter are to tell.
 struct Look {
   const RayEmitter* emitter;
   double factor;                             ///< form factor if nothing is in between
-  double strength;                           ///< light that gives
+  double strength;                           ///< light that gives, in W/m²
+  bool is_rough = false;                     ///< that is known but for far_error
   std::size_t first_part = 0, end_part = 0;  ///< in the work's list; none: light from it is even
-  bool is_near = false;                      ///< too near to be cut into parts
-  int rays = 0;  ///< for one of two estimates; 0: its visible part is looked for
+};
+
+/// An emitter that was drawn.
+struct Draw {
+  const RayEmitter* emitter;
+  double light;  ///< in units of what each draw stands for; about 1
+  bool has_ray;  ///< which is to tell if that arrives
 };
 
 /// Rays to a part of an emitter, or to all of it, for one estimate.
@@ -124,6 +54,10 @@ struct RayGroup {
 /// Buffers of one task.
 struct RayWork {
   std::vector<Look> looks;
+  std::vector<RayShare> shares;  ///< of rays: one a look
+  DrawnRays drawn;
+  std::vector<const Look*> may_be_drawn;
+  std::vector<Draw> draws;  ///< of one estimate, then of the other
   std::vector<EmitterPart> parts;
   std::vector<Segment> segments;
   std::vector<double> weights;
@@ -141,60 +75,65 @@ struct RayLight::Impl {
   RayLightOptions options;
   std::vector<RayEmitter> emitters;
 
-  /// Emitters that a point may see, the one that can give most first.
+  /// Emitters that a point may see.
   void collect_looks(const SurfacePoint& point, std::vector<Look>& looks) const {
     looks.clear();
     for (const RayEmitter& emitter : emitters) {
       const EmitterTarget& target = emitter.target;
       if (is_clearly_away(target, point)) continue;
-      const double factor = unobstructed_factor(point.position, point.normal, target.rings);
-      if (factor > 0) looks.push_back({&emitter, factor, factor * target.strength});
+      const double rough = far_factor(point, emitter);
+      const double factor = rough < 0 ? exact_factor(point, emitter) : rough;
+      if (factor > 0) looks.push_back({&emitter, factor, factor * target.strength, rough >= 0});
     }
-    std::stable_sort(looks.begin(), looks.end(),
-                     [](const Look& a, const Look& b) { return a.strength > b.strength; });
   }
 
-  /// Emitters over which light varies much are looked at part by part.
-  void cut_uneven(const SurfacePoint& point, RayWork& work) const {
+  static double exact_factor(const SurfacePoint& point, const RayEmitter& emitter) {
+    return unobstructed_factor(point.position, point.normal, emitter.target.rings);
+  }
+
+  /// How many rays each look takes.
+  void share(const SurfacePoint& point, RayWork& work) const {
     work.parts.clear();
+    work.shares.clear();
     for (Look& look : work.looks) {
-      const EmitterTarget& target = look.emitter->target;
-      if (is_even(point, target, look.emitter->area(), look.factor)) continue;
-      look.first_part = work.parts.size();
-      look.is_near = !cut_evenly(point, target, look.emitter->triangles,
-                                 negligible * options.deviation / target.strength, work.parts);
-      look.end_part = work.parts.size();
+      RayShare& share = work.shares.emplace_back();
+      share.strength = look.strength / options.deviation;
+      if (look.is_rough && share.strength < surely_drawn)
+        share.way = RayWay::drawn;
+      else if (!look.is_rough)
+        cut_uneven(point, look, share, work.parts);
     }
+    work.drawn = share_rays(work.shares, options.most_rays);
+    for (std::size_t k = 0; k < work.looks.size(); ++k)
+      if (work.looks[k].is_rough && work.shares[k].way != RayWay::drawn)
+        work.looks[k].factor = exact_factor(point, *work.looks[k].emitter);
   }
 
-  /// The fewest rays in all with which the variances sum to what is allowed.
-  void share_rays(std::vector<Look>& looks) const {
-    constexpr double power = 2 / (power_of_rays + 1);
-    const double variance = options.deviation * options.deviation / variance_of_rays;
-    const auto first_by_rays = std::stable_partition(looks.begin(), looks.end(),
-                                                     [](const Look& look) { return look.is_near; });
-    double sum = 0;
-    for (auto look = first_by_rays; look != looks.end(); ++look)
-      sum += std::pow(look->strength, power);
-    for (auto look = first_by_rays; look != looks.end(); ++look) {
-      const double each = std::pow(sum / variance, 1 / power_of_rays);
-      const double rays = std::ceil(each * std::pow(look->strength, power));
-      if (rays > options.most_rays) {
-        sum -= std::pow(look->strength, power);
-        continue;
-      }
-      look->rays = std::max(static_cast<int>(std::ceil(rays / 2)), 1);
+  /// Emitters over which light varies much are looked at part by part, unless they are weak;
+  /// exactly if they are too near for that.
+  void cut_uneven(const SurfacePoint& point, Look& look, RayShare& share,
+                  std::vector<EmitterPart>& parts) const {
+    const EmitterTarget& target = look.emitter->target;
+    if (is_even(point, target, look.emitter->area(), look.factor)) return;
+    if (share.strength < negligible) {
+      share.way = RayWay::drawn;
+      return;
     }
+    look.first_part = parts.size();
+    if (!cut_evenly(point, target, look.emitter->triangles,
+                    negligible * options.deviation / target.strength, parts))
+      share.way = RayWay::exact;
+    look.end_part = parts.size();
   }
 
   /// Adds the rays of one estimate of a look.
-  void add_rays(const FieldPoint& place, const Look& look, std::uint64_t seed,
+  void add_rays(const FieldPoint& place, const Look& look, int of_look, std::uint64_t seed,
                 RayWork& work) const {
-    if (look.rays > 0 && look.first_part == look.end_part)
-      add_group(place, *look.emitter, nullptr, look.factor, look.rays, seed, work);
-    for (std::size_t p = look.first_part; look.rays > 0 && p < look.end_part; ++p) {
+    if (of_look > 0 && look.first_part == look.end_part)
+      add_group(place, *look.emitter, nullptr, look.factor, of_look, seed, work);
+    for (std::size_t p = look.first_part; of_look > 0 && p < look.end_part; ++p) {
       const EmitterPart& part = work.parts[p];
-      const int rays = static_cast<int>(std::ceil(look.rays * part.factor / look.factor));
+      const int rays = static_cast<int>(std::ceil(of_look * part.factor / look.factor));
       seed = mix_bits(seed + splitmix_step);
       add_group(place, *look.emitter, &part.triangle, part.factor, rays, seed, work);
     }
@@ -219,27 +158,102 @@ struct RayLight::Impl {
     work.groups.push_back({factor, work.segments.size()});
   }
 
+  /// Adds the rays of one estimate of all emitters that are drawn: each as often as it is strong,
+  /// at even steps along the list of them.
+  void draw(const FieldPoint& place, std::uint64_t seed, RayWork& work) const {
+    const SurfacePoint& point = place.point;
+    const double step = work.drawn.strength * options.deviation / work.drawn.rays;
+    double next = unit_share(mix_bits(seed)) * step, reached = 0;
+    int left = work.drawn.rays;
+    SpreadPairs pairs(mix_bits(seed + splitmix_step));
+    std::uint64_t choice = mix_bits(seed + 2 * splitmix_step);
+    for (const Look* look : work.may_be_drawn) {
+      reached += look->strength;
+      const bool is_last = look == work.may_be_drawn.back();
+      double light = -1;  // of a draw, in units of what one stands for
+      for (; left > 0 && (next < reached || is_last); next += step) {
+        --left;
+        if (light < 0)
+          light = look->is_rough ? exact_factor(point, *look->emitter) / look->factor : 1;
+        choice = mix_bits(choice);
+        const auto end = point_by_light(point, *look->emitter, unit_share(choice), pairs);
+        work.draws.push_back({look->emitter, end ? light : exact_light(point, *look), !!end});
+        if (!end) continue;
+        const int plane = scene->surfaces[at(place.surface)].plane;
+        work.segments.push_back({point.position, *end, plane, look->emitter->plane});
+      }
+    }
+  }
+
+  /// A point of an emitter, more likely where more light comes from; none if none of a few does.
+  static std::optional<Vec3> point_by_light(const SurfacePoint& point, const RayEmitter& emitter,
+                                            double choice, SpreadPairs& pairs) {
+    std::array<Vec3, points_of_draw> ends;
+    std::array<double, points_of_draw> reached;
+    double sum = 0;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      const auto [s, t] = pairs.next();
+      ends[k] = emitter.point(s, t);
+      reached[k] = sum += light_along(point, emitter.target, ends[k] - point.position);
+    }
+    if (!(sum > 0)) return std::nullopt;
+    const auto first = std::upper_bound(reached.begin(), reached.end() - 1, choice * sum);
+    return ends[static_cast<std::size_t>(first - reached.begin())];
+  }
+
+  double exact_light(const SurfacePoint& point, const Look& look) const {
+    return exact->factor(point, look.emitter->surface).visible / look.factor;
+  }
+
+  /// Rays for those that are drawn, in the order of emitters.
+  void add_draws(const FieldPoint& place, RayWork& work) const {
+    work.draws.clear();
+    work.may_be_drawn.clear();
+    for (std::size_t k = 0; k < work.looks.size(); ++k)
+      if (work.shares[k].way == RayWay::drawn) work.may_be_drawn.push_back(&work.looks[k]);
+    if (work.may_be_drawn.empty()) return;
+    const std::uint64_t seed =
+        mix_bits(seed_of(place.point.position, work.may_be_drawn.front()->emitter->target));
+    draw(place, seed, work);
+    draw(place, ~seed, work);
+  }
+
+  /// What arrives of emitters that are drawn: each draw stands for as much light.
+  void gather_draws(const RayWork& work, std::size_t ray, NoisyValue& irradiance) const {
+    const double each = work.drawn.strength * options.deviation / std::max(work.drawn.rays, 1);
+    for (std::size_t k = 0; k < work.draws.size(); ++k) {
+      const Draw& draw = work.draws[k];
+      if (draw.has_ray && work.blocked[ray++] != 0) continue;
+      const EmitterTarget& target = draw.emitter->target;
+      (2 * k < work.draws.size() ? irradiance.a : irradiance.b) +=
+          draw.light * each / target.strength * target.exitance;
+    }
+  }
+
   NoisyValue gather(const FieldPoint& place, RayWork& work) const {
     collect_looks(place.point, work.looks);
-    cut_uneven(place.point, work);
-    share_rays(work.looks);
+    share(place.point, work);
     work.segments.clear();
     work.weights.clear();
     work.groups.clear();
     work.ends.clear();
-    for (const Look& look : work.looks) {
+    for (std::size_t k = 0; k < work.looks.size(); ++k) {
+      const Look& look = work.looks[k];
+      if (work.shares[k].way == RayWay::drawn) continue;
       const std::uint64_t seed = seed_of(place.point.position, look.emitter->target);
-      add_rays(place, look, seed, work);
-      add_rays(place, look, ~seed, work);
+      add_rays(place, look, work.shares[k].rays, seed, work);
+      add_rays(place, look, work.shares[k].rays, ~seed, work);
     }
+    add_draws(place, work);
     work.blocked.resize(work.segments.size());
     visibility->blocked(work.segments, work.blocked);
     NoisyValue irradiance;
-    std::size_t ray = 0, group = 0;
+    std::size_t ray = 0, group = 0, end = 0;
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
+      if (work.shares[k].way == RayWay::drawn) continue;
       const Look& look = work.looks[k];
-      const double first = share(work, ray, group, work.ends[2 * k]);
-      const double second = share(work, ray, group, work.ends[2 * k + 1]);
+      const double first = share_of_groups(work, ray, group, work.ends[end++]);
+      const double second = share_of_groups(work, ray, group, work.ends[end++]);
       const Rgb& exitance = look.emitter->target.exitance;
       if (first >= 0 && second >= 0) {
         irradiance.a += look.factor * first * exitance;
@@ -250,11 +264,13 @@ struct RayLight::Impl {
       irradiance.a += exactly;
       irradiance.b += exactly;
     }
+    gather_draws(work, ray, irradiance);
     return irradiance;
   }
 
   /// What share of the light of the groups up to one arrives; −1 if no ray tells.
-  static double share(const RayWork& work, std::size_t& ray, std::size_t& group, std::size_t end) {
+  static double share_of_groups(const RayWork& work, std::size_t& ray, std::size_t& group,
+                                std::size_t end) {
     double told = 0, arrives = 0;
     for (; group < end; ++group) {
       double all = 0, free = 0;
@@ -305,18 +321,18 @@ double RayLight::unobstructed(const SurfacePoint& point) const {
   std::vector<Look> looks;
   impl_->collect_looks(point, looks);
   double sum = 0;
-  for (const Look& look : looks) sum += look.strength;
+  for (const Look& look : looks) sum += (look.is_rough ? 1 + far_error : 1) * look.strength;
   return sum;
 }
 
 double RayLight::cost(const SurfacePoint& point) const {
   RayWork work;
   impl_->collect_looks(point, work.looks);
-  impl_->cut_uneven(point, work);
-  impl_->share_rays(work.looks);
-  double sum = 0;
-  for (const Look& look : work.looks)
-    sum += look.rays > 0 ? 2 * look.rays : impl_->options.most_rays;
+  impl_->share(point, work);
+  double sum = 2 * work.drawn.rays;
+  for (const RayShare& share : work.shares)
+    if (share.way != RayWay::drawn)
+      sum += share.way == RayWay::own ? 2 * share.rays : impl_->options.most_rays;
   return sum;
 }
 
@@ -326,7 +342,10 @@ Region RayLight::region(const std::array<Vec3, 3>& triangle, const Vec3& normal,
   const Vec3 centre = (triangle[0] + triangle[1] + triangle[2]) / 3;
   impl_->collect_looks({centre, normal}, looks);
   if (looks.empty()) return Region::away;
-  const RayEmitter& emitter = *looks.front().emitter;
+  const auto strongest =
+      std::max_element(looks.begin(), looks.end(),
+                       [](const Look& a, const Look& b) { return a.strength < b.strength; });
+  const RayEmitter& emitter = *strongest->emitter;
   SpreadPairs starts(seed_of(centre, emitter.target)), ends(~seed_of(centre, emitter.target));
   std::vector<Segment> segments;
   for (int k = 0; k < rays_of_region; ++k) {

@@ -20,7 +20,10 @@ struct RayLightOptions {
 
 /// Direct light with rays to emitters, as many as a tolerance needs, where exactly visible parts
 /// take longer. What an emitter would give unobstructed is exact; rays tell the share of it that
-/// arrives. So light without a shadow is exact, and what is wholly hidden is dark.
+/// arrives. So light without a shadow is exact, and what is wholly hidden is dark. Of many weak
+/// emitters a few are drawn, as often as they are strong, and a ray to each tells if its light
+/// arrives: right in the mean, with noise that counts like that of other rays. Without a shadow
+/// only that is left which differs in their colours or, far away, from a rough form factor.
 ///
 /// Rays end at points of a sequence of low discrepancy (Roberts 2018), shifted by random numbers
 /// for each pair of point and emitter. These follow from the direction of the emitter, so that a
@@ -40,7 +43,8 @@ class RayLight {
   std::vector<NoisyValue> irradiance(std::span<const FieldPoint> places,
                                      const Progress& progress = {}) const;
 
-  /// Irradiance (mean of the channels) if nothing were in between: no less than there is.
+  /// Irradiance (mean of the channels) if nothing were in between: no less than there is, and more
+  /// by a fifth at most.
   double unobstructed(const SurfacePoint& point) const;
 
   /// How many rays a point takes; an exact look counts as most_rays.

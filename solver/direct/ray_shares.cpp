@@ -11,8 +11,11 @@ namespace {
 /// of a shadow cuts as many of the rays' cells as lie along it. With few rays that is above the 1/4
 /// of independent ones. Two halves of them, each spread on its own, do somewhat worse than all.
 constexpr double variance_of_rays = 0.7, power_of_rays = 1.5;
-/// A ray that is drawn tells yes or no of its share of the light: that has this variance at most.
-constexpr double variance_of_drawn = 0.25;
+/// A ray that is drawn tells yes or no of its share of the light: that has a variance of 1/4 at
+/// most. But rays of their own are noisy only where an emitter is partly hidden, and drawn ones
+/// wherever some emitters are hidden and others not. To be preferred they have to be so much
+/// better.
+constexpr double variance_of_drawn = 1;
 /// With n = each s^power rays for what gives s, no other numbers of them do with fewer.
 constexpr double power_of_share = 2 / (power_of_rays + 1);
 /// Emitters are drawn if weaker than a power of two, from the first to the last of so many.

@@ -15,9 +15,9 @@ std::vector<RayShare> of_strengths(const std::vector<double>& strengths) {
   return shares;
 }
 
-/// Of a mean of two estimates, as the header of the room has it: .7 s² / n^1.5, and 1/4 s² / n.
+/// Of a mean of two estimates: .7 s² / n^1.5, and s² / n of those that are drawn.
 double variance(const std::vector<RayShare>& shares, const DrawnRays& drawn) {
-  double sum = drawn.rays > 0 ? drawn.strength * drawn.strength / (4 * 2 * drawn.rays) : 0;
+  double sum = drawn.rays > 0 ? drawn.strength * drawn.strength / (2 * drawn.rays) : 0;
   for (const RayShare& share : shares)
     if (share.way == RayWay::own)
       sum += 0.7 * share.strength * share.strength / std::pow(2 * share.rays, 1.5);

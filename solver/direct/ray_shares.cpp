@@ -35,7 +35,7 @@ struct Numbers {
   double drawn = 0;  ///< for all that are drawn
 };
 
-/// With the multiplier λ of the condition each = (1.5 · .7 λ)^.4 and drawn = √(.25 λ) · strength;
+/// With the multiplier λ of the condition each = (1.5 · .7 λ)^.4 and drawn = √λ · strength;
 /// x = λ^−.1 is the root of a polynomial b x⁶ + d x⁵ = 1 that rises and bends upwards.
 Numbers numbers_for(const Strengths& sum) {
   if (!(sum.own > 0 || sum.drawn > 0)) return {};

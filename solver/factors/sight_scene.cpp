@@ -245,12 +245,10 @@ bool in_all_cells_of(const SightScene& scene, int a, int b) {
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {
   const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
   FacingTriangles result;
+  result.is_all = in_all_cells_of(scene, a, b);
   for (const int root : p.roots) {
     const int cell = scene.reflecting.cells.before(root);
-    if (std::find(q.cells.begin(), q.cells.end(), cell) == q.cells.end()) {
-      result.is_all = false;
-      continue;
-    }
+    if (std::find(q.cells.begin(), q.cells.end(), cell) == q.cells.end()) continue;
     const Polygon3 facing =
         clip_to_front(scene.reflecting.roots.triangle(root), q.frame.origin, q.frame.normal);
     for (std::size_t k = 1; k + 1 < facing.size(); ++k)

@@ -266,16 +266,23 @@ TEST(JoinedSight, LatticesAgreeWithCells) {
   EXPECT_LE(beyond, checked / 50);
 }
 
-/// Where nothing or everything is hidden from all points, a lattice says nothing.
+/// A lattice says nothing where things are narrower than its points are apart, or where all points
+/// see nothing; and it takes no more points than are allowed.
 TEST(JoinedSight, LatticesDoNotSayWhatTheyDidNotSee) {
-  Scene scene;
-  test::add_material(scene, 0.5, 0);
-  add_tiles(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, 1);
-  add_tiles(scene, {0, 0, 2}, {0, 2, 0}, {2, 0, 0}, 1);
-  add_box(scene, {.501, .503, .001}, {.004, .004, .004}, 1, true);
-  const Sights small(scene);
-  const std::array<LatticePair, 1> pair = {LatticePair{1, {1e-3, 1e-3, 300000}}};
-  EXPECT_FALSE(lattice_sight(small.sight, 0, pair).front());
+  const auto says_something = [](const Vec3& low, const Vec3& size, int max_points) {
+    Scene scene;
+    test::add_material(scene, 0.5, 0);
+    add_tiles(scene, {0, 0, 0}, {2, 0, 0}, {0, 2, 0}, 1);
+    add_tiles(scene, {0, 0, 2}, {0, 2, 0}, {2, 0, 0}, 1);
+    add_box(scene, low, size, 1, true);
+    const Sights sights(scene);
+    const std::array<LatticePair, 1> pair = {LatticePair{1, {1e-2, 1e-2, max_points}}};
+    return lattice_sight(sights.sight, 0, pair).front().has_value();
+  };
+  EXPECT_TRUE(says_something({.5, .7, .6}, {.8, .9, .7}, 300000));
+  EXPECT_FALSE(says_something({.5, .7, .6}, {.8, .9, .7}, 20));
+  EXPECT_FALSE(says_something({.5, .7, .6}, {.04, .04, .04}, 300000));
+  EXPECT_FALSE(says_something({-5, -5, .6}, {12, 12, .7}, 300000));
 }
 
 /// A wall in tiles exchanges in sum what it does in one piece, behind the same things.

@@ -1,6 +1,7 @@
 #include "io/picture/painted_points.h"
 #include "io/picture/result_file.h"
 #include "meshing/core/error.h"
+#include "solver/elements/joined_field.h"
 #include "solver/elements/linear_pieces.h"
 
 #include <Eigen/LU>
@@ -68,8 +69,30 @@ std::vector<std::uint8_t> emitting(const std::vector<Rgb>& exitance) {
   return result;
 }
 
-/// Cells of higher order become as many triangles as it takes to look like them.
-void cut_curved(const ResultFile& file, ShadedMesh& mesh) {
+/// Light continuous where nothing says that it jumps, if the file tells.
+void join_cells(const ResultFile& file, std::span<const std::array<Vec3, 3>> triangles,
+                ElementField& field) {
+  const std::size_t count = triangles.size();
+  const ResultArray* orders = find_array(file.cell_arrays, "edge_order");
+  const ResultArray* surfaces = find_array(file.cell_arrays, "surface");
+  const ResultArray* errors = find_array(file.cell_arrays, "error_estimate");
+  if (orders == nullptr || orders->components != 3 || surfaces == nullptr ||
+      surfaces->components != 1 || errors == nullptr || errors->components != 1)
+    return;
+  std::vector<std::array<int, 3>> edge_order(count);
+  std::vector<int> surface(count);
+  Eigen::ArrayXd error(static_cast<Eigen::Index>(count));
+  for (std::size_t e = 0; e < count; ++e) {
+    for (std::size_t k = 0; k < 3; ++k) edge_order[e][k] = orders->values[3 * e + k] == 0 ? 0 : -1;
+    surface[e] = static_cast<int>(std::clamp(surfaces->values[e], -1., 1e9));
+    error[static_cast<Eigen::Index>(e)] = errors->values[e];
+    if (!(errors->values[e] >= 0 && std::isfinite(errors->values[e]))) refuse_row(file, *errors, e);
+  }
+  join(connected(triangles, surface, std::move(edge_order)), error, field);
+}
+
+/// Cells become as many triangles as it takes to look like them.
+void cut_cells(const ResultFile& file, bool joined, ShadedMesh& mesh) {
   ElementField field = zero_field(file.order);
   std::vector<std::array<Vec3, 3>> triangles;
   double largest = 0;
@@ -78,12 +101,18 @@ void cut_curved(const ResultFile& file, ShadedMesh& mesh) {
     Eigen::MatrixXd values(nodes.size(), 3);
     for (std::size_t k = 0; k < nodes.size(); ++k)
       values.row(static_cast<Eigen::Index>(k)) = mesh.point_value[at(nodes[k])].matrix();
+    if (!mesh.painted.empty() && mesh.painted[e].paint >= 0) {
+      // Without the mean of the picture, which steps from cell to cell.
+      values *= mesh.painted[e].gain.matrix().asDiagonal();
+      mesh.painted[e].gain.setOnes();
+    }
     field.of(static_cast<int>(e)) =
         element_node_basis(file.order[e]).partialPivLu().solve(values).array();
     if (mesh.emits[e] == 0) largest = std::max(largest, values.cwiseAbs().maxCoeff());
     triangles.push_back(
         {file.points[at(nodes[0])], file.points[at(nodes[1])], file.points[at(nodes[2])]});
   }
+  if (joined) join_cells(file, triangles, field);
   LinearPieces pieces = linear_pieces(triangles, field, invisible_share * largest);
   const std::vector<Rgb> value = std::move(mesh.triangle_value);
   const std::vector<std::uint8_t> emits = std::move(mesh.emits);
@@ -118,9 +147,10 @@ std::vector<ShadedPaint> paints_of(const ResultFile& file, const std::vector<std
   return painted;
 }
 
-/// `at_points` and `painted` may be empty.
-ShadedMesh mesh_with(const ResultFile& file, std::vector<Rgb> at_points, std::vector<Rgb> in_cells,
-                     std::vector<std::uint8_t> emits, std::vector<ShadedPaint> painted = {}) {
+/// Light to look at, or numbers as they are. `at_points` and `painted` may be empty.
+ShadedMesh mesh_with(const ResultFile& file, bool joined, std::vector<Rgb> at_points,
+                     std::vector<Rgb> in_cells, std::vector<std::uint8_t> emits,
+                     std::vector<ShadedPaint> painted = {}) {
   ShadedMesh mesh;
   mesh.points = file.points;
   for (const std::vector<int>& nodes : file.cells)
@@ -132,8 +162,10 @@ ShadedMesh mesh_with(const ResultFile& file, std::vector<Rgb> at_points, std::ve
   mesh.paints = file.paints;
   mesh.cameras = file.cameras;
   if (mesh.point_value.empty()) return mesh;
-  if (std::any_of(file.order.begin(), file.order.end(), [](int p) { return p > 1; }))
-    cut_curved(file, mesh);  // whose cells share no points
+  const bool is_curved =
+      std::any_of(file.order.begin(), file.order.end(), [](int p) { return p > 1; });
+  if (is_curved || (joined && find_array(file.cell_arrays, "edge_order") != nullptr))
+    cut_cells(file, joined, mesh);  // they share no points
   else if (!mesh.painted.empty())
     detail::separate_painted(light_values(file, file.point_arrays, "irradiance"),
                              light_values(file, file.cell_arrays, "reflectance"), mesh);
@@ -205,7 +237,7 @@ std::vector<Rgb> cell_values(const ResultFile& file, const ResultArray* cells,
 ShadedMesh shaded(const ResultFile& file) {
   std::vector<std::uint8_t> emits = emitting(light_values(file, file.cell_arrays, "exitance"));
   std::vector<ShadedPaint> painted = paints_of(file, emits);
-  return mesh_with(file, light_values(file, file.point_arrays, "radiosity"),
+  return mesh_with(file, true, light_values(file, file.point_arrays, "radiosity"),
                    light_values(file, file.cell_arrays, "radiosity"), std::move(emits),
                    std::move(painted));
 }
@@ -227,7 +259,7 @@ ValueMesh quantity_of(const ResultFile& file, const std::string& name, const std
   std::vector<std::uint8_t> emits(file.cells.size(), 0);
   if (find_array(file.cell_arrays, "exitance") != nullptr)
     emits = emitting(light_values(file, file.cell_arrays, "exitance"));
-  return {mesh_with(file, std::move(at_points), std::move(in_cells), std::move(emits)),
+  return {mesh_with(file, false, std::move(at_points), std::move(in_cells), std::move(emits)),
           {name, channel_name(*any, c), unit_of(name), any->is_whole}};
 }
 

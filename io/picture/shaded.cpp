@@ -41,7 +41,7 @@ void add_paints(const SoundScene& scene, const ElementTable& elements, const Sol
 ShadedMesh shaded(const SolveResult& result) {
   detail::require_consistent(result, "shaded");
   ShadedMesh mesh;
-  const LinearResult linear = linear_result(result);
+  const LinearResult linear = joined_linear_result(result);
   mesh.points = linear.elements.points;
   mesh.triangles = linear.elements.corners;
   mesh.is_border = linear.is_border;

@@ -108,6 +108,13 @@ void add_element_data(const ElementTable& elements, vtkFieldData* data) {
   add_numbers(data, "quality", min_angles(elements));
 }
 
+void add_edge_orders(const ElementTable& elements, vtkFieldData* data) {
+  std::vector<int> orders;
+  for (const auto& of_element : elements.edge_order)
+    orders.insert(orders.end(), of_element.begin(), of_element.end());
+  if (!orders.empty()) add_integers(data, "edge_order", orders, 3);
+}
+
 vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements,
                                           std::string_view extension) {
   vtkNew<vtkCellArray> triangles;

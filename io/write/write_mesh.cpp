@@ -19,13 +19,6 @@ namespace {
 
 using namespace detail;
 
-std::vector<int> flat(const std::vector<std::array<int, 3>>& rows) {
-  std::vector<int> values;
-  values.reserve(3 * rows.size());
-  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
-  return values;
-}
-
 void add_cell_data(const MeshResult& result, vtkFieldData* data) {
   const ElementTable& elements = result.elements;
   const MaterialArrays materials = material_arrays(result.scene, elements);
@@ -36,7 +29,7 @@ void add_cell_data(const MeshResult& result, vtkFieldData* data) {
     add_integers(data, "regions", region_codes(result.regions),
                  static_cast<int>(result.found.sources.size()));
   add_element_data(elements, data);
-  if (!elements.edge_order.empty()) add_integers(data, "edge_order", flat(elements.edge_order), 3);
+  add_edge_orders(elements, data);
 }
 
 void add_field_data(const MeshResult& result, vtkFieldData* data) {

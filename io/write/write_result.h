@@ -29,14 +29,15 @@ inline constexpr FileFormats result_formats = {"results", {".vtu", ".vtp", ".ply
 /// error_estimate, order, region (0 lit, 1 penumbra, 2 umbra, 3 no emitter above the horizon; left
 /// out where direct light was not exact), regions (the same for each emitter, if asked for, in the
 /// order of field data sources, surfaces' ids), face, group, material, surface, level, quality
-/// (minimum angle in degrees); where heat is given net_flux (radiosity − irradiance) and, where
-/// some are known, temperature (K; NaN elsewhere). Point data: radiosity, irradiance. Light and
-/// reflectance have components R, G, B. Field data, numbers only and the same for the same input:
-/// interrupted (0 or 1), tolerance (of discontinuities), achieved_error (relative, in the L2 norm
-/// of the irradiance), cameras (position, direction, up, vertical field of view in degrees) and
-/// camera_names (bytes, each name ended by 0). Names and times are in the report. PLY: vertices
-/// with tone-mapped colours and float radiosity_r/g/b; the exposure is in a comment. Throws
-/// Error(usage) for another extension, Error(unwritable) if it cannot be written.
+/// (minimum angle in degrees); in .vtu with polynomials edge_order as in write_mesh (0 where light
+/// may jump); where heat is given net_flux (radiosity − irradiance) and, where some are known,
+/// temperature (K; NaN elsewhere). Point data: radiosity, irradiance. Light and reflectance have
+/// components R, G, B. Field data, numbers only and the same for the same input: interrupted (0 or
+/// 1), tolerance (of discontinuities), achieved_error (relative, in the L2 norm of the irradiance),
+/// cameras (position, direction, up, vertical field of view in degrees) and camera_names (bytes,
+/// each name ended by 0). Names and times are in the report. PLY: vertices with tone-mapped colours
+/// and float radiosity_r/g/b; the exposure is in a comment. Throws Error(usage) for another
+/// extension, Error(unwritable) if it cannot be written.
 void write_result(const SolveResult& result, const Provenance& provenance,
                   const std::filesystem::path& path, const ResultOptions& options = {});
 

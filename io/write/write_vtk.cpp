@@ -165,6 +165,7 @@ std::string polynomial_bytes(const SolveResult& result) {
   const auto grid = polynomial_grid(nodes.points, nodes.order);
   add_cell_data({result.elements, result.solution, result.regions, result, result.irradiance.order},
                 result.emitters.size(), grid->GetCellData());
+  add_edge_orders(result.elements, grid->GetCellData());
   add_channels(grid->GetPointData(), "radiosity", nodes.radiosity);
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
   add_bounces(grid->GetPointData(), nodes.bounces);

@@ -1,5 +1,6 @@
 #include "solver/pipeline/linear_result.h"
 
+#include "solver/elements/joined_field.h"
 #include "solver/elements/linear_pieces.h"
 #include "solver/elements/solution_parts.h"
 #include "solver/elements/vertex_values.h"
@@ -52,11 +53,11 @@ std::vector<ChannelArray> bounces_at(const SolveResult& result, const std::vecto
   return values;
 }
 
-LinearResult cut(const SolveResult& result) {
+LinearResult cut(const SolveResult& result, const ElementField& irradiance) {
   std::vector<std::array<Vec3, 3>> triangles;
   for (int e = 0; e < result.elements.count(); ++e)
     triangles.push_back(result.elements.triangle(e));
-  LinearPieces pieces = linear_pieces(triangles, result.irradiance, allowed_error(result));
+  LinearPieces pieces = linear_pieces(triangles, irradiance, allowed_error(result));
   LinearResult out;
   out.bounces = bounces_at(result, pieces.element_of_point, pieces.points);
   out.elements = piece_table(result.elements, pieces);
@@ -91,8 +92,11 @@ NodeValues node_values(const SolveResult& result) {
   std::vector<int> element;
   for (int e = 0; e < result.elements.count(); ++e) {
     const auto triangle = result.elements.triangle(e);
-    for (const TrianglePlace& place : element_nodes(nodes.order[at(e)])) {
-      nodes.points.push_back(position(triangle, place));
+    const std::vector<TrianglePlace> places = element_nodes(nodes.order[at(e)]);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const TrianglePlace& place = places[k];
+      // To the last bit where elements meet.
+      nodes.points.push_back(k < 3 ? triangle[k] : position(triangle, place));
       element.push_back(e);
       nodes.irradiance.row(row) = value_at(result.irradiance, e, place);
       nodes.radiosity.row(row) =
@@ -105,7 +109,7 @@ NodeValues node_values(const SolveResult& result) {
 }
 
 LinearResult linear_result(const SolveResult& result) {
-  if (result.irradiance.count() > 0) return cut(result);
+  if (result.irradiance.count() > 0) return cut(result, result.irradiance);
   return {result.elements,
           {},
           result.solution,
@@ -113,6 +117,13 @@ LinearResult linear_result(const SolveResult& result) {
           values_at_points(result.elements, result.solution.radiosity),
           {},
           result.regions};
+}
+
+LinearResult joined_linear_result(const SolveResult& result) {
+  if (result.irradiance.count() == 0) return linear_result(result);
+  ElementField irradiance = result.irradiance;
+  join(result.elements, result.solution.error_estimate, irradiance);
+  return cut(result, irradiance);
 }
 
 }  // namespace halfshade

@@ -35,4 +35,7 @@ NodeValues node_values(const SolveResult& result);
 /// values at points are then means of the elements around them.
 LinearResult linear_result(const SolveResult& result);
 
+/// The same for somebody who looks at it: polynomials are made continuous first, see join.
+LinearResult joined_linear_result(const SolveResult& result);
+
 }  // namespace halfshade

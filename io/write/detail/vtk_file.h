@@ -30,6 +30,9 @@ std::vector<int> region_codes(const std::vector<Region>& regions);
 /// Cell data face, group, material, surface, level and quality.
 void add_element_data(const ElementTable& elements, vtkFieldData* data);
 
+/// Cell data edge_order, three components: see ElementTable. Nothing where elements have none.
+void add_edge_orders(const ElementTable& elements, vtkFieldData* data);
+
 /// Points and triangles, without data: an unstructured grid for ".vtu", poly data for ".vtp".
 vtkSmartPointer<vtkPointSet> element_grid(const ElementTable& elements, std::string_view extension);
 

@@ -85,8 +85,8 @@ void join_cells(const ResultFile& file, std::span<const std::array<Vec3, 3>> tri
   for (std::size_t e = 0; e < count; ++e) {
     for (std::size_t k = 0; k < 3; ++k) edge_order[e][k] = orders->values[3 * e + k] == 0 ? 0 : -1;
     surface[e] = static_cast<int>(std::clamp(surfaces->values[e], -1., 1e9));
-    error[static_cast<Eigen::Index>(e)] = errors->values[e];
-    if (!(errors->values[e] >= 0 && std::isfinite(errors->values[e]))) refuse_row(file, *errors, e);
+    const double known = errors->values[e];
+    error[static_cast<Eigen::Index>(e)] = known >= 0 ? known : HUGE_VAL;
   }
   join(connected(triangles, surface, std::move(edge_order)), error, field);
 }

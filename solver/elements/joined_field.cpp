@@ -17,7 +17,7 @@ namespace halfshade {
 namespace {
 
 /// Of an element's error: changes of all its values that are not worth making.
-constexpr double least_change = 1e-3;
+constexpr double share_of_error = 1e-3;
 /// Of the largest coefficient: what rounding changes.
 constexpr double rounding = 1e-13;
 
@@ -82,13 +82,13 @@ std::vector<bool> ends_of_lines(const ElementTable& elements) {
 class Joining {
  public:
   Joining(const ElementTable& elements, const Eigen::ArrayXd& error, const ElementField& field)
-      : elements_(elements),
-        error_(error),
-        field_(field),
-        is_end_(ends_of_lines(elements)),
-        largest_(field.coefficients.abs().maxCoeff()) {
-    // What is off by rounding alone is exact.
-    weight_ = (error / (largest_ > 0 ? largest_ : 1) / rounding).max(1).square().inverse();
+      : elements_(elements), field_(field), is_end_(ends_of_lines(elements)) {
+    const double largest = field.coefficients.abs().maxCoeff();
+    // What is off by rounding alone is exact, and nothing is off by more than all there is.
+    const Eigen::ArrayXd relative =
+        (error / (largest > 0 ? largest : 1)).max(rounding).min(1).eval();
+    weight_ = (relative / rounding).square().inverse();
+    least_change_ = (share_of_error * relative + rounding) * largest;
     for (int e = 0; e < field.count(); ++e) {
       int order = std::max(field.order[at(e)], 1);
       for (const int n : elements.neighbours[at(e)])
@@ -140,8 +140,7 @@ class Joining {
     parallel_for(order_.size(), [&](std::size_t i) {
       const int e = static_cast<int>(i);
       ChannelArray change = changes_of(e, at_points);
-      if (change.abs().maxCoeff() > least_change * error_[e] + rounding * largest_)
-        changes[i] = std::move(change);
+      if (change.abs().maxCoeff() > least_change_[e]) changes[i] = std::move(change);
     });
     return changes;
   }
@@ -177,11 +176,10 @@ class Joining {
   }
 
   const ElementTable& elements_;
-  const Eigen::ArrayXd& error_;
   const ElementField& field_;
   std::vector<bool> is_end_;
-  double largest_;
-  Eigen::ArrayXd weight_;  ///< of what each element says
+  Eigen::ArrayXd weight_;        ///< of what each element says
+  Eigen::ArrayXd least_change_;  ///< of each that is worth making
   std::vector<int> order_;
   EdgeBasis basis_;
 };
@@ -200,20 +198,25 @@ ElementTable connected(std::span<const std::array<Vec3, 3>> triangles, std::span
           places.try_emplace({p.x(), p.y(), p.z()}, static_cast<int>(places.size())).first->second;
     }
   }
-  std::map<std::array<int, 3>, int> element_of_edge;  // by surface and ends
+  // By surface and ends; −1 where several have the same one.
+  std::map<std::array<int, 3>, int> element_of_edge;
   const auto each_edge = [&](const auto& use) {
     for (std::size_t e = 0; e < vertices.size(); ++e)
       for (std::size_t k = 0; k < 3; ++k)
         if (edge_order[e][k] != 0) use(e, k, vertices[e][k], vertices[e][(k + 1) % 3]);
   };
   each_edge([&](std::size_t e, std::size_t, int from, int to) {
-    element_of_edge[{surface[e], from, to}] = static_cast<int>(e);
+    const auto [entry, is_new] =
+        element_of_edge.try_emplace({surface[e], from, to}, static_cast<int>(e));
+    if (!is_new) entry->second = -1;
   });
   ElementTable table;
   table.neighbours.assign(vertices.size(), {-1, -1, -1});
   each_edge([&](std::size_t e, std::size_t k, int from, int to) {
     const auto across = element_of_edge.find({surface[e], to, from});
-    if (across != element_of_edge.end()) table.neighbours[e][k] = across->second;
+    const bool is_pair = across != element_of_edge.end() && across->second != static_cast<int>(e) &&
+                         element_of_edge.at({surface[e], from, to}) >= 0;
+    if (is_pair) table.neighbours[e][k] = across->second;
   });
   const CornerFans fans = corner_fans(vertices, table.neighbours);
   table.points.resize(at(fans.count));

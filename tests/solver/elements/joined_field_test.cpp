@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace halfshade {
@@ -110,6 +111,23 @@ TEST(JoinedField, TheBetterElementSaysMore) {
     EXPECT_NEAR(value_in_space(field, two[0], 0, p)[1], 3, 1e-12);
   EXPECT_NEAR(value_in_space(field, two[0], 0, east)[1], 2, 1e-12);
   EXPECT_NEAR(value_in_space(field, two[1], 1, west)[1], 7, 1e-12);
+}
+
+TEST(JoinedField, WhereNoErrorIsKnownAllSayTheSame) {
+  const ElementTable elements = table_of(four, orders_of_four({}));
+  ElementField field = zero_field({0, 0, 0, 0});
+  for (int e = 0; e < 4; ++e) field.of(e) = 1 + e;
+  join(elements, Eigen::Array4d::Constant(HUGE_VAL), field);
+  EXPECT_NEAR(value_in_space(field, four[0], 0, o)[2], 2.5, 1e-12);
+  EXPECT_NEAR(value_in_space(field, four[0], 0, north)[2], 1.5, 1e-12);
+}
+
+TEST(JoinedField, TrianglesThatAreNoMeshHaveNoNeighbours) {
+  const std::vector<Triangle> heap = {
+      {o, east, north}, {o, east, north}, {o, west, o}, {o, north, west}};
+  for (const auto& neighbours :
+       connected(heap, std::vector<int>(4, 0), {4, {-1, -1, -1}}).neighbours)
+    EXPECT_EQ(neighbours, (std::array{-1, -1, -1}));
 }
 
 TEST(JoinedField, AnExactElementKeepsItsLight) {

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -16,11 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = HALFSHADE_DATA;
+const fs::path data = test::data_folder;
 
 test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder,
                         std::chrono::milliseconds interrupt_after = {}) {
-  arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+  arguments.insert(arguments.begin(), test::program);
   return test::run_program(std::move(arguments), folder, interrupt_after);
 }
 

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ const std::string python = "/usr/bin/python3";
 TEST(Ecosystem, MeshioAndVtkReadEveryKindOfFile) {
   const test::TempDir folder;
   const auto run = [&](const std::vector<std::string>& arguments) {
-    std::vector<std::string> line = {HALFSHADE_PROGRAM};
+    std::vector<std::string> line = {test::program};
     line.insert(line.end(), arguments.begin(), arguments.end());
     const test::Outcome outcome = test::run_program(line, folder.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -27,7 +28,7 @@ TEST(Ecosystem, MeshioAndVtkReadEveryKindOfFile) {
   run({"mesh", s1, "-q", "-o", "m.vtu", "-o", "m.vtp", "-o", "m.ply", "--curves", "c.vtp"});
   run({"probe", s1, "--grid", "receiver", "--spacing", "0.5", "--direct", "-q", "-o", "p.vtp"});
   const test::Outcome outcome = test::run_program(
-      {python, std::string(HALFSHADE_SOURCES) + "/tests/apps/ecosystem.py", "s.vtu", "s.vtp",
+      {python, std::string(test::sources_folder) + "/tests/apps/ecosystem.py", "s.vtu", "s.vtp",
        "s.ply", "s.png", "m.vtu", "m.vtp", "m.ply", "c.vtp", "p.vtp"},
       folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder) {
-  arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+  arguments.insert(arguments.begin(), test::program);
   return test::run_program(std::move(arguments), folder);
 }
 
@@ -34,7 +35,7 @@ void write_inside_out(const fs::path& folder) {
 
 TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   const test::TempDir folder;
-  const std::string s1 = (fs::path(HALFSHADE_DATA) / "s1.obj").string();
+  const std::string s1 = (fs::path(test::data_folder) / "s1.obj").string();
   const test::Outcome outcome = halfshade({"explain", s1, "--json", "p.json"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "left out     curves at three edges")) << outcome.out;
@@ -53,7 +54,7 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
 
 TEST(Explain, SaysHowReflectedLightWillBeFoundAndWhatItTakes) {
   const test::TempDir folder;
-  const std::string box = (fs::path(HALFSHADE_DATA) / "cornell_box.obj").string();
+  const std::string box = (fs::path(test::data_folder) / "cornell_box.obj").string();
   const auto seconds = [&](const std::string& tolerance) {
     const test::Outcome outcome =
         halfshade({"explain", box, "--tolerance", tolerance, "--json", "p.json"}, folder.path());

@@ -5,6 +5,7 @@
 
 #include "tests/support/analytic.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 #include "tests/support/scene_text.h"
 
@@ -201,8 +202,8 @@ class Extremes : public testing::TestWithParam<Extreme> {
  protected:
   double probed() {
     folder_.write("points.csv", "x,y,z,nx,ny,nz\n" + GetParam().point + "\n");
-    std::vector<std::string> line = {HALFSHADE_PROGRAM, "probe", "scene.obj", "--points",
-                                     "points.csv",      "-o",    "out.csv",   "-q"};
+    std::vector<std::string> line = {test::program, "probe", "scene.obj", "--points",
+                                     "points.csv",  "-o",    "out.csv",   "-q"};
     line.insert(line.end(), GetParam().options.begin(), GetParam().options.end());
     outcome_ = test::run_program(line, folder_.path());
     std::istringstream table(test::contents(folder_.path() / "out.csv"));
@@ -214,8 +215,8 @@ class Extremes : public testing::TestWithParam<Extreme> {
   }
 
   double solved() {
-    std::vector<std::string> line = {HALFSHADE_PROGRAM, "solve",  "scene.obj", "-o",
-                                     "out.vtu",         "--json", "out.json",  "-q"};
+    std::vector<std::string> line = {test::program, "solve",  "scene.obj", "-o",
+                                     "out.vtu",     "--json", "out.json",  "-q"};
     line.insert(line.end(), GetParam().options.begin(), GetParam().options.end());
     outcome_ = test::run_program(line, folder_.path());
     const auto report =

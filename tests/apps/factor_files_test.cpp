@@ -1,6 +1,7 @@
 // Scenes of thermal programs go in, matrices come out that others read.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +16,8 @@ std::string table_of(const std::string& scene, const std::string& by,
                      const std::string& tolerance) {
   const test::TempDir folder;
   const test::Outcome outcome =
-      test::run_program({HALFSHADE_PROGRAM, "factors", test::data_file(scene).string(), "-o",
-                         "f.csv", "-q", "--by", by, "--tolerance", tolerance},
+      test::run_program({test::program, "factors", test::data_file(scene).string(), "-o", "f.csv",
+                         "-q", "--by", by, "--tolerance", tolerance},
                         folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string text = test::contents(folder.path() / "f.csv");
@@ -63,10 +64,10 @@ TEST(FactorFiles, PythonReadsTheSameBits) {
   if (test::run_program({python, "-c", "import numpy"}, folder.path()).exit_code != 0)
     GTEST_SKIP() << "needs python3-numpy";
   for (const char* file : {"f.csv", "f.mtx"})
-    run({HALFSHADE_PROGRAM, "factors", test::data_file("l_room.obj").string(), "-q", "--by", "face",
+    run({test::program, "factors", test::data_file("l_room.obj").string(), "-q", "--by", "face",
          "-o", file});
   std::istringstream numbers(
-      run({python, std::string(HALFSHADE_SOURCES) + "/tests/apps/factor_matrices.py", "f.csv",
+      run({python, std::string(test::sources_folder) + "/tests/apps/factor_matrices.py", "f.csv",
            "f.mtx"}));
   std::istringstream lines(test::contents(folder.path() / "f.csv"));
   int count = 0;

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +12,7 @@ namespace {
 nlohmann::json solved(const std::string& scene, const std::string& factors) {
   const test::TempDir folder;
   const test::Outcome outcome = test::run_program(
-      {HALFSHADE_PROGRAM, "solve", test::data_file(scene).string(), "-q", "--method", "matrix",
+      {test::program, "solve", test::data_file(scene).string(), "-q", "--method", "matrix",
        "--elements", "400", "--direct-light", "matrix", "--no-discontinuity", "--factors", factors,
        "-o", "out.vtu", "--json", "report.json"},
       folder.path());

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = HALFSHADE_DATA;
+const fs::path data = test::data_folder;
 const std::string l_room = (data / "l_room.obj").string();
 const std::string cube = (data / "furnace_cube.obj").string();
 
@@ -20,7 +21,7 @@ class Factors : public testing::Test {
  protected:
   test::Outcome factors(std::vector<std::string> arguments,
                         std::chrono::milliseconds interrupt_after = {}) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "factors"});
+    arguments.insert(arguments.begin(), {test::program, "factors"});
     return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
   }
   void write(const std::string& name, const std::string& text) {

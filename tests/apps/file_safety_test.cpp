@@ -2,6 +2,7 @@
 // cannot be written whole leaves what was there.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,7 @@ class FileSafety : public testing::Test {
   fs::path path(const std::string& name) const { return folder_.path() / name; }
 
   test::Outcome run(Arguments arguments) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    arguments.insert(arguments.begin(), test::program);
     return test::run_program(std::move(arguments), folder_.path());
   }
 
@@ -132,7 +133,7 @@ TEST_F(FileSafety, WhatDoesNotFitLeavesWhatWasThere) {
                                 {"probe", "s1.obj", "--grid", "receiver", "--spacing", "1",
                                  "--direct", "-q", "-o", "-", "--json", "/dev/full"}};
   for (Arguments arguments : commands) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    arguments.insert(arguments.begin(), test::program);
     const test::Outcome outcome = run_limited(arguments, folder_.path(), 2000);
     EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
     EXPECT_NE(outcome.err.find("cannot be written"), std::string::npos) << outcome.err;
@@ -155,7 +156,7 @@ TEST_F(FileSafety, ProtectedFilesAndFoldersAreToldAtOnce) {
 }
 
 TEST_F(FileSafety, AStandardOutputThatTakesNothingIsTold) {
-  const std::string program = HALFSHADE_PROGRAM;
+  const std::string program = test::program;
   const std::string probe = " probe s1.obj --points points.csv --direct -o ";
   for (const std::string& command :
        {program + probe + "- | true; exit ${PIPESTATUS[0]}", program + probe + "o.csv >/dev/full",

@@ -5,6 +5,7 @@
 
 #include "io/files/seal.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -32,7 +33,7 @@ struct Command {
 void PrintTo(const Command& command, std::ostream* out) { *out << command.name; }
 
 std::vector<std::string> command_line(const Command& command) {
-  std::vector<std::string> line = {HALFSHADE_PROGRAM, command.name};
+  std::vector<std::string> line = {test::program, command.name};
   for (const std::string& argument : command.arguments)
     line.push_back(argument.starts_with("DATA/") ? test::data_file(argument.substr(5)).string()
                                                  : argument);

@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = HALFSHADE_DATA;
+const fs::path data = test::data_folder;
 const std::string s1 = (data / "s1.obj").string();
 const std::string skew_bars = (data / "skew_bars.obj").string();
 
@@ -21,7 +22,7 @@ class Mesh : public testing::Test {
  protected:
   test::Outcome mesh(std::vector<std::string> arguments,
                      std::chrono::milliseconds interrupt_after = {}) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "mesh"});
+    arguments.insert(arguments.begin(), {test::program, "mesh"});
     return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
   }
   std::string file(const std::string& name) { return test::contents(folder_.path() / name); }

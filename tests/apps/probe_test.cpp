@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -13,13 +14,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = HALFSHADE_DATA;
+const fs::path data = test::data_folder;
 
 class Probe : public testing::Test {
  protected:
   test::Outcome probe(std::vector<std::string> arguments,
                       std::chrono::milliseconds interrupt_after = {}) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "probe"});
+    arguments.insert(arguments.begin(), {test::program, "probe"});
     return test::run_program(std::move(arguments), folder_.path(), interrupt_after);
   }
   void write(const std::string& name, const std::string& text) {

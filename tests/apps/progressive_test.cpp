@@ -1,6 +1,7 @@
 // `halfshade solve --progressive` as a user runs it.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 class ProgressiveSeries : public testing::Test {
  protected:
   test::Outcome solve(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "solve", room_, "-q"});
+    arguments.insert(arguments.begin(), {test::program, "solve", room_, "-q"});
     return test::run_program(std::move(arguments), folder_.path());
   }
   /// With the method that shoots.

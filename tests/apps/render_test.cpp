@@ -1,4 +1,5 @@
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ class Render : public testing::Test {
   }
 
   test::Outcome run(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM});
+    arguments.insert(arguments.begin(), {test::program});
     return test::run_program(std::move(arguments), folder_.path());
   }
   test::Outcome render(std::vector<std::string> arguments) const {

@@ -1,6 +1,7 @@
 // What a user stops, and what stops by itself, leaves whole files, and says what is partial.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -22,8 +23,8 @@ const std::string bars = test::data_file("bars.obj").string();
 
 /// A run that takes much longer than the test.
 std::vector<std::string> long_probe() {
-  return {HALFSHADE_PROGRAM, "probe", lights,    "--grid", "floor",   "--spacing", "0.02",
-          "--direct",        "-o",    "old.csv", "--json", "old.json"};
+  return {test::program, "probe",    lights, "--grid",  "floor",  "--spacing",
+          "0.02",        "--direct", "-o",   "old.csv", "--json", "old.json"};
 }
 
 TEST(Signals, TwoWithinASecondAreOne) {
@@ -42,9 +43,8 @@ TEST(Signals, TwoWithinASecondAreOne) {
 TEST(Signals, TooEarlyForAResultKeepsWhatWasThere) {
   const std::vector<std::vector<std::string>> commands = {
       long_probe(),
-      {HALFSHADE_PROGRAM, "solve", lights, "-o", "old.csv.vtu", "--json", "old.json"},
-      {HALFSHADE_PROGRAM, "render", lights, "-o", "old.png", "--width", "8000", "--json",
-       "old.json"}};
+      {test::program, "solve", lights, "-o", "old.csv.vtu", "--json", "old.json"},
+      {test::program, "render", lights, "-o", "old.png", "--width", "8000", "--json", "old.json"}};
   for (const auto& command : commands) {
     const test::TempDir folder;
     for (const char* name : {"old.csv", "old.csv.vtu", "old.png", "old.json"})
@@ -61,17 +61,16 @@ TEST(Signals, TooEarlyForAResultKeepsWhatWasThere) {
 TEST(Signals, APictureThatIsNotFinishedIsNotWritten) {
   const test::TempDir folder;
   folder.write("old.png", "old");
-  const test::Outcome outcome =
-      test::run_program({HALFSHADE_PROGRAM, "render", lights, "-o", "old.png", "--width", "16000",
-                         "--height", "16000"},
-                        folder.path(), milliseconds(1000));
+  const test::Outcome outcome = test::run_program(
+      {test::program, "render", lights, "-o", "old.png", "--width", "16000", "--height", "16000"},
+      folder.path(), milliseconds(1000));
   EXPECT_EQ(outcome.exit_code, 130) << outcome.err;
   EXPECT_EQ(test::contents(folder.path() / "old.png"), "old");
 }
 
 TEST(Signals, WhatIsIgnoredAtTheStartStaysIgnored) {
   const test::TempDir folder;
-  const std::string program = HALFSHADE_PROGRAM;
+  const std::string program = test::program;
   const std::string command = "trap '' HUP; " + program + " probe " + bars +
                               " --grid floor --spacing 0.004 --direct -q -o o.csv & "
                               "sleep 0.3; kill -HUP $!; wait $!";

@@ -1,6 +1,7 @@
 // `halfshade study` as a user runs it.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +21,7 @@ using Row = std::map<std::string, std::string>;
 class StudyCommandTest : public testing::Test {
  protected:
   test::Outcome study(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "study"});
+    arguments.insert(arguments.begin(), {test::program, "study"});
     return test::run_program(std::move(arguments), folder_.path());
   }
   std::string file(const std::string& name) { return test::contents(folder_.path() / name); }
@@ -49,7 +50,7 @@ class StudyCommandTest : public testing::Test {
 
   /// Starts a study and ends it by a signal as soon as so many cases are done.
   test::Outcome ended(std::vector<std::string> arguments, int cases, int signal) {
-    arguments.insert(arguments.begin(), {HALFSHADE_PROGRAM, "study"});
+    arguments.insert(arguments.begin(), {test::program, "study"});
     const pid_t child = test::start_program(std::move(arguments), folder_.path());
     const auto wanted = static_cast<std::size_t>(cases);
     for (int k = 0; k < 2000 && is_running(child); ++k) {
@@ -195,7 +196,7 @@ TEST_F(StudyCommandTest, SaysInOneSentenceWhatIsWrong) {
 }
 
 TEST_F(StudyCommandTest, ExamplesOfTheHelpRun) {
-  fs::create_directory_symlink(fs::path(HALFSHADE_DATA), folder_.path() / "data");
+  fs::create_directory_symlink(fs::path(test::data_folder), folder_.path() / "data");
   const auto examples = test::examples_of(study({"--help"}).out, "study");
   EXPECT_GE(examples.size(), 2u);
   for (auto arguments : examples) {

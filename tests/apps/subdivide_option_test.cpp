@@ -1,6 +1,7 @@
 // `halfshade solve --subdivide` on the scene made for it.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -14,14 +15,9 @@ using Json = nlohmann::json;
 class ReadingRoom : public testing::Test {
  protected:
   test::Outcome solve(std::vector<std::string> more) {
-    std::vector<std::string> arguments = {HALFSHADE_PROGRAM,
-                                          "solve",
-                                          test::data_file("reading_room.obj").string(),
-                                          "-q",
-                                          "-o",
-                                          "r.vtu",
-                                          "--json",
-                                          "r.json"};
+    std::vector<std::string> arguments = {
+        test::program, "solve", test::data_file("reading_room.obj").string(), "-q", "-o", "r.vtu",
+        "--json",      "r.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return test::run_program(arguments, folder_.path());
   }

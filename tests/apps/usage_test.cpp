@@ -1,6 +1,7 @@
 // What the program says to a clumsy command line, and what comes in and goes out by streams.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ using Arguments = std::vector<std::string>;
 class Usage : public testing::Test {
  protected:
   test::Outcome run(Arguments arguments) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    arguments.insert(arguments.begin(), test::program);
     return test::run_program(std::move(arguments), folder_.path());
   }
   test::Outcome shell(const std::string& command) {
@@ -102,7 +103,7 @@ TEST_F(Usage, HelpShowsChoicesAsWords) {
 }
 
 TEST_F(Usage, PointsAndTablesMayBeStreams) {
-  const std::string program = HALFSHADE_PROGRAM;
+  const std::string program = test::program;
   const test::Outcome outcome =
       shell(program + " probe " + s1_ + " --points - -o - --direct --json r.json <" + points_);
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

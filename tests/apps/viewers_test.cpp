@@ -1,6 +1,7 @@
 // What others open our files with, where it is installed.
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +23,7 @@ class Viewers : public testing::Test {
     return test::run_program(arguments, folder_.path());
   }
   test::Outcome halfshade(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    arguments.insert(arguments.begin(), test::program);
     const test::Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return outcome;
@@ -68,7 +69,7 @@ TEST_F(Viewers, ParaViewShowsAResultWithItsCurves) {
   };
   halfshade({"solve", s1_, "--tolerance", "0.05", "-q", "-o", "a.vtu"});
   halfshade({"mesh", s1_, "-q", "-o", "m.vtu", "--curves", "c.vtp"});
-  const std::string macro = std::string(HALFSHADE_SOURCES) + "/apps/paraview/halfshade_view.py";
+  const std::string macro = std::string(test::sources_folder) + "/apps/paraview/halfshade_view.py";
   const test::Outcome outcome =
       batch({macro, "a.vtu", "--curves", "c.vtp", "--size", "300", "200", "-o", "view.png"});
   if (outcome.err.find("No module named 'paraview") != std::string::npos ||

@@ -1,4 +1,5 @@
 #include "tests/architecture/include_rules.h"
+#include "tests/support/places.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +11,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(Architecture, IncludesKeepToTheTableOfRooms) {
-  const std::filesystem::path root = HALFSHADE_SOURCES;
+  const std::filesystem::path root = sources_folder;
   const IncludeRules rules = rules_of(read_whole(root / "ARCHITECTURE.md"));
   ASSERT_GE(rules.size(), 20u);
   const std::vector<SourceText> files = sources_of(root, {"meshing", "solver", "io", "apps"});

@@ -1,4 +1,5 @@
 #include "tests/architecture/length_rules.h"
+#include "tests/support/places.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +10,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 
 TEST(Architecture, FilesAreShort) {
-  const auto files = sources_of(HALFSHADE_SOURCES, {"meshing", "solver", "io", "apps", "tests"});
+  const auto files = sources_of(sources_folder, {"meshing", "solver", "io", "apps", "tests"});
   ASSERT_GE(files.size(), 400u);
   for (const std::string& sentence : too_long(files)) ADD_FAILURE() << sentence;
 }

@@ -8,6 +8,7 @@
 #include "io/read/read_scene.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/solve.h"
+#include "tests/support/places.h"
 #include "tests/support/random.h"
 #include "tests/support/touching_lights.h"
 #include "tests/support/true_error.h"
@@ -118,7 +119,8 @@ int main(int argc, char** argv) {
   if (is_all)
     names = {"s1", "bars", "skew_bars", "table_and_chairs", "holed_light", "hundred_lights"};
   for (const std::string& name : names) {
-    const Scene scene = read_scene(std::filesystem::path(HALFSHADE_DATA) / (name + ".obj")).scene;
+    const Scene scene =
+        read_scene(std::filesystem::path(test::data_folder) / (name + ".obj")).scene;
     // A hundred lights over a thousand things take minutes to 1 % and hours to less.
     const double least = scene.faces.size() > 500 ? 5e-3 : 0;
     for (const bool with_curves : {true, false})

@@ -4,6 +4,7 @@
 #include "meshing/rays/visibility.h"
 #include "meshing/repair/repair.h"
 #include "solver/direct/direct_light.h"
+#include "tests/support/places.h"
 #include "tests/support/sound_scenes.h"
 
 #include <benchmark/benchmark.h>
@@ -204,7 +205,7 @@ void compare(benchmark::State& state, const SoundScene& scene, double half, std:
 
 void direct_light_of_file(benchmark::State& state, const std::string& name, double half,
                           std::size_t count) {
-  const std::filesystem::path path = std::filesystem::path(HALFSHADE_DATA) / (name + ".obj");
+  const std::filesystem::path path = std::filesystem::path(test::data_folder) / (name + ".obj");
   compare(state, make_sound(read_scene(path).scene), half, count, 8);
 }
 BENCHMARK_CAPTURE(direct_light_of_file, s1, "s1", 1.3, 64)->Iterations(1);

@@ -1,5 +1,6 @@
 #include "io/read/read_scene.h"
 #include "solver/pipeline/solve.h"
+#include "tests/support/places.h"
 
 #include <benchmark/benchmark.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 void solve_scene(benchmark::State& state, const std::string& name,
                  const std::function<void(Scene&)>& prepare, const SolveOptions& options) {
-  Scene scene = read_scene(std::string(HALFSHADE_DATA) + "/" + name + ".obj").scene;
+  Scene scene = read_scene(std::string(test::data_folder) + "/" + name + ".obj").scene;
   prepare(scene);
   std::size_t elements = 0;
   for (auto _ : state) elements = solve(scene, options).elements.corners.size();

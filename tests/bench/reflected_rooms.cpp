@@ -10,6 +10,7 @@
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve.h"
+#include "tests/support/places.h"
 #include "tests/support/room_families.h"
 
 #include <fmt/format.h>
@@ -66,7 +67,7 @@ void measure(const std::string& name, const Scene& scene, std::span<const double
 Scene room_named(const std::string& name) {
   const bool is_number = name.find_first_not_of("0123456789") == name.npos;
   if (is_number) return test::furnished_room(std::stoi(name));
-  return read_scene(std::filesystem::path(HALFSHADE_DATA) / (name + ".obj")).scene;
+  return read_scene(std::filesystem::path(test::data_folder) / (name + ".obj")).scene;
 }
 
 /// A closed cube whose walls send out 1 − ρ: all radiosity is 1. They absorb (1 − rho) times 1

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/support/expect_error.h"
+#include "tests/support/places.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +26,7 @@ inline std::string contents(const std::filesystem::path& path) {
 
 /// A file of the folder data/.
 inline std::filesystem::path data_file(std::string_view name) {
-  return std::filesystem::path(HALFSHADE_DATA) / name;
+  return std::filesystem::path(data_folder) / name;
 }
 
 /// A new, empty folder for one test, removed with what is in it.

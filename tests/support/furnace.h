@@ -3,6 +3,7 @@
 #include "solver/heat/heat.h"
 #include "tests/support/analytic.h"
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 #include "tests/support/process.h"
 
 #include <Eigen/Dense>
@@ -70,7 +71,7 @@ inline double black(double kelvin) { return stefan_boltzmann * std::pow(kelvin, 
 class FurnaceRuns : public testing::Test {
  protected:
   Outcome run(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), HALFSHADE_PROGRAM);
+    arguments.insert(arguments.begin(), program);
     return run_program(std::move(arguments), folder_.path());
   }
 

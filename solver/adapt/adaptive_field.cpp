@@ -28,7 +28,7 @@ constexpr int most_rounds = 60;
 constexpr double share_left_alone = 0.25, share_after_merging = 0.7, share_after_dropping = 0.8;
 constexpr int most_merges = 20;
 /// Places of an element at which its estimate is checked, and by how much it may be off there.
-constexpr int checks = 4;
+constexpr std::size_t checks = 4;
 constexpr double noticeably = 2;
 /// Close to corners and edges: so many samples, and half of what all others take.
 constexpr std::size_t least_near_looks = 20000;
@@ -220,11 +220,15 @@ class Adaptation {
   bool check_new() {
     std::vector<FieldPoint> points;
     std::vector<TrianglePlace> places;
-    for (const FittedElement& element : elements_)
-      for (int k = 0; !element.is_checked && k < checks; ++k) {
-        places.push_back(spread_place(next_check_++));
+    for (const FittedElement& element : elements_) {
+      if (element.is_checked) continue;
+      // Others where the order was another.
+      const std::size_t first = first_spread(element.triangle) + at(checks * element.fit.order);
+      for (std::size_t k = first; k < first + checks; ++k) {
+        places.push_back(spread_place(k));
         points.push_back(point_at(element, places.back()));
       }
+    }
     const std::vector<Rgb> values = sample(points);
     if (values.empty() && !points.empty()) return false;
     if (!check_near()) return false;
@@ -233,7 +237,7 @@ class Adaptation {
     for (FittedElement& element : elements_) {
       if (element.is_checked) continue;
       double square = 0;
-      for (int k = 0; k < checks; ++k, ++next)
+      for (std::size_t k = 0; k < checks; ++k, ++next)
         square += (values[next] - fitted_at(element, places[next])).square().sum() / checks;
       element.is_checked = true;
       if (square > noticeably * noticeably * element.fit.error * element.fit.error)
@@ -384,7 +388,7 @@ class Adaptation {
   bool merging_ = false;      ///< has begun: what it takes is no limit any more
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0, total_area_ = 0;
-  std::size_t unknowns_ = 0, next_check_ = 0, near_looks_ = 0;
+  std::size_t unknowns_ = 0, near_looks_ = 0;
   AdaptiveFieldReport report_;
 };
 

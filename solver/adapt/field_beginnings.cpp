@@ -1,6 +1,7 @@
 #include "solver/adapt/field_beginnings.h"
 
 #include "meshing/core/rounded.h"
+#include "solver/elements/triangle_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,11 @@ TrianglePlace spread_place(std::size_t index) {
   double t = std::fmod(0.5 + static_cast<double>(index + 1) / (root * root), 1.);
   if (s + t > 1) s = 1 - s, t = 1 - t;
   return {s, t};
+}
+
+std::size_t first_spread(const std::array<Vec3, 3>& triangle) {
+  constexpr int dropped = 44;  // more than a million would take digits of the places
+  return triangle_key(triangle) >> dropped;
 }
 
 }  // namespace halfshade

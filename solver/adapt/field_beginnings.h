@@ -14,8 +14,11 @@ int first_order(const AdaptiveFieldOptions& options);
 /// little, and in clutter there are many.
 int modesty(double share);
 
-/// The places at which elements are checked: evenly spread over the triangle, different for each
-/// index (Roberts' sequence).
+/// Places evenly spread over a triangle, different for each index (Roberts' sequence).
 TrianglePlace spread_place(std::size_t index);
+
+/// Where an element begins in that sequence: no two alike, and what there is besides changes
+/// nothing, see triangle_key.
+std::size_t first_spread(const std::array<Vec3, 3>& triangle);
 
 }  // namespace halfshade

@@ -2,9 +2,11 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/mix_bits.h"
 #include "solver/adapt/field_beginnings.h"
 #include "solver/adapt/noisy_element.h"
 #include "solver/elements/balancing_scale.h"
+#include "solver/elements/triangle_key.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +39,7 @@ constexpr double missed = 3;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
-constexpr std::size_t most_fresh = 40000, least_fresh = 10000;
+constexpr double most_fresh = 40000, least_fresh = 10000;
 constexpr double fresh_for_one = 0.2;  ///< element
 /// Of the density of fresh places, what has nothing to do with the estimate: half of it by area,
 /// half by the square of what light may be there, which bounds what one place can add.
@@ -158,8 +160,9 @@ class NoisyFit {
       if (element.is_fitted && element.samples.size() >= at(element.wanted)) continue;
       changed.push_back(e);
       first.push_back(places.size());
+      const std::size_t start = first_spread(element.triangle);
       for (std::size_t k = element.samples.size(); k < at(element.wanted); ++k) {
-        places.push_back(spread_place(next_place_++));
+        places.push_back(spread_place(start + k));
         points.push_back(point_at(element, places.back()));
       }
     }
@@ -223,21 +226,25 @@ class NoisyFit {
       return (1 - even_share) * element.known_error() + even +
              (reaches > 0 ? even_share / 2 * estimated * element.reach / reaches : 0);
     };
-    std::vector<double> reached;
     double sum = 0;
-    for (const NoisyElement& element : elements_)
-      reached.push_back(sum += element.area * density(element));
-    const auto count =
-        std::clamp(static_cast<std::size_t>(fresh_for_one * static_cast<double>(elements_.size())),
-                   least_fresh, most_fresh);
+    for (const NoisyElement& element : elements_) sum += element.area * density(element);
+    const double count =
+        std::clamp(fresh_for_one * static_cast<double>(elements_.size()), least_fresh, most_fresh);
     std::vector<FieldPoint> points;
     std::vector<std::pair<std::size_t, TrianglePlace>> places;
-    std::size_t e = 0;
-    for (std::size_t k = 0; k < count && sum > 0; ++k) {
-      const double along = (static_cast<double>(k) + 0.5) / static_cast<double>(count) * sum;
-      while (e + 1 < reached.size() && reached[e] < along) ++e;
-      places.emplace_back(e, spread_place(next_place_++));
-      points.push_back(point_at(elements_[e], places.back().second));
+    for (std::size_t e = 0; e < elements_.size() && sum > 0; ++e) {
+      const NoisyElement& element = elements_[e];
+      // As many as its share in the mean of such draws, whatever there is besides.
+      const double draw = unit_share(
+          mix_bits(triangle_key(element.triangle) + static_cast<std::uint64_t>(report_.rounds)));
+      const auto end =
+          element.samples.size() +
+          static_cast<std::size_t>(count * element.area * density(element) / sum + draw);
+      const std::size_t start = first_spread(element.triangle);
+      for (std::size_t k = element.samples.size(); k < end; ++k) {
+        places.emplace_back(e, spread_place(start + k));
+        points.push_back(point_at(element, places.back().second));
+      }
     }
     const std::vector<NoisyValue> values = sample(points);
     if (values.size() < points.size() || points.empty()) return;
@@ -247,12 +254,12 @@ class NoisyFit {
       const Rgb fitted = value_at(element, places[k].second);
       const double product =
           ((values[k].a - fitted) * (values[k].b - fitted)).sum() * sum / density(element);
-      mean += product / static_cast<double>(count);
-      mean_square += product * product / static_cast<double>(count);
+      mean += product / count;
+      mean_square += product * product / count;
       element.samples.push_back({places[k].second, values[k]});
     }
-    const double variance = std::max(mean_square - mean * mean, 0.) / static_cast<double>(count);
-    correction_ = std::max((mean + deviations * std::sqrt(variance)) / estimated, 1.);
+    // How many there are is random, too: nothing is known of the mean beforehand.
+    correction_ = std::max((mean + deviations * std::sqrt(mean_square / count)) / estimated, 1.);
     correction_of_round_ = report_.rounds;
   }
 
@@ -376,7 +383,7 @@ class NoisyFit {
   double square_error_ = 0, square_ = 0;
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;
-  std::size_t unknowns_ = 0, next_place_ = 0;
+  std::size_t unknowns_ = 0;
   AdaptiveFieldReport report_;
 };
 

@@ -69,7 +69,7 @@ double length_of(const SoundScene& scene, const SolveOptions& options) {
 /// What finding curves and following them takes, in samples of direct light.
 double cost_of_curves(const SoundScene& scene, const Plan& plan) {
   double edges = 0;
-  for (const int s : blocking_surfaces(scene))
+  for (const int s : blocking_in_the_light(scene))
     for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
   return samples_for_curves * std::pow(edges, power_of_edges) *
          static_cast<double>(plan.sources.size());

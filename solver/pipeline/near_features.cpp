@@ -14,14 +14,14 @@ namespace {
 constexpr double nearest_corner = 0.25, nearest_edge = 0.1;
 /// By how much an edge may rise over a surface, as a share of its length.
 constexpr double steepest = 0.3;
-/// What is nearer than this share of the scene is one, or touches.
-constexpr double alike = 1e-9;
+/// Of lengths below which points of a surface are one: features nearer than that are.
+constexpr double alike = 100;
 /// Of each kind.
 constexpr std::size_t most_features = 20000;
 
 class Finder {
  public:
-  explicit Finder(const SoundScene& scene) : scene_(scene), tiny_(alike * scene.diagonal) {
+  explicit Finder(const SoundScene& scene) : scene_(scene) {
     std::vector<Bounds> boxes;
     for (const Surface& surface : scene.surfaces) {
       Bounds box;
@@ -50,7 +50,7 @@ class Finder {
   void visit_near(const Surface& own, const Bounds& box, Visit&& visit) {
     visit_overlaps(tree_, box, [&](int other) {
       if (const Surface& surface = scene_.surfaces[at(other)]; surface.plane != own.plane)
-        visit(other, surface.frame);
+        visit(other, surface.frame, tolerance_of(own, surface).length);
     });
   }
 
@@ -58,12 +58,12 @@ class Finder {
     Bounds box;
     box.include(corner);
     const double reach = nearest_corner * length;
-    visit_near(own, box.grown(reach), [&](int other, const PlaneFrame& plane) {
+    visit_near(own, box.grown(reach), [&](int other, const PlaneFrame& plane, double tiny) {
       const double height = plane.height(corner);
-      if (height < -tiny_ || height > reach || found.corners.size() >= most_features) return;
+      if (height < -tiny || height > reach || found.corners.size() >= most_features) return;
       const Vec3 foot = corner - height * plane.normal;
       if (is_new(other, foot, foot))
-        found.corners.push_back({other, foot, height > tiny_ ? height : 0});
+        found.corners.push_back({other, foot, height > tiny ? height : 0});
     });
   }
 
@@ -71,13 +71,13 @@ class Finder {
     Bounds box;
     for (const Vec3& end : edge) box.include(end);
     const double length = (edge[1] - edge[0]).norm(), reach = nearest_edge * length;
-    visit_near(own, box.grown(reach), [&](int other, const PlaneFrame& plane) {
+    visit_near(own, box.grown(reach), [&](int other, const PlaneFrame& plane, double tiny) {
       WatchedEdge near{other, edge, {}};
       for (std::size_t k = 0; k < 2; ++k) {
         const double height = plane.height(edge[k]);
-        if (height < -tiny_) return;
+        if (height < -tiny) return;
         near.feet[k] -= height * plane.normal;
-        near.height[k] = height > tiny_ ? height : 0;
+        near.height[k] = height > tiny ? height : 0;
       }
       const auto [low, high] = std::minmax(near.height[0], near.height[1]);
       if (low > reach || high == 0 || high - low > steepest * length) return;
@@ -92,16 +92,16 @@ class Finder {
 
   /// Faces that share edges and corners tell of each but once.
   bool is_new(int surface, const Vec3& a, const Vec3& b) {
+    const double apart = alike * tolerance_of(scene_.surfaces[at(surface)]).length;
     std::array<long long, 7> key{surface};
     for (int k = 0; k < 3; ++k) {
-      key[at(1 + k)] = std::llround(a[k] / (100 * tiny_));
-      key[at(4 + k)] = std::llround(b[k] / (100 * tiny_));
+      key[at(1 + k)] = std::llround(a[k] / apart);
+      key[at(4 + k)] = std::llround(b[k] / apart);
     }
     return known_.insert(key).second;
   }
 
   const SoundScene& scene_;
-  double tiny_;
   FlatTree tree_;
   std::set<std::array<long long, 7>> known_;
 };
@@ -111,7 +111,7 @@ class Finder {
 Watched near_features(const SoundScene& scene, std::span<const int> sources) {
   Finder finder(scene);
   std::vector<int> ids(sources.begin(), sources.end());
-  const std::vector<int> blockers = blocking_surfaces(scene);
+  const std::vector<int> blockers = blocking_in_the_light(scene);
   ids.insert(ids.end(), blockers.begin(), blockers.end());
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());

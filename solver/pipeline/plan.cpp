@@ -1,6 +1,7 @@
 #include "solver/pipeline/plan.h"
 
 #include "meshing/core/error.h"
+#include "meshing/core/rounded.h"
 #include "meshing/patches/patch_mesh.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/blockers.h"
@@ -23,6 +24,8 @@ constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
 /// The same where a place's light takes more than so much, see DirectLight::crowd_work.
 constexpr std::size_t much_work = 500;
+/// Of the power that arrives.
+constexpr double hardly_any = 1e-6;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
@@ -140,7 +143,10 @@ double mean_direct_irradiance(const PreparedScene& prepared, const Progress& pro
       has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
   // Some of them first, which tell what all would take.
   const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));
-  double power = 0, reached = 0;
+  struct Lit {
+    double area, irradiance;
+  };
+  std::vector<Lit> lit;
   std::size_t work = 0;
   const auto add = [&](bool is_first) {
     std::vector<SurfacePoint> points;
@@ -154,14 +160,24 @@ double mean_direct_irradiance(const PreparedScene& prepared, const Progress& pro
     for (std::size_t k = 0; k < light.size(); ++k) {
       work += light[k].crowd_work;
       const double irradiance = light[k].irradiance.maxCoeff();
-      if (!(irradiance > 0)) continue;
-      power += areas[k] * irradiance;
-      reached += areas[k];
+      if (irradiance > 0) lit.push_back({areas[k], irradiance});
     }
     return points.size();
   };
   const std::size_t first = add(true);
-  if (work <= much_work * first || !(reached > 0)) add(false);
+  if (work <= much_work * first || lit.empty()) add(false);
+  // The dimmest places that get hardly any of it together do not count: what is far away is not to
+  // dim the mean.
+  std::stable_sort(lit.begin(), lit.end(), [](const Lit& a, const Lit& b) {
+    return rounded(a.irradiance) > rounded(b.irradiance);
+  });
+  double all = 0, power = 0, reached = 0;
+  for (const Lit& place : lit) all += place.area * place.irradiance;
+  for (const Lit& place : lit) {
+    if (power > (1 - hardly_any) * all) break;
+    power += place.area * place.irradiance;
+    reached += place.area;
+  }
   return reached > 0 ? power / reached : 0;
 }
 

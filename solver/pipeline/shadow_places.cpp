@@ -39,7 +39,7 @@ Landing land(const SoundScene& scene, int blocker, const Vec3& from, const Vec3&
 }  // namespace
 
 std::vector<WatchedPlace> shadow_places(const SoundScene& scene, std::span<const int> sources) {
-  std::vector<int> blockers = blocking_surfaces(scene);
+  std::vector<int> blockers = blocking_in_the_light(scene);
   std::stable_sort(blockers.begin(), blockers.end(), [&](int a, int b) {
     return area(scene.surfaces[at(a)]) > area(scene.surfaces[at(b)]);
   });

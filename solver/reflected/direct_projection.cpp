@@ -25,7 +25,7 @@ ChannelArray project(const ReflectedMesh& mesh, const LightAt& direct, int eleme
 
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(by_rule.rows(), 3);
   Eigen::VectorXd basis(by_rule.rows());
-  const std::uint64_t seed = ray_seed(triangle, 0, 1);
+  const std::uint64_t seed = ray_seed(mesh, element, 0, 1);
   std::uint64_t number = 0;
   for (int i = 0; i < strata; ++i)
     for (int j = 0; j < strata; ++j, number += 2) {

@@ -25,12 +25,11 @@ struct ElementPass {
 
   /// What arrives at the nodes by each half of the rays.
   ChannelArray operator()(int element, const ElementNodes& nodes, int strata) const {
-    const int triangle = mesh.triangle[at(element)];
     ChannelArray halves(2 * static_cast<Eigen::Index>(nodes.places.size()), 3);
     for (int i = 0; i < static_cast<int>(halves.rows()); ++i) {
       const int node = i / 2;
       const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
-      const std::uint64_t seed = ray_seed(triangle, node, 2 * use + i % 2);
+      const std::uint64_t seed = ray_seed(mesh, element, node, 2 * use + i % 2);
       halves.row(i) = gathered({scene, light}, mesh, leaving, from, strata, seed).transpose();
     }
     return halves;

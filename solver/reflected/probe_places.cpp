@@ -47,8 +47,8 @@ std::vector<ProbePlace> spread_probes(const ReflectedMesh& mesh, const std::vect
   for (int e = 0; e < mesh.count(); ++e) {
     const double wanted = points * shares[at(e)];
     // Numbers above those of nodes, and of several points apart.
-    const std::uint64_t count_seed = ray_seed(mesh.triangle[at(e)], 63, 2 * use);
-    const std::uint64_t place_seed = ray_seed(mesh.triangle[at(e)], 62, use);
+    const std::uint64_t count_seed = ray_seed(mesh, e, 63, 2 * use);
+    const std::uint64_t place_seed = ray_seed(mesh, e, 62, use);
     const int count = static_cast<int>(std::floor(wanted + random_number(count_seed, 0)));
     for (int k = 0; k < count; ++k) {
       const std::uint64_t seed = place_seed + static_cast<std::uint64_t>(k) * 0x1000003;

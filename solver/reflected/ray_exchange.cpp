@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
+#include "solver/elements/triangle_key.h"
 
 namespace halfshade {
 namespace {
@@ -35,7 +36,7 @@ std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& 
   for (int i = 0; i < static_cast<int>(rays->source.rows()); ++i) {
     const int node = i / 2;
     const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
-    const std::uint64_t seed = ray_seed(triangle, node, i % 2 == 0 ? 0 : second_half);
+    const std::uint64_t seed = ray_seed(mesh, element, node, i % 2 == 0 ? 0 : second_half);
     const auto [first, count] = gathering(from, strata, seed, ends);
     rays->first.push_back(static_cast<int>(rays->ends.size()));
     rays->rays.push_back(count);
@@ -57,12 +58,9 @@ void settle(const TriangleForest& forest, NodeRays& rays) {
 
 }  // namespace
 
-std::uint64_t ray_seed(int triangle, int node, int use) {
-  constexpr std::uint64_t most_nodes = 64;
-  return mix_bits(
-      (static_cast<std::uint64_t>(triangle) * most_nodes + static_cast<std::uint64_t>(node)) *
-          most_uses +
-      static_cast<std::uint64_t>(use));
+std::uint64_t ray_seed(const ReflectedMesh& mesh, int element, int node, int use) {
+  return mix_bits(triangle_key(mesh.forest.corners(mesh.triangle[at(element)])) +
+                  static_cast<std::uint64_t>(node * most_uses + use));
 }
 
 RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, int element,

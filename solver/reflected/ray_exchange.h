@@ -75,8 +75,8 @@ struct Gathering {
 Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
              const RayOrigin& from, int strata, std::uint64_t seed);
 
-/// A seed for the rays of a node of a triangle; `use` tells apart what is to be independent.
-std::uint64_t ray_seed(int triangle, int node, int use);
+/// A seed for the rays of a node of an element; `use` tells apart what is to be independent.
+std::uint64_t ray_seed(const ReflectedMesh& mesh, int element, int node, int use);
 
 /// ρ times a field.
 ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,

@@ -44,8 +44,27 @@ double power(double x, int n) {
   return result;
 }
 
-/// Sizes of parts fall by half each time: by then they are as small as rounding.
-constexpr int most_depth = 45;
+/// How often parts may be halved: by then their sizes are as small as rounding.
+constexpr int most_depth = 90;
+
+/// Parts whose area is less than this times the square of their size are halved across, for of
+/// quarters of a needle those that are close would be as many as its rows.
+constexpr double needle = 0.03;
+
+/// Corners of the halves at the longest edge; the same area each.
+std::array<std::array<Vec2, 3>, 2> halves_of(std::array<Vec2, 3> corners) {
+  const auto edge = [&](std::size_t k) {
+    return (corners[(k + 1) % 3] - corners[k]).squaredNorm();
+  };
+  const std::size_t longest = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0
+                              : edge(1) >= edge(2)                     ? 1
+                                                                       : 2;
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest),
+              corners.end());
+  const auto& [a, b, c] = corners;
+  const Vec2 middle = 0.5 * (a + b);
+  return {{{a, middle, c}, {middle, b, c}}};
+}
 
 }  // namespace
 
@@ -93,13 +112,17 @@ void KernelMoments::add_part(const Vec2& a, const Vec2& b, const Vec2& c, double
       chosen = &rule;
       break;
     }
+  if (!chosen && depth < most_depth && std::abs(area) < needle * size * size) {
+    for (const auto& [p, q, r] : halves_of({a, b, c})) add_part(p, q, r, 0.5 * area, depth + 1);
+    return;
+  }
   if (!chosen && depth < most_depth) {
     const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
     const double quarter = 0.25 * area;
-    add_part(a, ab, ca, quarter, depth + 1);
-    add_part(ab, b, bc, quarter, depth + 1);
-    add_part(ca, bc, c, quarter, depth + 1);
-    add_part(bc, ca, ab, quarter, depth + 1);
+    add_part(a, ab, ca, quarter, depth + 2);
+    add_part(ab, b, bc, quarter, depth + 2);
+    add_part(ca, bc, c, quarter, depth + 2);
+    add_part(bc, ca, ab, quarter, depth + 2);
     return;
   }
   if (!chosen) chosen = &rules().front();

@@ -42,6 +42,22 @@ TEST(KernelMoments, TheFirstIsTheFormFactorHoweverNear) {
     }
 }
 
+TEST(KernelMoments, NeedlesTakeNoMoreThanOtherCells) {
+  // Quarters of quarters of these are billions.
+  test::Random random(3);
+  for (const double width : {1e-3, 1e-6, 1e-9}) {
+    const std::array<Vec2, 3> needle = {Vec2(-200, 0), Vec2(300, -width), Vec2(300, width)};
+    for (int i = 0; i < 20; ++i) {
+      const double height = width * random(0.1, 1);
+      const PointAbovePlane from = {
+          {random(-100, 200), width * random(-1, 1)}, height, -Vec3::UnitZ()};
+      KernelMoments moments(from, needle, 2, 1e-9);
+      moments.add(needle);
+      EXPECT_NEAR(moments.values()[0], form_factor(from, needle), 2e-6) << width;
+    }
+  }
+}
+
 TEST(KernelMoments, AllAreThoseOfManySmallParts) {
   test::Random random(2);
   constexpr int parts = 60;

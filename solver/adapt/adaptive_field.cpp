@@ -55,11 +55,12 @@ class Adaptation {
              const Progress& progress, const Watched& watched)
       : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
-    for (const FittedElement& element : elements_) total_area_ += element.area;
     for (FittedElement& element : elements_) {
-      const double share = element.area * static_cast<double>(elements_.size()) / total_area_;
-      element.fit.order =
-          options.order >= 0 ? options.order : std::max(first_order(options) - modesty(share), 0);
+      const double share = element.area * counted_.count / counted_.area;
+      element.fit.order = options.order >= 0 ? options.order
+                          : counts(options, element.surface)
+                              ? std::max(first_order(options) - modesty(share), 0)
+                              : 0;
       element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
     }
   }
@@ -140,6 +141,7 @@ class Adaptation {
   /// Reads the mesh; elements that are parts of others begin with what those knew.
   void take_elements(std::span<const int> node_now = {}) {
     table_ = mesh_.elements();
+    counted_ = counted_elements(table_, options_);
     const PatchHierarchy hierarchy = mesh_.hierarchy();
     std::vector<FittedElement> before = std::move(elements_);
     std::unordered_map<int, int> index_before = std::move(index_of_node_);
@@ -253,7 +255,7 @@ class Adaptation {
     const std::size_t most = least_near_looks + report_.samples / 2;
     if (near_looks_ > most) return true;
     const std::vector<NearLook> looks =
-        near_looks(elements_, watched_, square_ / total_area_, most - near_looks_);
+        near_looks(elements_, watched_, square_ / counted_.area, most - near_looks_);
     if (looks.empty()) return true;
     std::vector<FieldPoint> points;
     for (const NearLook& look : looks)
@@ -308,14 +310,13 @@ class Adaptation {
     if (report_.limit != FieldLimit::none) return false;
     std::vector<int> to_split;
     auto unknowns = static_cast<double>(unknowns_);
-    const auto count_before = static_cast<double>(elements_.size());
-    double count = count_before;
+    auto count = static_cast<double>(elements_.size());
     bool is_changed = false;
     FieldLimit limit = FieldLimit::fixed;
     const double may_stay = share_left_alone * allowed();
     for (const int e : worst_elements(elements_, may_stay)) {
       FittedElement& element = elements_[at(e)];
-      const int order = better_order(element, options_, may_stay / count_before),
+      const int order = better_order(element, options_, may_stay / counted_.count),
                 size = basis_size(element.fit.order);
       const bool split = order == element.fit.order;
       if (split && !options_.split) continue;
@@ -381,13 +382,14 @@ class Adaptation {
   const Watched& watched_;
   std::vector<Rgb> watched_values_;
   ElementTable table_;
+  CountedElements counted_;
   std::vector<FittedElement> elements_;
   std::unordered_map<int, int> index_of_node_;
   SampleForecast forecast_;
   std::unordered_map<int, ElementFit> whole_fits_;  ///< of nodes that may become elements
   bool merging_ = false;      ///< has begun: what it takes is no limit any more
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
-  double square_error_ = 0, square_ = 0, total_area_ = 0;
+  double square_error_ = 0, square_ = 0;
   std::size_t unknowns_ = 0, near_looks_ = 0;
   AdaptiveFieldReport report_;
 };

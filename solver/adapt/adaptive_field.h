@@ -30,6 +30,9 @@ struct AdaptiveFieldOptions {
   int max_unknowns = 1000000;  ///< per channel
   double max_samples = 0;  ///< gives up rather than take more, or three times as many if that is
                            ///< likely to be enough; 0: no limit
+  /// Surface → whether its elements count where others are compared with all of them, in number
+  /// and size; empty: all do. Of surfaces that get hardly any light they should not.
+  std::vector<bool> counted;
   std::function<bool()> is_too_much;  ///< gives up where it says so, before a round; none: never
 };
 

@@ -14,6 +14,17 @@ int first_order(const AdaptiveFieldOptions& options) {
                     std::min(options.highest_order, 5));
 }
 
+CountedElements counted_elements(const ElementTable& elements,
+                                 const AdaptiveFieldOptions& options) {
+  CountedElements result, all;
+  for (std::size_t e = 0; e < elements.area.size(); ++e) {
+    const CountedElements one{1, elements.area[e]};
+    all += one;
+    if (counts(options, elements.surface[e])) result += one;
+  }
+  return result.count > 0 ? result : all;
+}
+
 int modesty(double share) {
   constexpr double small = 0.25, tiny = 0.025;
   return rounded(share) < tiny ? 2 : rounded(share) < small ? 1 : 0;

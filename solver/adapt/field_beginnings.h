@@ -10,6 +10,22 @@ namespace halfshade {
 /// the end.
 int first_order(const AdaptiveFieldOptions& options);
 
+/// Whether elements of a surface count, see AdaptiveFieldOptions.
+inline bool counts(const AdaptiveFieldOptions& options, int surface) {
+  return options.counted.empty() || options.counted[at(surface)];
+}
+
+/// How many elements count, or all of them if none does; and their area.
+struct CountedElements {
+  double count = 0, area = 0;
+
+  void operator+=(const CountedElements& other) {
+    count += other.count;
+    area += other.area;
+  }
+};
+CountedElements counted_elements(const ElementTable& elements, const AdaptiveFieldOptions& options);
+
 /// How many orders fewer elements begin with that have a small share of the mean area: most matter
 /// little, and in clutter there are many.
 int modesty(double share);

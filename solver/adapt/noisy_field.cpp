@@ -63,7 +63,7 @@ class NoisyFit {
            const AdaptiveFieldOptions& options, const Progress& progress)
       : mesh_(mesh), field_(field), bound_(bound), options_(options), progress_(progress) {
     take_elements();
-    const double mean = sum_of_reaches() / static_cast<double>(elements_.size());
+    const double mean = sum_of_reaches() / counted_.count;
     const auto share = [&](const NoisyElement& element) {
       return mean > 0 ? element.area * element.reach / mean : 1;
     };
@@ -108,6 +108,7 @@ class NoisyFit {
   /// Reads the mesh; parts of an element share its samples.
   void take_elements() {
     table_ = mesh_.elements();
+    counted_ = counted_elements(table_, options_);
     const PatchHierarchy hierarchy = mesh_.hierarchy();
     std::vector<NoisyElement> before = std::move(elements_);
     const std::unordered_map<int, int> index_before = std::move(index_of_node_);
@@ -219,17 +220,17 @@ class NoisyFit {
   /// error is thought to be, and elsewhere.
   void compare() {
     const double estimated = std::max(square_error_, least_estimate * allowed());
-    const double even = even_share / 2 * estimated / total_area();
+    const double even = even_share / 2 * estimated / counted_.area;
     const double reaches = sum_of_reaches();
     // Of places that are drawn, but for a factor: where light may reach far, it may be far off.
     const auto density = [&](const NoisyElement& element) {
-      return (1 - even_share) * element.known_error() + even +
+      return (1 - even_share) * element.known_error() +
+             (counts(options_, element.surface) ? even : 0) +
              (reaches > 0 ? even_share / 2 * estimated * element.reach / reaches : 0);
     };
     double sum = 0;
     for (const NoisyElement& element : elements_) sum += element.area * density(element);
-    const double count =
-        std::clamp(fresh_for_one * static_cast<double>(elements_.size()), least_fresh, most_fresh);
+    const double count = std::clamp(fresh_for_one * counted_.count, least_fresh, most_fresh);
     std::vector<FieldPoint> points;
     std::vector<std::pair<std::size_t, TrianglePlace>> places;
     for (std::size_t e = 0; e < elements_.size() && sum > 0; ++e) {
@@ -262,8 +263,6 @@ class NoisyFit {
     correction_ = std::max((mean + deviations * std::sqrt(mean_square / count)) / estimated, 1.);
     correction_of_round_ = report_.rounds;
   }
-
-  double total_area() const { return std::accumulate(table_.area.begin(), table_.area.end(), 0.); }
 
   /// False, with a limit set, if nothing can be done.
   bool improve() {
@@ -376,6 +375,7 @@ class NoisyFit {
   const AdaptiveFieldOptions& options_;
   const Progress& progress_;
   ElementTable table_;
+  CountedElements counted_;
   std::vector<NoisyElement> elements_;
   double largest_ = -1;  ///< bound of the first elements; < 0: not known yet
   std::unordered_map<int, int> index_of_node_;

@@ -1,10 +1,8 @@
 #include "solver/pipeline/blockers.h"
 
-#include "meshing/core/light_source.h"
 #include "meshing/core/planar.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 namespace halfshade {
@@ -12,8 +10,6 @@ namespace {
 
 /// Of bodies that are looked at: it takes the square of it.
 constexpr std::size_t most_faces_of_body = 1000;
-/// Of the square of the light that all surfaces could get.
-constexpr double unnoticed = 1e-14;
 
 std::vector<Vec3> outline(const Surface& surface) {
   std::vector<Vec3> corners;
@@ -47,7 +43,7 @@ bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int ow
 
 /// Whether there is some of `others` before a surface and some behind it. Most tell after a few
 /// looks; only walls take all of them.
-bool lies_between(const SoundScene& scene, const Surface& surface, const std::vector<int>& others) {
+bool lies_between(const SoundScene& scene, const Surface& surface, std::span<const int> others) {
   bool has_before = false, has_behind = false;
   for (const int id : others) {
     const Surface& other = scene.surfaces[at(id)];
@@ -62,69 +58,21 @@ bool lies_between(const SoundScene& scene, const Surface& surface, const std::ve
   return false;
 }
 
-std::vector<int> blocking_among(const SoundScene& scene, const std::vector<int>& ids) {
+}  // namespace
+
+std::vector<int> blocking_surfaces(const SoundScene& scene) {
+  std::vector<int> all(scene.surfaces.size());
+  std::iota(all.begin(), all.end(), 0);
+  return blocking_surfaces(scene, all);
+}
+
+std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids) {
   std::vector<int> blocking;
   for (const int id : ids) {
     const Surface& surface = scene.surfaces[at(id)];
     if (!surface.back && lies_between(scene, surface, ids)) blocking.push_back(id);
   }
   return blocking;
-}
-
-/// Around a surface.
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;
-};
-
-Ball ball_around(const Surface& surface) {
-  Ball ball;
-  const std::vector<Vec3> corners = outline(surface);
-  for (const Vec3& p : corners) ball.centre += p / static_cast<double>(corners.size());
-  for (const Vec3& p : corners) ball.radius = std::max(ball.radius, (p - ball.centre).norm());
-  return ball;
-}
-
-/// What the emitter that gives most can give to each surface, W/m².
-std::vector<double> most_light(const SoundScene& scene) {
-  const std::vector<LightSource> sources = light_sources(scene);
-  std::vector<Ball> balls;
-  for (const Surface& surface : scene.surfaces) balls.push_back(ball_around(surface));
-  std::vector<double> most;
-  for (const Ball& ball : balls) {
-    double here = 0;
-    for (const LightSource& source : sources) {
-      const Ball& lamp = balls[at(source.surface)];
-      const double distance = (ball.centre - lamp.centre).norm() - ball.radius - lamp.radius;
-      const double share = area(scene.surfaces[at(source.surface)]) / (M_PI * distance * distance);
-      here = std::max(here, source.exitance * (distance > 0 ? std::min(share, 1.) : 1.));
-    }
-    most.push_back(here);
-  }
-  return most;
-}
-
-}  // namespace
-
-std::vector<int> blocking_surfaces(const SoundScene& scene) {
-  std::vector<int> all(scene.surfaces.size());
-  std::iota(all.begin(), all.end(), 0);
-  return blocking_among(scene, all);
-}
-
-std::vector<int> blocking_in_the_light(const SoundScene& scene) {
-  const std::vector<double> light = most_light(scene);
-  const double brightest = *std::max_element(light.begin(), light.end());
-  if (!(brightest > 0)) return blocking_surfaces(scene);
-  const auto square = [&](std::size_t s) {
-    return area(scene.surfaces[s]) * std::pow(light[s] / brightest, 2);
-  };
-  double all = 0;
-  for (std::size_t s = 0; s < light.size(); ++s) all += square(s);
-  std::vector<int> ids;
-  for (std::size_t s = 0; s < light.size(); ++s)
-    if (square(s) > unnoticed * all) ids.push_back(static_cast<int>(s));
-  return blocking_among(scene, ids);
 }
 
 bool is_one_convex_body(const SoundScene& scene, const std::vector<int>& surfaces) {

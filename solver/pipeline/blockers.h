@@ -2,6 +2,7 @@
 
 #include "meshing/core/sound_scene.h"
 
+#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -10,9 +11,8 @@ namespace halfshade {
 /// Backs of two-sided ones are left out.
 std::vector<int> blocking_surfaces(const SoundScene& scene);
 
-/// The same among surfaces near enough to emitters to get a noticeable part of their light, by size
-/// and distance alone: what far and tiny things have before or behind them is worth no effort.
-std::vector<int> blocking_in_the_light(const SoundScene& scene);
+/// Those of `ids` that some of the others lie before and behind.
+std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids);
 
 /// True if no straight line that passes three edges of these surfaces leaves all of them unpierced
 /// but for those in a face's plane: they are the whole boundary of a convex body, one convex

@@ -6,6 +6,7 @@
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
+#include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/near_features.h"
 #include "solver/pipeline/shadow_places.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -67,9 +68,9 @@ double length_of(const SoundScene& scene, const SolveOptions& options) {
 }
 
 /// What finding curves and following them takes, in samples of direct light.
-double cost_of_curves(const SoundScene& scene, const Plan& plan) {
+double cost_of_curves(const SoundScene& scene, std::span<const int> blockers, const Plan& plan) {
   double edges = 0;
-  for (const int s : blocking_in_the_light(scene))
+  for (const int s : blockers)
     for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
   return samples_for_curves * std::pow(edges, power_of_edges) *
          static_cast<double>(plan.sources.size());
@@ -130,6 +131,7 @@ class DirectFieldSearch {
         progress_(progress),
         stages_(stages),
         goal_(goal),
+        blockers_(blocking_surfaces(prepared.scene(), plan.lit)),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
         rays_(rays_of(prepared, plan)) {}
 
@@ -156,17 +158,16 @@ class DirectFieldSearch {
   const Watched& watched() {
     if (watched_) return *watched_;
     const auto emitters = prepared_.direct_light().emitters();
-    watched_ = near_features(scene(), emitters);
-    for (const auto& find : {shadow_places, corner_places, spot_places}) {
-      const auto more = find(scene(), emitters);
+    watched_ = near_features(scene(), emitters, blockers_);
+    for (const auto& more : {shadow_places(scene(), emitters, blockers_),
+                             corner_places(scene(), emitters), spot_places(scene(), emitters)})
       watched_->places.insert(watched_->places.end(), more.begin(), more.end());
-    }
     return *watched_;
   }
 
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
-    fit_without_curves(std::max(cost_of_curves(scene(), plan_), 1.));
+    fit_without_curves(std::max(cost_of_curves(scene(), blockers_, plan_), 1.));
     const FieldLimit limit = found_.light.report.limit;
     if (limit == FieldLimit::samples) return false;
     stages_.leave_out_if(
@@ -190,7 +191,7 @@ class DirectFieldSearch {
       return static_cast<std::size_t>(found_.patches->element_count());
     });
     warn_of_excess(found_.patches->element_count());
-    AdaptiveFieldOptions fit = field_options(options_, goal_);
+    AdaptiveFieldOptions fit = field_options(scene(), plan_, options_, goal_);
     fit.max_samples = most_samples;
     fit_on_patches(fit);
   }
@@ -243,7 +244,7 @@ class DirectFieldSearch {
       return fit_without_curves(0);
     }
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
-    fit_on_patches(field_options(options_, goal_));
+    fit_on_patches(field_options(scene(), plan_, options_, goal_));
   }
 
   /// As many of the strongest as suit the number of elements asked for.
@@ -264,7 +265,7 @@ class DirectFieldSearch {
            fmt::format("elements follow only {} of the {} curves, for more take more than the {} "
                        "elements asked for with --elements",
                        found_.mesh.kept, found_.curves, options_.elements)});
-    fit_on_patches(field_options(options_, goal_));
+    fit_on_patches(field_options(scene(), plan_, options_, goal_));
   }
 
   /// False if it takes too many elements.
@@ -335,7 +336,8 @@ class DirectFieldSearch {
   const Progress& progress_;
   Stages& stages_;
   const GoalWeights* goal_;
-  double crowd_work_ = 0;  ///< see DirectLight
+  const std::vector<int> blockers_;  ///< but for those that light hardly reaches
+  double crowd_work_ = 0;            ///< see DirectLight
   FieldAt direct_light_;
   std::optional<RayLight> rays_;    ///< that look at direct light instead
   std::optional<Watched> watched_;  ///< once it is known
@@ -344,13 +346,15 @@ class DirectFieldSearch {
 
 }  // namespace
 
-AdaptiveFieldOptions field_options(const SolveOptions& options, const GoalWeights* goal) {
+AdaptiveFieldOptions field_options(const SoundScene& scene, const Plan& plan,
+                                   const SolveOptions& options, const GoalWeights* goal) {
   AdaptiveFieldOptions result;
   result.tolerance = options.tolerance;
   result.order = options.order;
   result.split = options.refine == Refinement::adaptive;
   result.max_elements = options.max_elements;
   result.max_unknowns = options.max_unknowns;
+  result.counted = mark_surfaces(scene, plan.lit);
   if (goal && goal->weight) {
     result.weight = goal->weight;
     result.norm = goal->norm;

@@ -34,7 +34,8 @@ DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const GoalWeights* goal = nullptr);
 
 /// What `options` and a goal, if any, say of a field on elements.
-AdaptiveFieldOptions field_options(const SolveOptions& options, const GoalWeights* goal = nullptr);
+AdaptiveFieldOptions field_options(const SoundScene& scene, const Plan& plan,
+                                   const SolveOptions& options, const GoalWeights* goal = nullptr);
 
 /// No light on elements that are as large as the surfaces allow: where direct light is found like
 /// reflected light.

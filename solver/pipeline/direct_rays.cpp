@@ -1,6 +1,7 @@
 #include "solver/pipeline/direct_rays.h"
 
 #include "solver/direct/direct_light.h"
+#include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/spread_places.h"
 
 #include <algorithm>
@@ -90,8 +91,9 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
     return {};
   // Elements gather where light varies, on the largest surface or on all the small ones: rays have
   // to be better for both.
-  std::vector<SurfacePoint> by_area = mixed(spread_places(scene, tried_places).points);
-  std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, tried_surfaces));
+  const std::vector<int> ids = lit_surfaces(scene, unnoticed_of_tolerance * options.tolerance);
+  std::vector<SurfacePoint> by_area = mixed(spread_places(scene, ids, tried_places).points);
+  std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, ids, tried_surfaces));
   const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
   const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
   if (!(exact.reached > 0) || progress.stopped()) return {};

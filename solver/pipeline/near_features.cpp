@@ -1,7 +1,6 @@
 #include "solver/pipeline/near_features.h"
 
 #include "meshing/geometry/flat_tree.h"
-#include "solver/pipeline/blockers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,10 +107,10 @@ class Finder {
 
 }  // namespace
 
-Watched near_features(const SoundScene& scene, std::span<const int> sources) {
+Watched near_features(const SoundScene& scene, std::span<const int> sources,
+                      std::span<const int> blockers) {
   Finder finder(scene);
   std::vector<int> ids(sources.begin(), sources.end());
-  const std::vector<int> blockers = blocking_in_the_light(scene);
   ids.insert(ids.end(), blockers.begin(), blockers.end());
   std::sort(ids.begin(), ids.end());
   ids.erase(std::unique(ids.begin(), ids.end()), ids.end());

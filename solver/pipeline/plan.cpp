@@ -1,11 +1,9 @@
 #include "solver/pipeline/plan.h"
 
-#include "meshing/core/error.h"
-#include "meshing/core/rounded.h"
-#include "meshing/patches/patch_mesh.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/direct_rays.h"
+#include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/sources.h"
 #include "solver/pipeline/spread_places.h"
 
@@ -17,15 +15,13 @@ namespace {
 
 /// About how many places tell the mean irradiance.
 constexpr int places = 2000;
-/// Narrow surfaces draw elements of their own: no more of them than this are places.
-constexpr std::size_t most_mean_places = 4 * places;
-/// Where so many lines draw elements of their own, few places must do, for each sees much.
+/// Where there are so many lines few places must do, for each sees much.
 constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
 /// The same where a place's light takes more than so much, see DirectLight::crowd_work.
 constexpr std::size_t much_work = 500;
-/// Of the power that arrives.
-constexpr double hardly_any = 1e-6;
+/// Surfaces that can get no more than this share of the light do not count to the mean.
+constexpr double hardly_any = 1e-4;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
@@ -36,26 +32,13 @@ bool has_many_lines(const SoundScene& scene) {
   return lines > many_lines;
 }
 
-/// In equal parts of surfaces, unless narrow ones make that too many.
-SpreadPlaces mesh_places(const SoundScene& scene, const Progress& progress) {
-  PlanarMeshOptions coarse;
-  coarse.max_length = length_for_count(scene, places);
-  coarse.max_triangles = most_mean_places;
-  try {
-    ElementTable elements = PatchMesh(scene, coarse, {progress.stop, {}}).elements();
-    return {element_centres(elements), std::move(elements.area)};
-  } catch (const Error& error) {
-    if (error.code() != ErrorCode::too_large) throw;
-    return spread_places(scene, places);
-  }
-}
-
 }  // namespace
 
 Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
                Stages& stages) {
   Plan plan;
   const SoundScene& scene = prepared.scene();
+  plan.lit = lit_surfaces(scene, unnoticed_of_tolerance * options.tolerance);
   plan.no_exact_direct_light = direct_light_needless(
       scene, options.force.exact_direct_light ? DirectLightBy::exact : options.direct_light);
   plan.no_factors = factors_needless(scene, plan.no_exact_direct_light.empty(), options);
@@ -139,14 +122,11 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  const SpreadPlaces at_places =
-      has_many_lines(scene) ? spread_places(scene, few_places) : mesh_places(scene, progress);
+  const SpreadPlaces at_places = spread_places(scene, lit_surfaces(scene, hardly_any),
+                                               has_many_lines(scene) ? few_places : places);
   // Some of them first, which tell what all would take.
   const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));
-  struct Lit {
-    double area, irradiance;
-  };
-  std::vector<Lit> lit;
+  double power = 0, reached = 0;
   std::size_t work = 0;
   const auto add = [&](bool is_first) {
     std::vector<SurfacePoint> points;
@@ -160,24 +140,14 @@ double mean_direct_irradiance(const PreparedScene& prepared, const Progress& pro
     for (std::size_t k = 0; k < light.size(); ++k) {
       work += light[k].crowd_work;
       const double irradiance = light[k].irradiance.maxCoeff();
-      if (irradiance > 0) lit.push_back({areas[k], irradiance});
+      if (!(irradiance > 0)) continue;
+      power += areas[k] * irradiance;
+      reached += areas[k];
     }
     return points.size();
   };
   const std::size_t first = add(true);
-  if (work <= much_work * first || lit.empty()) add(false);
-  // The dimmest places that get hardly any of it together do not count: what is far away is not to
-  // dim the mean.
-  std::stable_sort(lit.begin(), lit.end(), [](const Lit& a, const Lit& b) {
-    return rounded(a.irradiance) > rounded(b.irradiance);
-  });
-  double all = 0, power = 0, reached = 0;
-  for (const Lit& place : lit) all += place.area * place.irradiance;
-  for (const Lit& place : lit) {
-    if (power > (1 - hardly_any) * all) break;
-    power += place.area * place.irradiance;
-    reached += place.area;
-  }
+  if (work <= much_work * first || !(reached > 0)) add(false);
   return reached > 0 ? power / reached : 0;
 }
 

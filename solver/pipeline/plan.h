@@ -18,10 +18,11 @@ struct Plan {
   std::string no_exact_direct_light;  ///< why direct light comes out of the matrix
   std::string no_factors;             ///< why no reflected light is solved for
   std::string no_channels;            ///< why one channel does for all three
-  std::vector<LightSource> sources;   ///< to find discontinuities of; empty without
-  std::size_t weak_sources = 0;       ///< left out of them, for they give too little
-  RayLightOptions rays;        ///< that look at direct light; without a deviation it is exact
-  double mean_irradiance = 0;  ///< what the tolerance is a share of, W/m²; 0 without sources
+  std::vector<int> lit;  ///< surfaces that can get a noticeable part of the light, see lit_surfaces
+  std::vector<LightSource> sources;  ///< to find discontinuities of; empty without
+  std::size_t weak_sources = 0;      ///< left out of them, for they give too little
+  RayLightOptions rays;              ///< that look at direct light; without a deviation it is exact
+  double mean_irradiance = 0;        ///< what the tolerance is a share of, W/m²; 0 without sources
 };
 
 /// Adds the stage "sources" to `stages` unless the scene or the options tell that there is no need
@@ -54,9 +55,9 @@ bool is_convex(const SoundScene& scene);
 double affordable_work(double tolerance);
 
 /// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
-/// them (strongest channel), from one exact value at each of about 2000 places; the dimmest, which
-/// together get a millionth of the power, do not count. What relative tolerances refer to. W/m²; 0
-/// if nothing is reached.
+/// them (strongest channel), from one exact value at each of about 2000 places. Surfaces too far
+/// away to get noticeable light do not count. What relative tolerances refer to. W/m²; 0 if nothing
+/// is reached.
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress = {});
 
 }  // namespace halfshade

@@ -1,7 +1,6 @@
 #include "solver/pipeline/shadow_places.h"
 
 #include "meshing/core/planar.h"
-#include "solver/pipeline/blockers.h"
 #include "solver/pipeline/middle.h"
 
 #include <algorithm>
@@ -38,8 +37,9 @@ Landing land(const SoundScene& scene, int blocker, const Vec3& from, const Vec3&
 
 }  // namespace
 
-std::vector<WatchedPlace> shadow_places(const SoundScene& scene, std::span<const int> sources) {
-  std::vector<int> blockers = blocking_in_the_light(scene);
+std::vector<WatchedPlace> shadow_places(const SoundScene& scene, std::span<const int> sources,
+                                        std::span<const int> blocking) {
+  std::vector<int> blockers(blocking.begin(), blocking.end());
   std::stable_sort(blockers.begin(), blockers.end(), [&](int a, int b) {
     return area(scene.surfaces[at(a)]) > area(scene.surfaces[at(b)]);
   });

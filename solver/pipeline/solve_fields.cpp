@@ -5,6 +5,7 @@
 #include "solver/elements/painted_triangle.h"
 #include "solver/pipeline/direct_field.h"
 #include "solver/pipeline/goal_correction.h"
+#include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/total_field.h"
 #include "solver/reflected/reflected_mesh.h"
 
@@ -82,9 +83,10 @@ double goal_tolerance(double share, double tolerance) {
   return std::min(slack_of_goal * share * tolerance, std::max(most, share * tolerance));
 }
 
-AdaptiveFieldOptions values_options(const SolveOptions& options, double tolerance,
+AdaptiveFieldOptions values_options(const SoundScene& scene, const Plan& plan,
+                                    const SolveOptions& options, double tolerance,
                                     const GoalWeights* goal) {
-  AdaptiveFieldOptions result = field_options(options, goal);
+  AdaptiveFieldOptions result = field_options(scene, plan, options, goal);
   result.tolerance = values_share * tolerance;
   result.order = -1;
   result.highest_order = max_reflected_order;
@@ -239,12 +241,14 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     const double of_direct = direct.light.report.relative_error;
     const double tolerance = std::max(options.tolerance, of_direct);
     ReflectedOptions of_reflected = reflected_options(plan, options, tolerance, goal);
+    of_reflected.counted = mark_surfaces(prepared.scene(), plan.lit);
     if (!goal && of_direct < options.tolerance)
       of_reflected.tolerance =
           std::min(of_reflected.tolerance, left_by(of_direct / tolerance) * tolerance);
-    TotalField total = add_reflected_light(prepared.scene(), std::move(direct),
-                                           {of_reflected, values_options(options, tolerance, goal)},
-                                           progress, stages);
+    TotalField total = add_reflected_light(
+        prepared.scene(), std::move(direct),
+        {of_reflected, values_options(prepared.scene(), plan, options, tolerance, goal)}, progress,
+        stages);
     result.reflected = total.reflected->report();
     result.reflected_light = std::move(total.reflected);
     of_values = reason(total.values.limit);

@@ -11,6 +11,9 @@
 namespace halfshade {
 namespace {
 
+/// Of all points: in one element.
+constexpr double most_of_points = 0.05;
+
 /// The projection of `direct`, light at a place of an element: by a rule, and of what is left of it
 /// by strata² random points, one in each of as many parts of equal area. Light breaks anywhere, and
 /// where breaks are parallel to elements a regular pattern would miss them all alike.
@@ -44,12 +47,12 @@ void DirectProjection::update(const ReflectedMesh& mesh, const FirstLight& light
   of_triangle_.resize(at(mesh.forest.count()));
   painted_.resize(at(mesh.forest.count()));
   double total = 0;
-  for (int e = 0; e < mesh.count(); ++e) total += mesh.area(e);
+  for (int e = 0; e < mesh.count(); ++e) total += mesh.counts(e) ? mesh.area(e) : 0;
   parallel_for(at(mesh.count()), [&](std::size_t i) {
     const int e = static_cast<int>(i), t = mesh.triangle[i];
     auto& kept = of_triangle_[at(t)];
     if (kept && kept->rows() == basis_size(mesh.order[at(t)])) return;
-    const double points = points_ * mesh.area(e) / total;
+    const double points = points_ * std::min(mesh.area(e) / total, most_of_points);
     const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(points))));
     const int root = mesh.root(e);
     kept = std::make_unique<ChannelArray>(project(

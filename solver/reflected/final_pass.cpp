@@ -67,12 +67,12 @@ std::vector<int> share_rays(const ReflectedMesh& mesh, const std::vector<double>
   double sum = 0, area = 0;
   for (int e = 0; e < mesh.count(); ++e) {
     sum += noise[at(e)];
-    area += weight[at(e)] * mesh.area(e);
+    area += mesh.counts(e) ? weight[at(e)] * mesh.area(e) : 0;
   }
   std::vector<double> expected, rays;
   double mean = 0;
   for (int e = 0; e < mesh.count(); ++e) {
-    const double alike = area > 0 ? sum / area * weight[at(e)] * mesh.area(e) : 0;
+    const double alike = area > 0 && mesh.counts(e) ? sum / area * weight[at(e)] * mesh.area(e) : 0;
     const auto nodes =
         static_cast<double>(element_nodes_of(mesh.order[at(mesh.triangle[at(e)])]).places.size());
     expected.push_back((1 - share_alike) * noise[at(e)] + share_alike * alike);

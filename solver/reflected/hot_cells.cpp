@@ -3,6 +3,7 @@
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
 #include "solver/elements/element_field.h"
+#include "solver/elements/triangle_key.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,14 +50,15 @@ Vec3 position_at(const ElementTable& roots, int root, const TrianglePlace& place
 
 }  // namespace
 
-HotCells::HotCells(const ReflectingScene& scene, const Leaving& leaving) {
+HotCells::HotCells(const ReflectingScene& scene, const HugeRoots& huge, const Leaving& leaving) {
   const ElementTable& roots = scene.roots;
-  const double area = std::accumulate(roots.area.begin(), roots.area.end(), 0.);
+  double area = 0;
+  for (int r = 0; r < roots.count(); ++r) area += huge(r) ? 0 : roots.area[at(r)];
   std::vector<Cell> cells;
   std::vector<int> index;
   int next = 0;
   for (int r = 0; r < roots.count(); ++r) {
-    const double wanted = std::sqrt(wanted_cells * roots.area[at(r)] / area);
+    const double wanted = std::sqrt(wanted_cells * std::min(roots.area[at(r)] / area, 1.));
     const int columns = std::max(1, static_cast<int>(std::lround(wanted)));
     columns_.push_back(columns);
     first_.push_back(next);
@@ -71,7 +73,9 @@ HotCells::HotCells(const ReflectingScene& scene, const Leaving& leaving) {
   }
   parallel_for(cells.size(), [&](std::size_t c) {
     Cell& cell = cells[c];
-    const std::uint64_t seed = mix_bits(c);
+    const std::uint64_t seed =
+        mix_bits(triangle_key(roots.triangle(cell.root)) +
+                 static_cast<std::uint64_t>(index[c] - first_[at(cell.root)]));
     for (std::uint64_t k = 0; k < 2 * looks; k += 2) {
       const TrianglePlace place =
           place_in(cell.corners, random_number(seed, k), random_number(seed, k + 1));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/reflected/huge_roots.h"
 #include "solver/reflected/reflecting_scene.h"
 
 #include <cstdint>
@@ -20,7 +21,7 @@ class HotCells {
   HotCells() = default;
 
   /// Looks at about 20,000 cells of roots, each at a few random points.
-  HotCells(const ReflectingScene& scene, const Leaving& leaving);
+  HotCells(const ReflectingScene& scene, const HugeRoots& huge, const Leaving& leaving);
 
   /// Rays to them that go with so many over the hemisphere; 0 if they do not pay.
   int count(int rays) const;

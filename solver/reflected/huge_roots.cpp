@@ -11,13 +11,16 @@ constexpr double far_larger = 30;
 
 }  // namespace
 
-HugeRoots find_huge(const ElementTable& roots) {
+HugeRoots find_huge(const ElementTable& roots, const std::vector<bool>& counted) {
   HugeRoots result;
   result.is_huge.assign(roots.area.size(), false);
   const int last =
       roots.surface.empty() ? -1 : *std::max_element(roots.surface.begin(), roots.surface.end());
   std::vector<double> area(at(last + 1), 0.);
-  for (std::size_t r = 0; r < roots.area.size(); ++r) area[at(roots.surface[r])] += roots.area[r];
+  std::vector<bool> is_huge(area.size(), false);
+  for (std::size_t s = 0; s < area.size(); ++s) is_huge[s] = !counted.empty() && !counted[s];
+  for (std::size_t r = 0; r < roots.area.size(); ++r)
+    if (!is_huge[at(roots.surface[r])]) area[at(roots.surface[r])] += roots.area[r];
   std::vector<int> by_area(area.size());
   std::iota(by_area.begin(), by_area.end(), 0);
   std::stable_sort(by_area.begin(), by_area.end(),
@@ -29,10 +32,11 @@ HugeRoots find_huge(const ElementTable& roots) {
   while (usual > 1 && below[usual - 1] > 0 &&
          area[at(by_area[usual - 1])] > far_larger * below[usual - 1])
     --usual;
-  std::vector<bool> is_huge(area.size(), false);
   for (std::size_t k = usual; k < by_area.size(); ++k) is_huge[at(by_area[k])] = true;
-  for (std::size_t r = 0; r < roots.area.size(); ++r)
+  for (std::size_t r = 0; r < roots.area.size(); ++r) {
     result.is_huge[r] = is_huge[at(roots.surface[r])];
+    result.others += result.is_huge[r] ? 0 : 1;
+  }
   result.area = below[usual];
   return result;
 }

@@ -22,16 +22,22 @@ std::vector<double> shares_of_probes(const ReflectedMesh& mesh,
   constexpr double most = 20;
   std::vector<double> shares;
   for (int e = 0; e < mesh.count(); ++e) shares.push_back(std::sqrt(mesh.area(e)));
+  const auto sum_of_counted = [&] {
+    std::pair<double, int> sum = {0, 0};
+    for (int e = 0; e < mesh.count(); ++e)
+      if (mesh.counts(e)) sum.first += shares[at(e)], ++sum.second;
+    return sum;
+  };
   for (bool again = true; again;) {
-    const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
-    const double largest = most * sum / static_cast<double>(shares.size());
+    const auto [sum, count] = sum_of_counted();
+    const double largest = most * sum / count;
     again = false;
     for (double& share : shares) {
       again = again || share > 2 * largest;
       share = std::min(share, largest);
     }
   }
-  const double sum = std::accumulate(shares.begin(), shares.end(), 0.);
+  const double sum = sum_of_counted().first;
   double roots = 0;
   for (const double square : expected) roots += std::sqrt(square);
   for (std::size_t e = 0; e < shares.size(); ++e) {

@@ -72,7 +72,9 @@ RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return rounded(coarse[at(a)]) > rounded(coarse[at(b)]); });
-  const double part = aim_of_elements * goal / input.mesh.count();
+  int counted = 0;
+  for (int e = 0; e < input.mesh.count(); ++e) counted += input.mesh.counts(e) ? 1 : 0;
+  const double part = aim_of_elements * goal / std::max(counted, 1);
   if (left > share_of_elements * goal)
     for (const int e : order) {
       if (left <= aim_of_elements * goal || coarse[at(e)] <= part) break;

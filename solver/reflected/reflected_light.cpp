@@ -32,18 +32,17 @@ void check(const ReflectedOptions& options) {
 }
 
 /// Elements as long as this to begin with.
-double first_length(const ElementTable& roots, double area, bool is_exact,
-                    const ReflectedOptions& options) {
+double first_length(const HugeRoots& huge, bool is_exact, const ReflectedOptions& options) {
   constexpr double mean_area = 0.3;  // of elements that are at most 1 long, see make_reflected_mesh
   // Where furniture takes many elements, so much more for the room costs little.
   constexpr double share_of_roots = 0.04;
-  const double fewest = std::max(50., is_exact ? 0 : share_of_roots * roots.count());
+  const double fewest = std::max(50., is_exact ? 0 : share_of_roots * huge.others);
   const double wanted =
       options.weight  // most elements do not matter then
           ? 50
           : std::clamp(usual_elements * std::pow(usual_error / options.tolerance, 2. / 3), fewest,
                        std::max(fewest, 5000.));
-  const double length = std::sqrt(area / (mean_area * wanted));
+  const double length = std::sqrt(huge.area / (mean_area * wanted));
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
 }
 
@@ -133,11 +132,10 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   auto state = std::make_shared<ReflectedLight::State>(scene, direct, options, progress);
   const bool nothing = reflects_nothing(state->light) || options.bounces == 0;
   const ElementTable& roots = state->reflecting.roots;
-  const HugeRoots huge = find_huge(roots);
+  const HugeRoots huge = find_huge(roots, options.counted);
   const int surfaces = static_cast<int>(scene.surfaces.size());
   state->report.is_exact = reflected_cost(surfaces, options).is_exact;
-  const double length =
-      nothing ? HUGE_VAL : first_length(roots, huge.area, state->report.is_exact, options);
+  const double length = nothing ? HUGE_VAL : first_length(huge, state->report.is_exact, options);
   state->mesh = make_reflected_mesh(roots, length, options.order, options.max_elements, huge);
   scale_light(*state);
   state->report.through_operator = options.through_operator;
@@ -147,8 +145,9 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
     state->accuracy = row_accuracy(options.tolerance, huge.area);
   }
   if (!nothing && !state->report.is_exact && !options.through_operator)
-    state->light.hot = HotCells(
-        state->reflecting, [&](int root, const Vec3& p) { return state->light.leaving(root, p); });
+    state->light.hot = HotCells(state->reflecting, huge, [&](int root, const Vec3& p) {
+      return state->light.leaving(root, p);
+    });
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
     run_rounds(*state, options, progress);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace halfshade {
 
@@ -38,6 +39,9 @@ struct ReflectedOptions {
   /// Direct light is not given but found like reflected light: what leaves first is the exitance,
   /// and the result is all irradiance. For scenes where nearly everything emits.
   bool through_operator = false;
+  /// Surface → whether its area and elements count where others are compared with all; empty: all
+  /// do. Those that get hardly any light should not.
+  std::vector<bool> counted;
   /// Of square errors: with one, errors are relative to `norm` alone, W/m².
   ErrorWeight weight;
   double norm = 0;

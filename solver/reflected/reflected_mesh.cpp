@@ -81,14 +81,15 @@ ElementNodes make_nodes(int order) {
 ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int order,
                                   int max_elements, const HugeRoots& huge) {
   ReflectedMesh mesh(roots);
+  mesh.huge = huge;
   mesh.highest_order = order;
   const FlatTree others = boxes_but(huge, roots);
   int leaves = roots.count();
   for (int t = 0; t < mesh.forest.count() && leaves < max_elements; ++t) {
     const double own = length_of(mesh.forest, t);
     if (own <= length) continue;
-    const bool is_huge = !huge.is_huge.empty() && huge.is_huge[at(mesh.forest.root(t))];
-    if (is_huge && is_far(box_of(mesh.forest.corners(t)).grown(own), others)) continue;
+    if (huge(mesh.forest.root(t)) && is_far(box_of(mesh.forest.corners(t)).grown(own), others))
+      continue;
     mesh.forest.bisect(t);
     ++leaves;
   }

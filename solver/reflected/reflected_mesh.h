@@ -18,6 +18,7 @@ struct ReflectedMesh {
   explicit ReflectedMesh(const ElementTable& roots) : forest(roots) {}
 
   TriangleForest forest;
+  HugeRoots huge;
   int highest_order = 0;
   std::vector<int> order;     ///< triangle → order of its polynomial
   std::vector<int> triangle;  ///< element → leaf, in the order of the forest
@@ -25,6 +26,8 @@ struct ReflectedMesh {
 
   int count() const { return static_cast<int>(triangle.size()); }
   int root(int e) const { return forest.root(triangle[at(e)]); }
+  /// Whether it counts where others are compared with all.
+  bool counts(int e) const { return !huge(root(e)); }
   double area(int e) const { return forest.area(triangle[at(e)]); }
   Vec3 position(int e, const TrianglePlace& place) const {
     return halfshade::position(forest.corners(triangle[at(e)]), place);

@@ -38,12 +38,13 @@ std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<d
   double all = 0, area = 0, mean = 0;
   for (int e = 0; e < mesh.count(); ++e) {
     all += noise[at(e)];
-    area += mesh.area(e);
+    area += mesh.counts(e) ? mesh.area(e) : 0;
   }
   std::vector<double> part;  // of the noise of the estimate, if all had as many rays
   for (int e = 0; e < mesh.count(); ++e) {
-    part.push_back((noise[at(e)] + all * mesh.area(e) / area) / shares[at(e)]);
-    mean += shares[at(e)] * part.back();
+    const double even = all * std::min(mesh.area(e) / area, 1.);
+    part.push_back((noise[at(e)] + even) / shares[at(e)]);
+    if (mesh.counts(e)) mean += shares[at(e)] * part.back();
   }
   std::vector<int> strata;
   for (const double x : part) {

@@ -140,6 +140,31 @@ TEST_P(ReflectedLaws, WhatIsFarAwayDoesNotMatter) {
               powers(solved(test::with_black_triangle(scene_, 10, 1e-9)), scene_), "a tiny one");
 }
 
+TEST_P(AllLightLaws, WhatIsFarAwayOrTinyChangesNothing) {
+  double exitance = 0;
+  for (const Material& material : scene_.materials)
+    exitance = std::max(exitance, material.exitance.maxCoeff());
+  for (const auto& [distance, extent] :
+       {std::pair(1e3, 1e2), std::pair(1e6, 1e5), std::pair(10., 1e-9)}) {
+    const std::string what = "a triangle " + std::to_string(distance) + " away";
+    const SolveResult result = solved(test::with_black_triangle(scene_, distance, extent));
+    std::vector<int> own;  // elements
+    for (int e = 0; e < result.elements.count(); ++e)
+      if (result.scene.materials[at(result.elements.material[at(e)])].name != "elsewhere")
+        own.push_back(e);
+    ASSERT_EQ(own.size(), at(expected_.elements.count())) << what;
+    double off = 0;
+    for (int e = 0; e < expected_.elements.count(); ++e) {
+      const auto there = static_cast<Eigen::Index>(own[at(e)]);
+      off = std::max(off,
+                     (result.solution.irradiance.row(there) - expected_.solution.irradiance.row(e))
+                         .abs()
+                         .maxCoeff());
+    }
+    EXPECT_LE(off, 1e-12 * exitance) << what;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, ReflectedLaws, testing::ValuesIn(scenes()),
                          [](const auto& scene) { return scene.param; });
 INSTANTIATE_TEST_SUITE_P(Scenes, AllLightLaws, testing::ValuesIn(more_scenes()),

@@ -17,5 +17,7 @@ std::vector<bool> mark_surfaces(const SoundScene& scene, std::span<const int> id
 
 /// Of the tolerance: what surfaces may get at most that are not to change what is done elsewhere.
 inline constexpr double unnoticed_of_tolerance = 0.01;
+/// Of all light: the same where there is no tolerance.
+inline constexpr double hardly_lit = 1e-4;
 
 }  // namespace halfshade

@@ -20,8 +20,6 @@ constexpr std::size_t many_lines = 4000;
 constexpr int few_places = 100;
 /// The same where a place's light takes more than so much, see DirectLight::crowd_work.
 constexpr std::size_t much_work = 500;
-/// Surfaces that can get no more than this share of the light do not count to the mean.
-constexpr double hardly_any = 1e-4;
 
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
@@ -122,7 +120,7 @@ double affordable_work(double tolerance) { return tolerance > 0 ? most_work : 0;
 
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress) {
   const SoundScene& scene = prepared.scene();
-  const SpreadPlaces at_places = spread_places(scene, lit_surfaces(scene, hardly_any),
+  const SpreadPlaces at_places = spread_places(scene, lit_surfaces(scene, hardly_lit),
                                                has_many_lines(scene) ? few_places : places);
   // Some of them first, which tell what all would take.
   const std::size_t count = at_places.points.size(), step = std::max(count / few_places, at(1));

@@ -1,6 +1,7 @@
 #include "solver/pipeline/sources.h"
 
 #include "solver/pipeline/limits.h"
+#include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -94,8 +95,10 @@ std::vector<LightSource> strong_enough(std::vector<LightSource> sources, const S
 
 std::string most_surfaces_emit(const SoundScene& scene) {
   double all = 0, emitting = 0;
+  const std::vector<int> lit = lit_surfaces(scene, hardly_lit);
   std::size_t emitters = 0;
-  for (const Surface& surface : scene.surfaces) {
+  for (const int s : lit) {
+    const Surface& surface = scene.surfaces[at(s)];
     const Material& material = scene.materials[at(surface.material)];
     all += area(surface);
     if (!(material.exitance > 0).any()) continue;
@@ -104,7 +107,7 @@ std::string most_surfaces_emit(const SoundScene& scene) {
   }
   // By number, too: a sun has nearly all the area and casts the sharpest shadows.
   return emitting > most * all &&
-                 static_cast<double>(emitters) > most * static_cast<double>(scene.surfaces.size())
+                 static_cast<double>(emitters) > most * static_cast<double>(lit.size())
              ? "most surfaces emit, so that direct light is no sharper than reflected"
              : "";
 }

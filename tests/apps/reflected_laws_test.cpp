@@ -11,8 +11,8 @@
 #include <vector>
 
 // The laws for all light, as `solve` finds it. Another order of faces and vertices changes no bit,
-// nor do powers of two; another unit of length changes nothing but for rounding. What is far away
-// numbers anew what decides where elements are divided, so that light changes within the tolerance.
+// nor do powers of two; another unit of length, and what is far away or tiny, change nothing but
+// for rounding. Where reflected light is found by rays the latter moves it within the tolerance.
 
 namespace halfshade {
 namespace {
@@ -131,15 +131,6 @@ TEST_P(ReflectedLaws, ExitanceScalesAllLight) {
   }
 }
 
-TEST_P(ReflectedLaws, WhatIsFarAwayDoesNotMatter) {
-  for (const double distance : {1e2, 1e6})
-    expect_near(powers(expected_, scene_),
-                powers(solved(test::with_black_triangle(scene_, distance, distance / 10)), scene_),
-                "a triangle " + std::to_string(distance) + " away");
-  expect_near(powers(expected_, scene_),
-              powers(solved(test::with_black_triangle(scene_, 10, 1e-9)), scene_), "a tiny one");
-}
-
 TEST_P(AllLightLaws, WhatIsFarAwayOrTinyChangesNothing) {
   double exitance = 0;
   for (const Material& material : scene_.materials)
@@ -148,6 +139,11 @@ TEST_P(AllLightLaws, WhatIsFarAwayOrTinyChangesNothing) {
        {std::pair(1e3, 1e2), std::pair(1e6, 1e5), std::pair(10., 1e-9)}) {
     const std::string what = "a triangle " + std::to_string(distance) + " away";
     const SolveResult result = solved(test::with_black_triangle(scene_, distance, extent));
+    if (expected_.reflected.elements > 0 && !expected_.reflected.is_exact) {
+      // Rays: equations are solved to a share of the tolerance.
+      expect_near(powers(expected_, scene_), powers(result, scene_), what);
+      continue;
+    }
     std::vector<int> own;  // elements
     for (int e = 0; e < result.elements.count(); ++e)
       if (result.scene.materials[at(result.elements.material[at(e)])].name != "elsewhere")

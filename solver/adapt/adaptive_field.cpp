@@ -56,11 +56,7 @@ class Adaptation {
       : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
     for (FittedElement& element : elements_) {
-      const double share = element.area * counted_.count / counted_.area;
-      element.fit.order = options.order >= 0 ? options.order
-                          : counts(options, element.surface)
-                              ? std::max(first_order(options) - modesty(share), 0)
-                              : 0;
+      element.fit.order = beginning_order(options, counted_, element.surface, element.area);
       element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
     }
   }

@@ -25,9 +25,13 @@ CountedElements counted_elements(const ElementTable& elements,
   return result.count > 0 ? result : all;
 }
 
-int modesty(double share) {
+int beginning_order(const AdaptiveFieldOptions& options, const CountedElements& all, int surface,
+                    double area) {
+  if (options.order >= 0) return options.order;
+  if (!counts(options, surface)) return 0;
   constexpr double small = 0.25, tiny = 0.025;
-  return rounded(share) < tiny ? 2 : rounded(share) < small ? 1 : 0;
+  const double share = rounded(area * all.count / all.area);
+  return std::max(first_order(options) - (share < tiny ? 2 : share < small ? 1 : 0), 0);
 }
 
 TrianglePlace spread_place(std::size_t index) {

@@ -6,8 +6,8 @@
 
 namespace halfshade {
 
-/// The order that elements begin with: low ones where they will do; what is too high is dropped in
-/// the end.
+/// The order that most elements begin with: low ones where they will do; what is too high is
+/// dropped in the end.
 int first_order(const AdaptiveFieldOptions& options);
 
 /// Whether elements of a surface count, see AdaptiveFieldOptions.
@@ -26,9 +26,10 @@ struct CountedElements {
 };
 CountedElements counted_elements(const ElementTable& elements, const AdaptiveFieldOptions& options);
 
-/// How many orders fewer elements begin with that have a small share of the mean area: most matter
-/// little, and in clutter there are many.
-int modesty(double share);
+/// The order that an element begins with: lower ones if it has a small share of the mean area, for
+/// most of these matter little, and in clutter there are many; 0 if it does not count.
+int beginning_order(const AdaptiveFieldOptions& options, const CountedElements& all, int surface,
+                    double area);
 
 /// Places evenly spread over a triangle, different for each index (Roberts' sequence).
 TrianglePlace spread_place(std::size_t index);

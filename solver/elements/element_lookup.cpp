@@ -1,5 +1,6 @@
 #include "solver/elements/element_lookup.h"
 
+#include "meshing/core/planar.h"
 #include "meshing/core/plane_frame.h"
 
 #include <Eigen/Dense>
@@ -11,7 +12,11 @@
 namespace halfshade {
 namespace {
 
-constexpr double cells_per_element = 2;
+constexpr double cells_per_element = 1;
+/// Cells with more elements are quartered, down to sizes at which corners would be all that is
+/// left.
+constexpr std::size_t most_in_cell = 4;
+constexpr int most_quarterings = 12;
 /// Points that rounding puts beside their element are looked for in its cells, too.
 constexpr double cell_margin = 1e-6;
 /// Points this close to an edge lie in the first of the elements at it: symmetric places lie there
@@ -32,6 +37,24 @@ struct Box2 {
   }
 };
 
+/// Whether a triangle reaches into a square, but for rounding: not if it lies beyond one of its
+/// sides, or the square beyond one of the triangle's.
+bool may_overlap(const std::array<Vec2, 3>& triangle, const Vec2& low, double size) {
+  const auto& [a, b, c] = triangle;
+  const Vec2 most = low + Vec2::Constant(size + cell_margin);
+  if ((a.cwiseMax(b).cwiseMax(c) - low).minCoeff() < -cell_margin ||
+      (most - a.cwiseMin(b).cwiseMin(c)).minCoeff() < 0)
+    return false;
+  const double turn = cross_2d(b - a, c - a) < 0 ? -1 : 1;
+  const Vec2 middle = low + Vec2::Constant(size / 2);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 &p = triangle[k], along = triangle[(k + 1) % 3] - p;
+    const double reach = (size / 2 + cell_margin) * (std::abs(along.x()) + std::abs(along.y()));
+    if (turn * cross_2d(along, middle - p) < -reach) return false;
+  }
+  return true;
+}
+
 TrianglePlace clamped(const TrianglePlace& p) {
   const TrianglePlace q = p.cwiseMax(0.);
   return q.sum() > 1 ? TrianglePlace(q / q.sum()) : q;
@@ -39,7 +62,7 @@ TrianglePlace clamped(const TrianglePlace& p) {
 
 }  // namespace
 
-ElementLookup::ElementLookup(const ElementTable& elements) : starts_{0} {
+ElementLookup::ElementLookup(const ElementTable& elements) {
   for (int e = 0; e < elements.count(); ++e) {
     const auto corner = elements.triangle(e);
     Eigen::Matrix<double, 3, 2> edges;
@@ -67,26 +90,62 @@ void ElementLookup::fill(const ElementTable& elements, Grid& grid) {
   grid.origin = frame.to_space(all.low);
   grid.to_cells.row(0) = grid.columns / size.x() * frame.e1.transpose();
   grid.to_cells.row(1) = grid.rows / size.y() * frame.e2.transpose();
-  std::vector<std::vector<int>> cells(at(grid.columns * grid.rows));
+  FlatTriangles triangles;
+  std::vector<std::vector<int>> inside(at(grid.columns * grid.rows));  // of `triangles`
   for (const int e : grid.elements) {
+    const auto corners = elements.triangle(e);
+    auto& flat = triangles.emplace_back();
     Box2 box;
-    for (const Vec3& p : elements.triangle(e)) box.include(grid.to_cells * (p - grid.origin));
+    for (std::size_t k = 0; k < 3; ++k)
+      box.include(flat[k] = grid.to_cells * (corners[k] - grid.origin));
     for (int j = clamp_cell(box.low.y() - cell_margin, grid.rows);
          j <= clamp_cell(box.high.y() + cell_margin, grid.rows); ++j)
       for (int i = clamp_cell(box.low.x() - cell_margin, grid.columns);
            i <= clamp_cell(box.high.x() + cell_margin, grid.columns); ++i)
-        cells[at(i + j * grid.columns)].push_back(e);
+        inside[at(i + j * grid.columns)].push_back(static_cast<int>(triangles.size()) - 1);
   }
-  grid.first_cell = static_cast<int>(starts_.size()) - 1;
-  for (const std::vector<int>& cell : cells) {
-    items_.insert(items_.end(), cell.begin(), cell.end());
-    starts_.push_back(static_cast<int>(items_.size()));
+  grid.first_cell = static_cast<int>(cells_.size());
+  cells_.resize(cells_.size() + inside.size());
+  for (int c = 0; c < static_cast<int>(inside.size()); ++c) {
+    const std::size_t first = items_.size();
+    fill_cell(triangles, std::move(inside[at(c)]), grid.first_cell + c,
+              {c % grid.columns, c / grid.columns}, 0);
+    for (std::size_t i = first; i < items_.size(); ++i) items_[i] = grid.elements[at(items_[i])];
   }
 }
 
-int ElementLookup::cell_of(const Grid& grid, const Vec2& q) const {
-  return grid.first_cell + clamp_cell(q.x(), grid.columns) +
-         clamp_cell(q.y(), grid.rows) * grid.columns;
+void ElementLookup::fill_cell(const FlatTriangles& triangles, std::vector<int> inside, int cell,
+                              const Vec2& low, int quarterings) {
+  if (inside.size() <= most_in_cell || quarterings == most_quarterings) {
+    cells_[at(cell)].first = static_cast<int>(items_.size());
+    items_.insert(items_.end(), inside.begin(), inside.end());
+    cells_[at(cell)].end = static_cast<int>(items_.size());
+    return;
+  }
+  const int first = static_cast<int>(cells_.size());
+  cells_[at(cell)] = {first, -1};
+  cells_.resize(cells_.size() + 4);
+  const double size = std::ldexp(1, -quarterings - 1);
+  for (int k = 0; k < 4; ++k) {
+    const Vec2 corner = low + size * Vec2(k % 2, k / 2);
+    std::vector<int> here;
+    for (const int t : inside)
+      if (may_overlap(triangles[at(t)], corner, size)) here.push_back(t);
+    fill_cell(triangles, std::move(here), first + k, corner, quarterings + 1);
+  }
+}
+
+const ElementLookup::Cell& ElementLookup::cell_at(const Grid& grid, Vec2 q) const {
+  const int i = clamp_cell(q.x(), grid.columns), j = clamp_cell(q.y(), grid.rows);
+  q -= Vec2(i, j);
+  int cell = grid.first_cell + i + j * grid.columns;
+  while (cells_[at(cell)].end < 0) {
+    q *= 2;
+    const bool right = q.x() >= 1, up = q.y() >= 1;
+    q -= Vec2(right, up);
+    cell = cells_[at(cell)].first + (right ? 1 : 0) + (up ? 2 : 0);
+  }
+  return cells_[at(cell)];
 }
 
 ForestPlace ElementLookup::find(int surface, const Vec3& position) const {
@@ -103,9 +162,8 @@ ForestPlace ElementLookup::find(int surface, const Vec3& position) const {
     most = least;
     best = {e, place};
   };
-  const int cell = cell_of(grid, grid.to_cells * (position - grid.origin));
-  for (int i = starts_[at(cell)]; i < starts_[at(cell) + 1] && most < -edge_margin; ++i)
-    look_at(items_[at(i)]);
+  const Cell& cell = cell_at(grid, grid.to_cells * (position - grid.origin));
+  for (int i = cell.first; i < cell.end && most < -edge_margin; ++i) look_at(items_[at(i)]);
   if (best.triangle < 0)
     for (const int e : grid.elements) look_at(e);
   if (best.triangle < 0) return {};  // the point is not finite

@@ -3,6 +3,7 @@
 #include "meshing/patches/element_table.h"
 #include "solver/elements/polynomial.h"
 
+#include <array>
 #include <vector>
 
 namespace halfshade {
@@ -13,8 +14,8 @@ struct ForestPlace {
   TrianglePlace place = TrianglePlace::Zero();
 };
 
-/// Finds the element that a point of a surface lies in, by a grid over each surface. Cost: a few
-/// elements a query, whatever their number, unless they are very uneven.
+/// Finds the element that a point of a surface lies in, by a grid over each surface whose cells are
+/// quartered where elements are small. Cost: a few elements a query, whatever their number.
 class ElementLookup {
  public:
   explicit ElementLookup(const ElementTable& elements);
@@ -30,8 +31,7 @@ class ElementLookup {
     Vec3 origin;
     Eigen::Matrix<double, 2, 3> slope;
   };
-  /// Cells of a surface: columns and rows; `starts` of cell (i, j) is at first_cell + i + j
-  /// columns.
+  /// Cells of a surface: columns and rows; cell (i, j) is at first_cell + i + j columns.
   struct Grid {
     Vec3 origin = Vec3::Zero();
     Eigen::Matrix<double, 2, 3> to_cells = Eigen::Matrix<double, 2, 3>::Zero();
@@ -40,12 +40,23 @@ class ElementLookup {
     std::vector<int> elements;
   };
 
+  /// The elements of a cell, from `first` to `end` in the list; of one that is quartered its first
+  /// quarter, and −1. Quarters follow each other: low, right, upper left, upper right.
+  struct Cell {
+    int first, end;
+  };
+  /// Triangles in coordinates in which cells of the grid are unit squares.
+  using FlatTriangles = std::vector<std::array<Vec2, 3>>;
+
   void fill(const ElementTable& elements, Grid& grid);
-  int cell_of(const Grid& grid, const Vec2& q) const;
+  void fill_cell(const FlatTriangles& triangles, std::vector<int> inside, int cell, const Vec2& low,
+                 int quarterings);
+  const Cell& cell_at(const Grid& grid, Vec2 q) const;
 
   std::vector<PlaceMap> maps_;
   std::vector<Grid> grids_;  ///< of each surface
-  std::vector<int> starts_, items_;
+  std::vector<Cell> cells_;
+  std::vector<int> items_;
 };
 
 }  // namespace halfshade

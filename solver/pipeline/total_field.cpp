@@ -4,6 +4,7 @@
 #include "solver/adapt/element_fit.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/element_lookup.h"
+#include "solver/reflected/quick_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,21 +17,35 @@ namespace {
 /// Direct light at any point of a surface, from its polynomials.
 class DirectLookup {
  public:
-  explicit DirectLookup(AdaptiveField light) : lookup_(light.elements), light_(std::move(light)) {}
+  explicit DirectLookup(AdaptiveField light)
+      : lookup_(light.elements), light_(std::move(light)), low_(low_orders(light_.field)) {}
 
   const AdaptiveField& light() const { return light_; }
 
   auto place(int surface, const Vec3& position) const { return lookup_.find(surface, position); }
   Rgb operator()(int surface, const Vec3& position) const {
     const ForestPlace here = place(surface, position);
-    // Where light breaks polynomials may dip below zero.
-    return here.triangle < 0 ? Rgb(Rgb::Zero())
-                             : Rgb(value_at(light_.field, here.triangle, here.place).max(0));
+    if (here.triangle < 0) return Rgb::Zero();
+    const bool is_low = light_.field.order[at(here.triangle)] <= max_reflected_order;
+    const Rgb value = is_low ? low_.value(here.triangle, here.place)
+                             : value_at(light_.field, here.triangle, here.place);
+    return value.max(0);  // where light breaks polynomials may dip below zero
   }
 
  private:
+  /// Rays ask at millions of places, which is quick for low orders; 0 where the order is high.
+  static QuickField low_orders(const ElementField& field) {
+    std::vector<int> order = field.order;
+    for (int& p : order) p = p <= max_reflected_order ? p : 0;
+    ElementField low = zero_field(std::move(order));
+    for (int e = 0; e < low.count(); ++e)
+      if (low.order[at(e)] == field.order[at(e)]) low.of(e) = field.of(e);
+    return QuickField(low);
+  }
+
   ElementLookup lookup_;
   AdaptiveField light_;
+  QuickField low_;
 };
 
 FieldAt values_of(const ReflectedLight& reflected) {

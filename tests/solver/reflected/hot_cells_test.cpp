@@ -45,7 +45,7 @@ Runs gather(const ReflectingScene& scene, const HotCells& hot, const RayOrigin& 
 
 TEST(HotCells, HaveTheMeanOfTheClosedFormAndLessNoise) {
   const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
-  const HotCells hot(scene, leaving);
+  const HotCells hot(scene, {}, leaving);
   EXPECT_GT(hot.count(49), 0);
   EXPECT_EQ(HotCells().count(49), 0);
   const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ(), scene.cells.before(0), true, 0};
@@ -62,7 +62,7 @@ TEST(HotCells, HaveTheMeanOfTheClosedFormAndLessNoise) {
 
 TEST(HotCells, AreNoneWhereLightIsEven) {
   const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
-  const HotCells even(scene, [](int, const Vec3&) { return Rgb(Rgb::Ones()); });
+  const HotCells even(scene, {}, [](int, const Vec3&) { return Rgb(Rgb::Ones()); });
   EXPECT_EQ(even.count(10000), 0);
 }
 

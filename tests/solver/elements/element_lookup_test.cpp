@@ -1,0 +1,74 @@
+#include "solver/elements/element_lookup.h"
+
+#include "meshing/patches/patch_mesh.h"
+#include "meshing/repair/repair.h"
+#include "solver/elements/element_field.h"
+#include "tests/support/random.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+/// Elements of a room, bisected again and again at a corner of it: from 1 to 1e-4 in size.
+ElementTable uneven_elements() {
+  PatchMesh mesh(make_sound(test::lit_cube({0, 0, 0, 0, 0, 0})), {});
+  for (int round = 0; round < 25; ++round) {
+    const ElementTable elements = mesh.elements();
+    std::vector<int> at_corner;
+    for (int e = 0; e < elements.count(); ++e)
+      for (const Vec3& p : elements.triangle(e))
+        if (p.norm() == 0) at_corner.push_back(e);
+    mesh.bisect(at_corner);
+  }
+  return mesh.elements();
+}
+
+TEST(ElementLookup, FindsPlacesInElementsOfAnySize) {
+  const ElementTable elements = uneven_elements();
+  ASSERT_LT(*std::min_element(elements.area.begin(), elements.area.end()), 1e-6);
+  const ElementLookup lookup(elements);
+  test::Random random(1);
+  for (int e = 0; e < elements.count(); ++e)
+    for (int k = 0; k < 20; ++k) {
+      TrianglePlace place(random(0, 1), random(0, 1));
+      if (place.sum() > 1) place = TrianglePlace(1, 1) - place;
+      const ForestPlace found =
+          lookup.find(elements.surface[at(e)], position(elements.triangle(e), place));
+      ASSERT_EQ(found.triangle, e) << place.transpose();
+      EXPECT_LT((found.place - place).norm(), 1e-9);
+    }
+}
+
+TEST(ElementLookup, OnCommonEdgesTheFirstElementCounts) {
+  const ElementTable elements = uneven_elements();
+  const ElementLookup lookup(elements);
+  for (int e = 0; e < elements.count(); ++e)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int other = elements.neighbours[at(e)][k];
+      if (other < 0 || elements.surface[at(other)] != elements.surface[at(e)]) continue;
+      const auto corners = elements.triangle(e);
+      const Vec3 middle = 0.5 * (corners[k] + corners[(k + 1) % 3]);
+      EXPECT_EQ(lookup.find(elements.surface[at(e)], middle).triangle, std::min(e, other));
+    }
+}
+
+TEST(ElementLookup, PointsBesideASurfaceBelongToWhatIsNext) {
+  const ElementTable elements = uneven_elements();
+  const ElementLookup lookup(elements);
+  for (int e = 0; e < elements.count(); ++e)
+    for (const Vec3& p : elements.triangle(e)) {
+      const ForestPlace found =
+          lookup.find(elements.surface[at(e)], p + 1e-14 * (p - Vec3::Constant(0.5)));
+      ASSERT_GE(found.triangle, 0);
+      EXPECT_LT((position(elements.triangle(found.triangle), found.place) - p).norm(), 1e-12);
+    }
+  EXPECT_EQ(lookup.find(1000, Vec3::Zero()).triangle, -1);
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -14,6 +14,13 @@ namespace {
 /// Of what a pair may be off by: what closed forms take little for.
 constexpr double share_of_unhidden = 0.1;
 
+/// The estimate is at least this share of what Σ d² tells, for lattices are better than points that
+/// know nothing of each other,
+constexpr double least_share = 0.5;
+/// and all of it where no more points than this find something hidden, or something seen: twice as
+/// much where half as many do. What few points find may rise steeply between them.
+constexpr double few_points = 20;
+
 /// The estimate shrinks with this power of the number of points, at least.
 constexpr double decay = 1.25;
 
@@ -67,98 +74,122 @@ class PairOnLattices {
     whole_ = clear_sight(scene, a, pair.other, unhidden);
   }
 
-  /// Begins with a lattice that neither the other surface nor anything in between is too narrow
-  /// for: shadows are wider than what casts them. `size` is that of the largest quadrilateral.
+  /// Needs a lattice that neither the other surface nor anything in between is too narrow for:
+  /// shadows are wider than what casts them. `size` is that of the largest quadrilateral.
   void begin(double size) {
-    const auto lattices = square_lattices();
-    const auto is_too_wide = [&](const SquareLattice& lattice) {
-      return size / std::sqrt(static_cast<double>(lattice.places.size())) > few_.narrowest();
-    };
-    while (goes_on_ && is_too_wide(lattices[level_])) go_on();
-    goes_on_ = goes_on_ && is_affordable();
+    const double across = size / few_.narrowest();
+    goes_on_ = goes_on_ && across * across <= most() &&
+               static_cast<double>(square_lattices().front().places.size()) <= most();
+    if (goes_on_) fewest_ = static_cast<std::size_t>(across * across);
   }
 
   bool goes_on() const { return goes_on_; }
-  std::size_t level() const { return level_; }  ///< of the lattice that comes next
   const MutualSight& sight() const { return sight_; }
 
-  /// The next place on a quadrilateral.
-  void look(Silhouettes& silhouettes, double weight) {
+  /// The next place on a quadrilateral; corners apart.
+  void look(Silhouettes& silhouettes, double weight, std::size_t quad, bool is_corner) {
     HiddenFactor factor;
     goes_on_ = few_.hidden_factor(silhouettes, factor) && goes_on_;
-    is_lit_ = is_lit_ && factor.hidden == 0;
-    is_dark_ = is_dark_ && factor.is_dark;
-    values_.push_back(weight * factor.hidden);
+    if (factor.hidden > 0) ++not_lit_;
+    if (!factor.is_dark) ++not_dark_;
+    if (quad == values_.size()) values_.emplace_back();
+    (is_corner ? values_[quad].corners : values_[quad].places).push_back(weight * factor.hidden);
+    ++sight_.points;
   }
 
-  /// All places of the lattice and then its corners have been looked at.
-  void end_quad(const SquareLattice& lattice) {
-    const auto note = [&](double value, const SquareLattice::Watch& watch) {
-      for (std::size_t k = 0; k < SquareLattice::Watch::count; ++k)
-        value -= watch.weight[k] * values_[at(watch.near[k])];
-      square_ += value * value;
-    };
-    const std::size_t count = lattice.places.size();
-    for (std::size_t k = 0; k < count; ++k) {
-      sum_ += values_[k];
-      note(values_[k], lattice.inner[k]);
+  /// All places of a lattice have been looked at: whether that is enough, or ever will be.
+  void settle(const SquareLattice& lattice, bool is_last) {
+    const double count = static_cast<double>(lattice.places.size());
+    const double before = mean_;
+    mean_ = sum_of_values() / count;
+    if (lattice.places.size() < fewest_) {
+      goes_on_ = goes_on_ && !is_last;
+      return;
     }
-    for (std::size_t k = 0; k < lattice.corners.size(); ++k)
-      note(values_[count + k], lattice.corners[k]);
-    sight_.points += values_.size();
-    values_.clear();
-  }
-
-  /// All quadrilaterals have been looked at: whether that is enough, or which lattice is likely to
-  /// be.
-  void settle() {
-    const auto lattices = square_lattices();
-    const double count = static_cast<double>(lattices[level_].places.size());
-    const double error = std::sqrt(square_) / count;
-    sight_.value = std::max(0., whole_.value - sum_ / count);
+    double error = share_of_residuals() * std::sqrt(sum_of_squares(lattice)) / count;
+    if (count > static_cast<double>(square_lattices().front().places.size()))
+      error = std::max(error, std::abs(mean_ - before));
+    sight_.value = std::max(0., whole_.value - mean_);
     sight_.error = whole_.error + error;
     const double allowed =
         std::max(hidden_allowed_.absolute, hidden_allowed_.relative * sight_.value);
-    sight_.is_reached = goes_on_ && error <= allowed && !is_lit_ && !is_dark_;
-    goes_on_ = goes_on_ && !sight_.is_reached && !is_lit_ && !is_dark_;
-    sum_ = square_ = 0;
-    is_lit_ = is_dark_ = true;
+    const bool tells = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
+    sight_.is_reached = tells && error <= allowed;
     const double needed = count * std::pow(error / allowed, 1 / decay);
-    while (goes_on_ && static_cast<double>(lattices[level_].places.size()) < needed) go_on();
-    goes_on_ = goes_on_ && is_affordable();
+    goes_on_ = tells && !sight_.is_reached && !is_last && needed <= most();
   }
 
  private:
-  void go_on() { goes_on_ = ++level_ < square_lattices().size(); }
-  bool is_affordable() const {
-    return square_lattices()[level_].places.size() <= at(hidden_allowed_.max_points);
+  /// What it sees from one quadrilateral, times what that stretches the square by.
+  struct Values {
+    std::vector<double> places, corners;
+  };
+
+  /// Points on a quadrilateral.
+  double most() const {
+    return std::min(static_cast<double>(square_lattices().back().places.size()),
+                    static_cast<double>(hidden_allowed_.max_points));
+  }
+
+  double share_of_residuals() const {
+    return std::max(least_share, few_points / static_cast<double>(std::min(not_lit_, not_dark_)));
+  }
+
+  double sum_of_values() const {
+    double sum = 0;
+    for (const Values& values : values_)
+      for (const double value : values.places) sum += value;
+    return sum;
+  }
+
+  /// Of what places and corners are off from the places round them.
+  double sum_of_squares(const SquareLattice& lattice) const {
+    double sum = 0;
+    for (const auto& [places, corners] : values_) {
+      const auto note = [&](double value, const SquareLattice::Watch& watch) {
+        for (std::size_t k = 0; k < SquareLattice::Watch::count; ++k)
+          value -= watch.weight[k] * places[at(watch.near[k])];
+        sum += value * value;
+      };
+      for (std::size_t k = 0; k < places.size(); ++k) note(places[k], lattice.inner[k]);
+      for (std::size_t k = 0; k < corners.size(); ++k) note(corners[k], lattice.corners[k]);
+    }
+    return sum;
   }
 
   FewBlockers few_;
   SightTolerance hidden_allowed_;
   MutualSight whole_, sight_;
-  std::size_t level_ = 0;
+  std::size_t fewest_ = 0;
   bool goes_on_;
-  // Of one lattice:
-  double sum_ = 0, square_ = 0;
-  bool is_lit_ = true, is_dark_ = true;
-  std::vector<double> values_;  // on one quadrilateral
+  std::size_t not_lit_ = 0, not_dark_ = 0;  // points that find something hidden, or seen
+  std::vector<Values> values_;              // by quadrilateral
+  double mean_ = 0;
 };
 
-/// Looks at all of some pairs from one lattice.
-void look_at(std::span<PairOnLattices* const> pairs, std::span<const Quad> quads,
-             const SquareLattice& lattice, Silhouettes& silhouettes) {
-  for (const Quad& quad : quads) {
-    const auto look_from = [&](const Vec2& at) {
-      const Place place = place_in(quad, at);
-      silhouettes.move_to(place.position);
-      for (PairOnLattices* pair : pairs) pair->look(silhouettes, place.weight);
-    };
-    for (const Vec2& at : lattice.places) look_from(at);
-    for (std::size_t k = 0; k < lattice.corners.size(); ++k) look_from(lattice.corner(k));
-    for (PairOnLattices* pair : pairs) pair->end_quad(lattice);
+/// Looks at all of some pairs from one lattice after the other.
+void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
+             Silhouettes& silhouettes) {
+  const auto lattices = square_lattices();
+  std::size_t first = 0;
+  for (std::size_t level = 0; level < lattices.size(); ++level) {
+    std::erase_if(pairs, [](const PairOnLattices* pair) { return !pair->goes_on(); });
+    if (pairs.empty()) return;
+    const SquareLattice& lattice = lattices[level];
+    for (std::size_t q = 0; q < quads.size(); ++q) {
+      const auto look_from = [&](const Vec2& at, bool is_corner) {
+        const Place place = place_in(quads[q], at);
+        silhouettes.move_to(place.position);
+        for (PairOnLattices* pair : pairs) pair->look(silhouettes, place.weight, q, is_corner);
+      };
+      for (std::size_t k = first; k < lattice.places.size(); ++k)
+        look_from(lattice.places[k], false);
+      for (std::size_t k = 0; level == 0 && k < lattice.corners.size(); ++k)
+        look_from(lattice.corner(k), true);
+    }
+    for (PairOnLattices* pair : pairs) pair->settle(lattice, level + 1 == lattices.size());
+    first = lattice.places.size();
   }
-  for (PairOnLattices* pair : pairs) pair->settle();
 }
 
 /// What of a surface lies before the plane of another; `is_all` if nothing but rounding lies
@@ -192,7 +223,6 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
   std::vector<std::unique_ptr<PairOnLattices>> looks;
   std::vector<PairOnLattices*> from_all;
   Silhouettes silhouettes(scene);
-  const auto lattices = square_lattices();
   for (const LatticePair& pair : pairs) {
     looks.push_back(nullptr);
     if (!in_all_cells_of(scene, a, pair.other)) continue;
@@ -200,19 +230,12 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
     PairOnLattices* look = looks.back().get();
     const PartBefore part = part_before(own, scene.surfaces[at(pair.other)]);
     look->begin(size_of(part.quads));
-    if (part.is_all) {
+    if (part.is_all)
       from_all.push_back(look);
-      continue;
-    }
-    while (look->goes_on()) look_at({&look, 1}, part.quads, lattices[look->level()], silhouettes);
+    else
+      look_at({look}, part.quads, silhouettes);
   }
-  std::vector<PairOnLattices*> now;
-  for (std::size_t level = 0; level < lattices.size(); ++level) {
-    now.clear();
-    for (PairOnLattices* look : from_all)
-      if (look->goes_on() && look->level() == level) now.push_back(look);
-    if (!now.empty()) look_at(now, all, lattices[level], silhouettes);
-  }
+  look_at(from_all, all, silhouettes);
   std::vector<std::optional<MutualSight>> result;
   for (const auto& look : looks) {
     result.emplace_back();

@@ -8,11 +8,15 @@
 namespace halfshade {
 namespace {
 
-constexpr std::array<int, 9> fibonacci = {13, 21, 34, 55, 89, 144, 233, 377, 610};
-constexpr std::size_t sizes = 8;
+constexpr std::size_t sizes = 7;
+constexpr int fewest = 16;
 
-/// Of a step: folded, points lie evenly along either side, then.
-constexpr double shift = 0.25;
+/// Of some 10⁶ generators and shifts tried, what makes the mean of the logarithm of errors least
+/// over sizes 16 to 512, for 240 kinks, straight and parabolic ones, and exponentials in all
+/// directions: two thirds of those of Fibonacci lattices of as many points, and half of them with
+/// many.
+constexpr int generator = 295;
+const Vec2 shift(0.0502, 0.5814);
 
 /// 0 → 1 → 0 over a period.
 double folded(double x) { return 1 - std::abs(2 * (x - std::floor(x)) - 1); }
@@ -36,11 +40,19 @@ SquareLattice::Watch watch(const Vec2& place, const std::vector<Vec2>& places, i
   return result;
 }
 
-SquareLattice square_lattice(int step, int count) {
+/// The digits of k in base two, mirrored at the point: 0, 1/2, 1/4, 3/4, 1/8, ...
+double mirrored(int k) {
+  double sum = 0;
+  for (double digit = 0.5; k > 0; k /= 2, digit *= 0.5) sum += k % 2 * digit;
+  return sum;
+}
+
+SquareLattice square_lattice(int count) {
   SquareLattice lattice;
-  for (int k = 0; k < count; ++k)
-    lattice.places.emplace_back(folded((k + shift) / count),
-                                folded((static_cast<double>(k) * step + shift) / count));
+  for (int k = 0; k < count; ++k) {
+    const double x = mirrored(k);
+    lattice.places.emplace_back(folded(x + shift.x()), folded(generator * x + shift.y()));
+  }
   for (int k = 0; k < count; ++k)
     lattice.inner.push_back(watch(lattice.places[at(k)], lattice.places, k));
   for (std::size_t k = 0; k < 4; ++k)
@@ -53,7 +65,7 @@ SquareLattice square_lattice(int step, int count) {
 std::span<const SquareLattice> square_lattices() {
   static const std::array<SquareLattice, sizes> lattices = [] {
     std::array<SquareLattice, sizes> all;
-    for (std::size_t k = 0; k < sizes; ++k) all[k] = square_lattice(fibonacci[k], fibonacci[k + 1]);
+    for (std::size_t k = 0; k < sizes; ++k) all[k] = square_lattice(fewest << k);
     return all;
   }();
   return lattices;

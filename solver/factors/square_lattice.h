@@ -8,10 +8,9 @@
 
 namespace halfshade {
 
-/// Points of the unit square for the cubature of functions with kinks. A Fibonacci lattice, folded
-/// at the middle of both sides so that what is not periodic is as good as what is: errors shrink
-/// like N^-2 for smooth functions, and along kinks that are parallel to a side, too (Hickernell
-/// 2002).
+/// Points of the unit square for the cubature of functions with kinks: a lattice, folded at the
+/// middle of both sides so that what is not periodic is as good as what is: errors shrink like N^-2
+/// for smooth functions, and along kinks that are parallel to a side, too (Hickernell 2002).
 struct SquareLattice {
   /// A place to look at, and the linear extrapolation to it from lattice points nearest to it: what
   /// a function is off by there tells how far it is from linear between the points.
@@ -20,7 +19,7 @@ struct SquareLattice {
     std::array<int, count> near;
     std::array<double, count> weight;
   };
-  std::vector<Vec2> places;
+  std::vector<Vec2> places;      ///< the first half of them is the lattice before
   std::vector<Watch> inner;      ///< of each place, from the others
   std::array<Watch, 4> corners;  ///< (0, 0), (1, 0), (1, 1), (0, 1), a little inside
 
@@ -31,7 +30,8 @@ struct SquareLattice {
   }
 };
 
-/// 21, 34, 55, ... points.
+/// 16, 32, 64, ... points: each holds the one before (Hickernell, Hong, L'Ecuyer and Lemieux 2000),
+/// so that no look is lost where more are needed.
 std::span<const SquareLattice> square_lattices();
 
 }  // namespace halfshade

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -41,6 +42,15 @@ TEST(SquareLattice, PointsLieInTheSquareAndApart) {
   }
 }
 
+TEST(SquareLattice, EachBeginsWithTheOneBefore) {
+  const auto lattices = square_lattices();
+  for (std::size_t k = 0; k + 1 < lattices.size(); ++k) {
+    const auto &few = lattices[k].places, &many = lattices[k + 1].places;
+    ASSERT_EQ(many.size(), 2 * few.size());
+    EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin()));
+  }
+}
+
 TEST(SquareLattice, WhatIsLinearIsExpectedFromItsNeighbours) {
   const Function f = [](const Vec2& p) { return 3 - 2 * p.x() + 5 * p.y(); };
   for (const SquareLattice& lattice : square_lattices()) {
@@ -52,6 +62,46 @@ TEST(SquareLattice, WhatIsLinearIsExpectedFromItsNeighbours) {
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(residual(lattice, lattice.corners[k], lattice.corner(k), f), 0, 1e-12);
   }
+}
+
+/// Root mean square of what means of kinks in all directions are off by.
+double error_of_kinks(const std::vector<Vec2>& places) {
+  double square = 0;
+  int count = 0;
+  for (double angle = 0.05; angle < 1.57; angle += 0.1)
+    for (double c = 0.1; c < 1; c += 0.1, ++count) {
+      // a x + b y − d, where that is positive: half of a square's first moment, or what corners
+      // leave of it.
+      const double a = std::cos(angle), b = std::sin(angle), d = c * (a + b);
+      const auto cube = [](double x) { return x > 0 ? x * x * x : 0; };
+      const double exact = (cube(a + b - d) - cube(a - d) - cube(b - d) + cube(-d)) / (6 * a * b);
+      double mean = 0;
+      for (const Vec2& p : places)
+        mean += std::max(0., a * p.x() + b * p.y() - d) / static_cast<double>(places.size());
+      square += (mean - exact) * (mean - exact);
+    }
+  return std::sqrt(square / count);
+}
+
+/// Less than those of Fibonacci lattices between them, as if these had as many points.
+TEST(SquareLattice, KinksAreLessOffThanByFibonacciLattices) {
+  const auto folded = [](double x) { return 1 - std::abs(2 * (x - std::floor(x)) - 1); };
+  const auto scaled = [](const std::vector<Vec2>& places) {
+    return std::pow(static_cast<double>(places.size()), 1.5) * error_of_kinks(places);
+  };
+  constexpr std::array<int, 7> fibonacci = {13, 21, 34, 55, 89, 144, 233};
+  double of_fibonacci = 0;
+  for (std::size_t k = 1; k < fibonacci.size(); ++k) {
+    std::vector<Vec2> places;
+    for (int i = 0; i < fibonacci[k]; ++i)
+      places.emplace_back(folded((i + .25) / fibonacci[k]),
+                          folded((static_cast<double>(i) * fibonacci[k - 1] + .25) / fibonacci[k]));
+    of_fibonacci += std::log(scaled(places)) / (fibonacci.size() - 1);
+  }
+  double mean = 0;
+  for (const SquareLattice& lattice : square_lattices().first(5))
+    mean += std::log(scaled(lattice.places)) / 5;
+  EXPECT_LT(mean, of_fibonacci - 0.2);
 }
 
 /// Of a smooth function nearly like 1/N², of kinks, wherever they are, faster than 1/N.

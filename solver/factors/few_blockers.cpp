@@ -59,7 +59,6 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
   std::vector<Vec3> corners;
   for (const Corner& corner : target_corners_) corners.push_back(target_.frame.to_space(corner.at));
   target_ball_ = ball_round(corners);
-  centre_in_plane_ = target_.frame.to_plane(target_ball_.centre);
   if (!is_known) {
     std::sort(blockers.begin(), blockers.end());
     blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
@@ -109,14 +108,22 @@ double FewBlockers::narrowest() const {
   return width;
 }
 
-/// What lies behind a plane through the point. False if nothing of the target does.
+/// What lies behind a plane through the point. False if nothing of the target does; a plane that
+/// all of it lies behind cuts off nothing and is left out.
 bool FewBlockers::add_plane(const Vec3& normal, std::uint32_t border) {
   const Vec2 a(target_.frame.e1.dot(normal), target_.frame.e2.dot(normal));
   const double b = -normal.dot(from_frame_), steepness = length_about(a);
   // Parallel to the target.
   if (!(steepness > edge_on * length_about(normal))) return b <= 0;
-  if (a.dot(centre_in_plane_) + b > steepness * target_ball_.radius) return false;
-  shadow_.push_back({a, b, nearness_ * steepness, border});
+  const HalfPlane plane{a, b, nearness_ * steepness, border};
+  double least = HUGE_VAL, most = -HUGE_VAL;
+  for (const Corner& corner : target_corners_) {
+    const double height = a.dot(corner.at) + b;
+    least = std::min(least, height);
+    most = std::max(most, height);
+  }
+  if (least > -plane.near) return false;
+  if (most >= plane.near) shadow_.push_back(plane);
   return true;
 }
 
@@ -143,7 +150,7 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
 bool FewBlockers::make_shadow(const Silhouette& silhouette, std::uint32_t border) {
   for (const Silhouette::Edge& edge : silhouette.edges)
     if (!add_plane(edge.normal, border + edge.index + 1)) return false;
-  return !shadow_.empty();
+  return !silhouette.edges.empty();
 }
 
 double FewBlockers::sum_over(const Corner* first, const Corner* last) const {
@@ -221,7 +228,13 @@ FewBlockers::Heights FewBlockers::heights_over(const HalfPlane& plane, const Cor
 bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
   const std::size_t count = part.last - part.first;
   crossing_.clear();
+  // Planes of a shadow all cross the target as a whole.
+  const bool is_whole = part.first == 0 && part.last == target_corners_.size();
   for (const HalfPlane& plane : shadow_) {
+    if (is_whole) {
+      crossing_.push_back(&plane);
+      continue;
+    }
     const Heights range = heights_over(plane, corners_.data() + part.first, count);
     if (range.least >= 0) return false;
     if (range.most > 0) crossing_.push_back(&plane);

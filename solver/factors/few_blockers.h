@@ -138,7 +138,6 @@ class FewBlockers {
   Part target_corners_;
   std::vector<Range> target_parts_;
   Ball target_ball_;
-  Vec2 centre_in_plane_;
   std::vector<Solid> solids_;
   std::vector<Shade> shades_;
   // From one point:

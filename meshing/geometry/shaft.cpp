@@ -115,6 +115,19 @@ Shaft make_shaft(std::span<const Vec3> a, std::span<const Vec3> b, double tolera
   return shaft;
 }
 
+double shaft_tolerance(std::span<const Vec3> a, std::span<const Vec3> b) {
+  constexpr double touching = 1e-12, roundings = 16;
+  Vec3 low = a.front(), high = a.front();
+  for (const auto& polygon : {a, b})
+    for (const Vec3& p : polygon) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  const double reach = low.cwiseAbs().cwiseMax(high.cwiseAbs()).maxCoeff();
+  return touching * (high - low).maxCoeff() +
+         roundings * std::numeric_limits<double>::epsilon() * reach;
+}
+
 SideMask all_sides(const Shaft& shaft) {
   const std::size_t n = shaft.sides.size();
   return n < 64 ? (SideMask{1} << n) - 1 : ~SideMask{0};

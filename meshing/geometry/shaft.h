@@ -27,6 +27,10 @@ struct Shaft {
 /// Each polygon has one vertex or more; non-convex ones count as their convex hull.
 Shaft make_shaft(std::span<const Vec3> a, std::span<const Vec3> b, double tolerance);
 
+/// What reaches into the hull of two polygons by less only touches it: relative to its size, and
+/// roundings of coordinates far from the origin.
+double shaft_tolerance(std::span<const Vec3> a, std::span<const Vec3> b);
+
 /// Sides that still need a test, one bit each.
 using SideMask = std::uint64_t;
 SideMask all_sides(const Shaft& shaft);

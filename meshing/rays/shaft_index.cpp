@@ -3,28 +3,9 @@
 #include "meshing/geometry/shaft.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace halfshade {
-namespace {
-
-// What reaches into a shaft by less only touches it: relative to the shaft's size, and roundings of
-// coordinates far from the origin.
-constexpr double touching = 1e-12;
-constexpr double roundings = 16;
-
-double tolerance_for(std::span<const Vec3> a, std::span<const Vec3> b) {
-  Bounds box;
-  for (const auto& polygon : {a, b})
-    for (const Vec3& p : polygon) box.include(p);
-  const double reach = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
-  return touching * (box.high - box.low).maxCoeff() +
-         roundings * std::numeric_limits<double>::epsilon() * reach;
-}
-
-}  // namespace
-
 ShaftIndex::ShaftIndex(const TriangleSoup& soup) {
   std::vector<std::array<Vec3, 3>> corners(soup.triangles.size());
   std::vector<Bounds> boxes(corners.size());
@@ -42,7 +23,7 @@ ShaftIndex::ShaftIndex(const TriangleSoup& soup) {
 }
 
 std::vector<int> ShaftIndex::candidates(std::span<const Vec3> a, std::span<const Vec3> b) const {
-  const Shaft shaft = make_shaft(a, b, tolerance_for(a, b));
+  const Shaft shaft = make_shaft(a, b, shaft_tolerance(a, b));
   const auto skip = [&](int node, SideMask& mask) {
     const Bounds& box = tree_.nodes[at(node)].box;
     return is_outside(shaft, box.low, box.high, mask);

@@ -1,6 +1,7 @@
 #include "solver/factors/sight_scene.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/geometry/shaft.h"
 #include "meshing/triangulation/ring_triangles.h"
 #include "solver/factors/one_blocker.h"
 
@@ -189,6 +190,26 @@ bool may_see(const SightScene& scene, int a, int b) {
   return face_each_other(p, q) && share_a_cell(p, q);
 }
 
+namespace {
+
+/// Those of some triangles that may lie between two polygons. Quicker than to look for them in the
+/// whole scene where they are some dozens.
+Between still_between(const SightScene& scene, const Between& known, std::span<const Vec3> part,
+                      std::span<const Vec3> other) {
+  const Shaft shaft = make_shaft(part, other, shaft_tolerance(part, other));
+  const SideMask sides = all_sides(shaft);
+  const TriangleSoup& soup = scene.between.soup();
+  Between found;
+  for (const int t : known) {
+    const auto& [i, j, k] = soup.triangles[at(t)];
+    if (!is_harmless(shaft, {soup.points[at(i)], soup.points[at(j)], soup.points[at(k)]}, sides))
+      found.push_back(t);
+  }
+  return found;
+}
+
+}  // namespace
+
 Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, int a,
                            std::span<const Vec3> other, int b, const Between* known,
                            Between& found) {
@@ -200,7 +221,8 @@ Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, 
     if (hides_all(scene, *known, seen, seeing)) return Sight::none;
     if (are_all_beside(scene, *known, seen, seeing)) return Sight::clear;
   }
-  found = triangles_between(scene, seen, a, seeing, b);
+  found = known ? still_between(scene, *known, seen, seeing)
+                : triangles_between(scene, seen, a, seeing, b);
   if (found.empty()) return Sight::clear;
   if ((known && *known == found)) return Sight::partial;
   return hides_all(scene, found, seen, seeing) ? Sight::none : Sight::partial;

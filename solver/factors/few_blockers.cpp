@@ -101,13 +101,6 @@ void FewBlockers::add(const Blocker& blocker) {
   shades_.push_back(shade);
 }
 
-double FewBlockers::narrowest() const {
-  double width = target_ball_.radius;
-  for (const Solid& solid : solids_) width = std::min(width, solid.shape->width);
-  for (const Shade& shade : shades_) width = std::min(width, shade.blocker->width);
-  return width;
-}
-
 /// What lies behind a plane through the point. False if nothing of the target does; a plane that
 /// all of it lies behind cuts off nothing and is left out.
 bool FewBlockers::add_plane(const Vec3& normal, std::uint32_t border) {
@@ -231,13 +224,12 @@ bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
   // Planes of a shadow all cross the target as a whole.
   const bool is_whole = part.first == 0 && part.last == target_corners_.size();
   for (const HalfPlane& plane : shadow_) {
-    if (is_whole) {
-      crossing_.push_back(&plane);
-      continue;
+    if (!is_whole) {
+      const Heights range = heights_over(plane, corners_.data() + part.first, count);
+      if (range.least >= 0) return false;
+      if (range.most <= 0) continue;
     }
-    const Heights range = heights_over(plane, corners_.data() + part.first, count);
-    if (range.least >= 0) return false;
-    if (range.most > 0) crossing_.push_back(&plane);
+    crossing_.push_back(&plane);
   }
   const std::size_t corners_before = corners_.size(), parts_before = parts_.size();
   rest_.assign(corners_.data() + part.first, corners_.data() + part.last);
@@ -264,11 +256,6 @@ void FewBlockers::cut_off_shadow(HiddenFactor& factor) {
   }
   parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(kept),
                parts_.begin() + static_cast<std::ptrdiff_t>(count));
-}
-
-void FewBlockers::take_all() {
-  corners_ = target_corners_;
-  parts_ = target_parts_;
 }
 
 double FewBlockers::sum_over_parts() const {

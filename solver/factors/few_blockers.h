@@ -4,6 +4,7 @@
 #include "solver/factors/flat_sum.h"
 #include "solver/factors/sight_scene.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -61,7 +62,12 @@ class FewBlockers {
   bool is_applicable() const { return is_applicable_; }
   /// Width of the narrowest thing in between, or radius of the target: what the hidden part may
   /// vary over, scene units.
-  double narrowest() const;
+  double narrowest() const {
+    double width = target_ball_.radius;
+    for (const Solid& solid : solids_) width = std::min(width, solid.shape->width);
+    for (const Shade& shade : shades_) width = std::min(width, shade.blocker->width);
+    return width;
+  }
   /// Whether all that is in between are closed convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
 
@@ -120,7 +126,10 @@ class FewBlockers {
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
   bool is_beside(const Ball& ball) const;
-  void take_all();
+  void take_all() {
+    corners_ = target_corners_;
+    parts_ = target_parts_;
+  }
   template <class SilhouetteOf>
   bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);
   void cut_off_shadow(HiddenFactor& factor);

@@ -16,10 +16,10 @@ constexpr double share_of_unhidden = 0.1;
 
 /// The estimate is at least this share of what Σ d² tells, for lattices are better than points that
 /// know nothing of each other,
-constexpr double least_share = 0.5;
+constexpr double least_share = 0.75;
 /// and all of it where no more points than this find something hidden, or something seen: twice as
 /// much where half as many do. What few points find may rise steeply between them.
-constexpr double few_points = 20;
+constexpr double few_points = 30;
 
 /// The estimate shrinks with this power of the number of points, at least.
 constexpr double decay = 1.25;

@@ -15,9 +15,10 @@ namespace halfshade {
 namespace {
 
 /// What entries are off by adds up like the root of their number, if there are many; of that,
-/// estimates are at least two and a half times. Where there are few, they count as more.
+/// estimates of lattices are at least this many times as much. Where there are few, they count as
+/// more.
 double parts_of_row(double entries) {
-  constexpr double few = 0.25, many = 0.5, overestimated = 2.5;
+  constexpr double few = 0.25, many = 0.5, overestimated = 3.75;
   return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
 

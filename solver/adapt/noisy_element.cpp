@@ -16,6 +16,10 @@ constexpr int highest_order = 2;
 constexpr int samples_each = 2;
 /// Standard deviations of a sum of squares of noise that more is no noise.
 constexpr double sure = 2;
+/// With n^-1.5 as the variance of n rays, what they can do for all elements is most with n as the
+/// area to the power of .4: that is noise to the power of -.3, and less than twice as much of it in
+/// all as without any slack.
+constexpr double power_of_slack = 0.3, most_slack = 16;
 
 struct NoisyPolynomial {
   ChannelArray coefficients;
@@ -52,6 +56,10 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples, do
 }
 
 }  // namespace
+
+double slack_of(const NoisyElement& element, double mean_area) {
+  return std::clamp(std::pow(mean_area / element.area, power_of_slack), 1., most_slack);
+}
 
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place) {
   Eigen::VectorXd phi(element.coefficients.rows());

@@ -38,6 +38,10 @@ struct NoisyElement {
   double known_error() const { return surely_left + by_chance + unseen; }
 };
 
+/// How many times as much noise as usual each sample may have: more where elements are smaller than
+/// the mean, ≥ 1.
+double slack_of(const NoisyElement& element, double mean_area);
+
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
 
 /// Fits the order of 0 to 2 with the least error to an element's samples by least squares. What is

@@ -44,9 +44,8 @@ constexpr double fresh_for_one = 0.2;  ///< element
 /// Of the density of fresh places, what has nothing to do with the estimate: half of it by area,
 /// half by the square of what light may be there, which bounds what one place can add.
 constexpr double even_share = 0.5;
-/// Of the square of the error allowed: what is looked for at least.
-constexpr double least_estimate = 1e-3;
-constexpr double deviations = 3;
+/// Of the square of the error allowed: what is looked for at least; and how surely.
+constexpr double least_estimate = 1e-3, deviations = 3;
 
 void check_noisy(const AdaptiveFieldOptions& options) {
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.max_elements < 1 ||
@@ -63,14 +62,12 @@ class NoisyFit {
            const AdaptiveFieldOptions& options, const Progress& progress)
       : mesh_(mesh), field_(field), bound_(bound), options_(options), progress_(progress) {
     take_elements();
-    const double mean = sum_of_reaches() / counted_.count;
-    const auto share = [&](const NoisyElement& element) {
-      return mean > 0 ? element.area * element.reach / mean : 1;
-    };
-    for (NoisyElement& element : elements_)
-      element.wanted = std::find_if(first_samples.begin(), first_samples.end(), [&](auto& s) {
-                         return share(element) >= s.first;
-                       })->second;
+    const double each = sum_of_reaches() / counted_.count;
+    for (NoisyElement& element : elements_) {
+      const double share = each > 0 ? element.area * element.reach / each : 1;
+      const auto reaches = [&](const auto& samples) { return share >= samples.first; };
+      element.wanted = std::ranges::find_if(first_samples, reaches)->second;
+    }
   }
 
   AdaptiveField run() {
@@ -152,7 +149,9 @@ class NoisyFit {
 
   /// As many samples as are wanted, and what follows from them.
   void sample_and_fit() {
+    const double mean_area = total_area() / static_cast<double>(elements_.size());
     std::vector<FieldPoint> points;
+    std::vector<double> slack;
     std::vector<int> changed;
     std::vector<std::size_t> first;
     std::vector<TrianglePlace> places;
@@ -166,9 +165,10 @@ class NoisyFit {
         places.push_back(spread_place(start + k));
         points.push_back(point_at(element, places.back()));
       }
+      slack.resize(points.size(), slack_of(element, mean_area));
     }
     first.push_back(places.size());
-    const std::vector<NoisyValue> values = sample(points);
+    const std::vector<NoisyValue> values = sample(points, slack);
     if (values.size() < points.size()) return;
     ++report_.rounds;
     parallel_for(changed.size(), [&](std::size_t i) {
@@ -180,8 +180,9 @@ class NoisyFit {
   }
 
   /// Values of the field, scaled; none if it was stopped on the way.
-  std::vector<NoisyValue> sample(const std::vector<FieldPoint>& points) {
-    std::vector<NoisyValue> values = field_(points, progress_);
+  std::vector<NoisyValue> sample(const std::vector<FieldPoint>& points,
+                                 const std::vector<double>& slack) {
+    std::vector<NoisyValue> values = field_(points, slack, progress_);
     report_.samples += points.size();
     if (progress_.stopped()) return {};
     if (!scale_) {
@@ -247,7 +248,7 @@ class NoisyFit {
         points.push_back(point_at(element, places.back().second));
       }
     }
-    const std::vector<NoisyValue> values = sample(points);
+    const std::vector<NoisyValue> values = sample(points, std::vector<double>(points.size(), 1));
     if (values.size() < points.size() || points.empty()) return;
     double mean = 0, mean_square = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {

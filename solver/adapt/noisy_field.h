@@ -5,10 +5,10 @@
 
 namespace halfshade {
 
-/// A field on surfaces that is known but for noise, W/m²: its values at points. It must be the same
-/// for the same points.
-using NoisyFieldAt =
-    std::function<std::vector<NoisyValue>(std::span<const FieldPoint>, const Progress&)>;
+/// A field on surfaces that is known but for noise, W/m²: its values at points, and how many times
+/// as much noise as usual each of them may have, ≥ 1. It must be the same for the same points.
+using NoisyFieldAt = std::function<std::vector<NoisyValue>(
+    std::span<const FieldPoint>, std::span<const double> slack, const Progress&)>;
 
 /// W/m² that a field at a point does not exceed, roughly.
 using FieldBound = std::function<double(const FieldPoint&)>;
@@ -16,7 +16,8 @@ using FieldBound = std::function<double(const FieldPoint&)>;
 /// The same as fit_adaptively for a field that is known but for noise, on so many elements that
 /// samples are dear: orders 0 to 2 by least squares through samples at places that are as good as
 /// random, which stay with the parts when an element is bisected. Elements begin with as many as
-/// `bound` says that they matter.
+/// `bound` says that they matter, and may be noisier where they are small: most of very many are,
+/// and what they are off hardly counts.
 ///
 /// What an element may be off follows from what is left at its samples, less the noise, and from
 /// how many they are. Before it is believed, samples at new places are compared: the product of

@@ -1,11 +1,10 @@
 #include "solver/direct/ray_light.h"
 
-#include "meshing/backprojection/edge_sum.h"
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
 #include "solver/direct/emitter_parts.h"
-#include "solver/direct/ray_emitter.h"
+#include "solver/direct/ray_looks.h"
 #include "solver/direct/ray_shares.h"
 
 #include <fmt/format.h>
@@ -22,21 +21,13 @@ constexpr std::size_t places_of_task = 64;
 
 /// Of the deviation: light of a part of an emitter that need not be even.
 constexpr double negligible = 0.5;
-/// The same: light of an emitter that is not worth rays of its own.
-constexpr double surely_drawn = 0.02;
+/// The same: light of an emitter that is not worth rays of its own, and the most that a group of
+/// them may give that are not looked at one by one.
+constexpr double surely_drawn = 0.02, weak_group = 0.02;
 /// Rays that tell what an element sees of an emitter.
 constexpr int rays_of_region = 16;
 /// Of so many points of an emitter that is drawn, one is taken by the light along.
 constexpr int points_of_draw = 4;
-
-/// What rays to one emitter are to tell.
-struct Look {
-  const RayEmitter* emitter;
-  double factor;                             ///< form factor if nothing is in between
-  double strength;                           ///< light that gives, in W/m²
-  bool is_rough = false;                     ///< that is known but for far_error
-  std::size_t first_part = 0, end_part = 0;  ///< in the work's list; none: light from it is even
-};
 
 /// An emitter that was drawn.
 struct Draw {
@@ -53,11 +44,13 @@ struct RayGroup {
 
 /// Buffers of one task.
 struct RayWork {
-  std::vector<Look> looks;
+  double deviation = 0;  ///< allowed of what arrives, in W/m²
+  std::vector<RayLook> looks;
   std::vector<RayShare> shares;  ///< of rays: one a look
   DrawnRays drawn;
-  std::vector<const Look*> may_be_drawn;
-  std::vector<Draw> draws;  ///< of one estimate, then of the other
+  std::vector<const RayLook*> may_be_drawn;
+  std::vector<Draw> draws;      ///< of one estimate, then of the other
+  std::size_t second_draw = 0;  ///< where those begin
   std::vector<EmitterPart> parts;
   std::vector<Segment> segments;
   std::vector<double> weights;
@@ -73,35 +66,21 @@ struct RayLight::Impl {
   const DirectLightIndex* exact;
   const VisibilityIndex* visibility;
   RayLightOptions options;
-  std::vector<RayEmitter> emitters;
+  EmitterTree tree;
 
-  /// Emitters that a point may see.
-  void collect_looks(const SurfacePoint& point, std::vector<Look>& looks) const {
-    looks.clear();
-    for (const RayEmitter& emitter : emitters) {
-      const EmitterTarget& target = emitter.target;
-      if (is_clearly_away(target, point)) continue;
-      const double rough = far_factor(point, emitter);
-      const double factor = rough < 0 ? exact_factor(point, emitter) : rough;
-      if (factor > 0) looks.push_back({&emitter, factor, factor * target.strength, rough >= 0});
-    }
-  }
-
-  static double exact_factor(const SurfacePoint& point, const RayEmitter& emitter) {
-    return unobstructed_factor(point.position, point.normal, emitter.target.rings);
-  }
-
-  /// How many rays each look takes.
-  void share(const SurfacePoint& point, RayWork& work) const {
+  /// What is looked at, and how many rays that takes, if `slack` times the deviation will do.
+  void share(const SurfacePoint& point, double slack, RayWork& work) const {
+    work.deviation = slack * options.deviation;
+    collect_looks(tree, point, weak_group * work.deviation, work.looks);
     work.parts.clear();
     work.shares.clear();
-    for (Look& look : work.looks) {
+    for (RayLook& look : work.looks) {
       RayShare& share = work.shares.emplace_back();
-      share.strength = look.strength / options.deviation;
-      if (look.is_rough && share.strength < surely_drawn)
+      share.strength = look.strength / work.deviation;
+      if (!look.emitter || (look.is_rough && share.strength < surely_drawn))
         share.way = RayWay::drawn;
       else if (!look.is_rough)
-        cut_uneven(point, look, share, work.parts);
+        cut_uneven(point, look, share, work);
     }
     work.drawn = share_rays(work.shares, options.most_rays);
     for (std::size_t k = 0; k < work.looks.size(); ++k)
@@ -111,23 +90,22 @@ struct RayLight::Impl {
 
   /// Emitters over which light varies much are looked at part by part, unless they are weak;
   /// exactly if they are too near for that.
-  void cut_uneven(const SurfacePoint& point, Look& look, RayShare& share,
-                  std::vector<EmitterPart>& parts) const {
+  static void cut_uneven(const SurfacePoint& point, RayLook& look, RayShare& share, RayWork& work) {
     const EmitterTarget& target = look.emitter->target;
     if (is_even(point, target, look.emitter->area(), look.factor)) return;
     if (share.strength < negligible) {
       share.way = RayWay::drawn;
       return;
     }
-    look.first_part = parts.size();
+    look.first_part = work.parts.size();
     if (!cut_evenly(point, target, look.emitter->triangles,
-                    negligible * options.deviation / target.strength, parts))
+                    negligible * work.deviation / target.strength, work.parts))
       share.way = RayWay::exact;
-    look.end_part = parts.size();
+    look.end_part = work.parts.size();
   }
 
   /// Adds the rays of one estimate of a look.
-  void add_rays(const FieldPoint& place, const Look& look, int of_look, std::uint64_t seed,
+  void add_rays(const FieldPoint& place, const RayLook& look, int of_look, std::uint64_t seed,
                 RayWork& work) const {
     if (of_look > 0 && look.first_part == look.end_part)
       add_group(place, *look.emitter, nullptr, look.factor, of_look, seed, work);
@@ -161,28 +139,37 @@ struct RayLight::Impl {
   /// Adds the rays of one estimate of all emitters that are drawn: each as often as it is strong,
   /// at even steps along the list of them.
   void draw(const FieldPoint& place, std::uint64_t seed, RayWork& work) const {
-    const SurfacePoint& point = place.point;
-    const double step = work.drawn.strength * options.deviation / work.drawn.rays;
+    const double step = work.drawn.strength * work.deviation / work.drawn.rays;
     double next = unit_share(mix_bits(seed)) * step, reached = 0;
     int left = work.drawn.rays;
     SpreadPairs pairs(mix_bits(seed + splitmix_step));
     std::uint64_t choice = mix_bits(seed + 2 * splitmix_step);
-    for (const Look* look : work.may_be_drawn) {
+    for (const RayLook* look : work.may_be_drawn) {
       reached += look->strength;
       const bool is_last = look == work.may_be_drawn.back();
-      double light = -1;  // of a draw, in units of what one stands for
+      double light = look->is_rough || !look->emitter ? -1 : look->strength;  // < 0: not known
       for (; left > 0 && (next < reached || is_last); next += step) {
         --left;
-        if (light < 0)
-          light = look->is_rough ? exact_factor(point, *look->emitter) / look->factor : 1;
         choice = mix_bits(choice);
-        const auto end = point_by_light(point, *look->emitter, unit_share(choice), pairs);
-        work.draws.push_back({look->emitter, end ? light : exact_light(point, *look), !!end});
-        if (!end) continue;
-        const int plane = scene->surfaces[at(place.surface)].plane;
-        work.segments.push_back({point.position, *end, plane, look->emitter->plane});
+        DrawnEmitter drawn{look->emitter, look->strength};
+        if (!look->emitter) drawn = draw_emitter(tree, look->group, place.point, ~choice);
+        if (!drawn.emitter) continue;
+        if (light < 0 || !look->emitter) light = exact_light(place.point, *drawn.emitter);
+        if (light > 0) add_draw(place, drawn, light, unit_share(choice), pairs, work);
       }
     }
+  }
+
+  /// `light`: what an emitter gives if nothing is in between.
+  void add_draw(const FieldPoint& place, const DrawnEmitter& drawn, double light, double choice,
+                SpreadPairs& pairs, RayWork& work) const {
+    const RayEmitter& emitter = *drawn.emitter;
+    const auto end = point_by_light(place.point, emitter, choice, pairs);
+    if (!end) light = exact->factor(place.point, emitter.surface).visible * emitter.target.strength;
+    work.draws.push_back({&emitter, light / drawn.light, !!end});
+    if (!end) return;
+    const int plane = scene->surfaces[at(place.surface)].plane;
+    work.segments.push_back({place.point.position, *end, plane, emitter.plane});
   }
 
   /// A point of an emitter, more likely where more light comes from; none if none of a few does.
@@ -201,44 +188,49 @@ struct RayLight::Impl {
     return ends[static_cast<std::size_t>(first - reached.begin())];
   }
 
-  double exact_light(const SurfacePoint& point, const Look& look) const {
-    return exact->factor(point, look.emitter->surface).visible / look.factor;
+  /// If nothing is in between.
+  static double exact_light(const SurfacePoint& point, const RayEmitter& emitter) {
+    return is_clearly_away(emitter.target, point)
+               ? 0
+               : exact_factor(point, emitter) * emitter.target.strength;
   }
 
   /// Rays for those that are drawn, in the order of emitters.
   void add_draws(const FieldPoint& place, RayWork& work) const {
     work.draws.clear();
+    work.second_draw = 0;
     work.may_be_drawn.clear();
     for (std::size_t k = 0; k < work.looks.size(); ++k)
       if (work.shares[k].way == RayWay::drawn) work.may_be_drawn.push_back(&work.looks[k]);
     if (work.may_be_drawn.empty()) return;
-    const std::uint64_t seed =
-        mix_bits(seed_of(place.point.position, work.may_be_drawn.front()->emitter->target));
+    const RayLook& first = *work.may_be_drawn.front();
+    const RayEmitter& emitter = first.emitter ? *first.emitter : first_of(tree, first.group);
+    const std::uint64_t seed = mix_bits(seed_of(place.point.position, emitter.target));
     draw(place, seed, work);
+    work.second_draw = work.draws.size();
     draw(place, ~seed, work);
   }
 
   /// What arrives of emitters that are drawn: each draw stands for as much light.
   void gather_draws(const RayWork& work, std::size_t ray, NoisyValue& irradiance) const {
-    const double each = work.drawn.strength * options.deviation / std::max(work.drawn.rays, 1);
+    const double each = work.drawn.strength * work.deviation / std::max(work.drawn.rays, 1);
     for (std::size_t k = 0; k < work.draws.size(); ++k) {
       const Draw& draw = work.draws[k];
       if (draw.has_ray && work.blocked[ray++] != 0) continue;
       const EmitterTarget& target = draw.emitter->target;
-      (2 * k < work.draws.size() ? irradiance.a : irradiance.b) +=
+      (k < work.second_draw ? irradiance.a : irradiance.b) +=
           draw.light * each / target.strength * target.exitance;
     }
   }
 
-  NoisyValue gather(const FieldPoint& place, RayWork& work) const {
-    collect_looks(place.point, work.looks);
-    share(place.point, work);
+  NoisyValue gather(const FieldPoint& place, double slack, RayWork& work) const {
+    share(place.point, slack, work);
     work.segments.clear();
     work.weights.clear();
     work.groups.clear();
     work.ends.clear();
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
-      const Look& look = work.looks[k];
+      const RayLook& look = work.looks[k];
       if (work.shares[k].way == RayWay::drawn) continue;
       const std::uint64_t seed = seed_of(place.point.position, look.emitter->target);
       add_rays(place, look, work.shares[k].rays, seed, work);
@@ -251,7 +243,7 @@ struct RayLight::Impl {
     std::size_t ray = 0, group = 0, end = 0;
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
       if (work.shares[k].way == RayWay::drawn) continue;
-      const Look& look = work.looks[k];
+      const RayLook& look = work.looks[k];
       const double first = share_of_groups(work, ray, group, work.ends[end++]);
       const double second = share_of_groups(work, ray, group, work.ends[end++]);
       const Rgb& exitance = look.emitter->target.exitance;
@@ -295,40 +287,45 @@ RayLight::RayLight(const SoundScene& scene, const DirectLightIndex& exact,
                             options.most_rays));
   impl_->options.most_rays =
       std::min(options.most_rays, double{std::numeric_limits<std::int32_t>::max()});
+  std::vector<RayEmitter> emitters;
   for (const int id : exact.emitters()) {
     RayEmitter emitter = make_ray_emitter(scene, id);
-    if (!emitter.triangles.empty()) impl_->emitters.push_back(std::move(emitter));
+    if (!emitter.triangles.empty()) emitters.push_back(std::move(emitter));
   }
+  impl_->tree = make_emitter_tree(std::move(emitters));
 }
 RayLight::~RayLight() = default;
 RayLight::RayLight(RayLight&&) noexcept = default;
 
 std::vector<NoisyValue> RayLight::irradiance(std::span<const FieldPoint> places,
+                                             std::span<const double> slack,
                                              const Progress& progress) const {
+  if (!slack.empty() && slack.size() != places.size())
+    throw Error(ErrorCode::contract, "RayLight",
+                fmt::format("{} places and {} slacks", places.size(), slack.size()));
   std::vector<NoisyValue> result(places.size());
   parallel_for((places.size() + places_of_task - 1) / places_of_task,
                [&](std::size_t c) {
                  RayWork work;
                  const std::size_t end = std::min(places.size(), (c + 1) * places_of_task);
                  for (std::size_t k = c * places_of_task; k < end; ++k)
-                   result[k] = impl_->gather(places[k], work);
+                   result[k] = impl_->gather(places[k], slack.empty() ? 1 : slack[k], work);
                },
                progress, "direct light by rays");
   return result;
 }
 
 double RayLight::unobstructed(const SurfacePoint& point) const {
-  std::vector<Look> looks;
-  impl_->collect_looks(point, looks);
+  std::vector<RayLook> looks;
+  collect_looks(impl_->tree, point, weak_group * impl_->options.deviation, looks);
   double sum = 0;
-  for (const Look& look : looks) sum += (look.is_rough ? 1 + far_error : 1) * look.strength;
+  for (const RayLook& look : looks) sum += (look.is_rough ? 1 + far_error : 1) * look.strength;
   return sum;
 }
 
 double RayLight::cost(const SurfacePoint& point) const {
   RayWork work;
-  impl_->collect_looks(point, work.looks);
-  impl_->share(point, work);
+  impl_->share(point, 1, work);
   double sum = 2 * work.drawn.rays;
   for (const RayShare& share : work.shares)
     if (share.way != RayWay::drawn)
@@ -338,14 +335,10 @@ double RayLight::cost(const SurfacePoint& point) const {
 
 Region RayLight::region(const std::array<Vec3, 3>& triangle, const Vec3& normal,
                         int surface) const {
-  std::vector<Look> looks;
   const Vec3 centre = (triangle[0] + triangle[1] + triangle[2]) / 3;
-  impl_->collect_looks({centre, normal}, looks);
-  if (looks.empty()) return Region::away;
-  const auto strongest =
-      std::max_element(looks.begin(), looks.end(),
-                       [](const Look& a, const Look& b) { return a.strength < b.strength; });
-  const RayEmitter& emitter = *strongest->emitter;
+  const RayEmitter* strongest = strongest_emitter(impl_->tree, {centre, normal});
+  if (!strongest) return Region::away;
+  const RayEmitter& emitter = *strongest;
   SpreadPairs starts(seed_of(centre, emitter.target)), ends(~seed_of(centre, emitter.target));
   std::vector<Segment> segments;
   for (int k = 0; k < rays_of_region; ++k) {

@@ -23,7 +23,10 @@ struct RayLightOptions {
 /// arrives. So light without a shadow is exact, and what is wholly hidden is dark. Of many weak
 /// emitters a few are drawn, as often as they are strong, and a ray to each tells if its light
 /// arrives: right in the mean, with noise that counts like that of other rays. Without a shadow
-/// only that is left which differs in their colours or, far away, from a rough form factor.
+/// only that is left which differs in their colours or, far away, from a rough form factor. Where
+/// they are so weak that groups of them are, groups are drawn by the most that they may give, and
+/// then one of the group: what a place takes grows with the lamps near it, not with all. That
+/// leaves noise without a shadow, too, of a tenth of the deviation or so.
 ///
 /// Rays end at points of a sequence of low discrepancy (Roberts 2018), shifted by random numbers
 /// for each pair of point and emitter. These follow from the direction of the emitter, so that a
@@ -38,13 +41,15 @@ class RayLight {
   ~RayLight();
   RayLight(RayLight&&) noexcept;
 
-  /// Irradiance in W/m², twice by rays of its own, with the deviation asked for or less. On all
-  /// threads; if stopped, places not reached are dark.
+  /// Irradiance in W/m², twice by rays of its own, with the deviation asked for or less; with
+  /// `slack`, one a place and ≥ 1, so many times that. On all threads; if stopped, places not
+  /// reached are dark.
   std::vector<NoisyValue> irradiance(std::span<const FieldPoint> places,
+                                     std::span<const double> slack = {},
                                      const Progress& progress = {}) const;
 
   /// Irradiance (mean of the channels) if nothing were in between: no less than there is, and more
-  /// by a fifth at most.
+  /// by a fifth at most, and a few hundredths of the deviation for each group of emitters.
   double unobstructed(const SurfacePoint& point) const;
 
   /// How many rays a point takes; an exact look counts as most_rays.

@@ -57,9 +57,8 @@ FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
 }
 
 NoisyFieldAt direct_light_at(const RayLight& light) {
-  return [&](std::span<const FieldPoint> points, const Progress& progress) {
-    return light.irradiance(points, progress);
-  };
+  return [&](std::span<const FieldPoint> points, std::span<const double> slack,
+             const Progress& progress) { return light.irradiance(points, slack, progress); };
 }
 
 double length_of(const SoundScene& scene, const SolveOptions& options) {

@@ -30,7 +30,7 @@ Rgb in_channels(double value) { return {value, 0.5 * value, 2 * value}; }
 
 /// With so much noise in the mean of two values.
 NoisyFieldAt field_of(const Function& f, double deviation) {
-  return [=](std::span<const FieldPoint> points, const Progress&) {
+  return [=](std::span<const FieldPoint> points, std::span<const double>, const Progress&) {
     std::vector<NoisyValue> values;
     for (const FieldPoint& point : points) {
       const Vec3& p = point.point.position;
@@ -98,6 +98,44 @@ TEST(NoisyField, TakesFewSamplesWhereLittleCanBe) {
   EXPECT_LT(4 * few, 3 * samples(one));
 }
 
+TEST(NoisyField, AllowsSmallElementsMoreNoise) {
+  // Half of it in small elements, and many more of them than large ones.
+  SoundScene scene = test::empty_sound_scene(std::sqrt(2.));
+  test::add_surface(scene, {{{0, 0, 0}, {0.5, 0, 0}, {0.5, 1, 0}, {0, 1, 0}}}, 0);
+  constexpr int rows = 20;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < 2 * rows; ++j) {
+      constexpr double width = 0.5 / rows;
+      const double x = 0.5 + width * i, y = width * j;
+      test::add_surface(
+          scene, {{{x, y, 0}, {x + width, y, 0}, {x + width, y + width, 0}, {x, y + width, 0}}}, 0);
+    }
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.05;
+  double most = 0, least = 1e9;
+  std::size_t allowed = 0, all = 0;
+  const NoisyFieldAt noisier = [&](std::span<const FieldPoint> points,
+                                   std::span<const double> slack, const Progress& progress) {
+    std::vector<NoisyValue> values;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      values.push_back(field_of(smooth, 0.1 * slack[k])(points.subspan(k, 1), {}, progress)[0]);
+      (points[k].surface == 0 ? least : most) =
+          points[k].surface == 0 ? std::min(least, slack[k]) : std::max(most, slack[k]);
+      allowed += slack[k] > 1;
+    }
+    all += points.size();
+    return values;
+  };
+  PatchMesh mesh(scene, {});
+  const AdaptiveField fit = fit_noisy(mesh, noisier, one, options);
+  EXPECT_EQ(least, 1);
+  EXPECT_GT(most, 1.1);
+  EXPECT_LT(most, 4);
+  EXPECT_GT(allowed, all / 10);
+  EXPECT_LE(fit.report.relative_error, options.tolerance);
+  EXPECT_LE(true_error(fit, smooth), 1.15 * fit.report.relative_error);
+}
+
 TEST(NoisyField, SaysWhenALimitStopsIt) {
   PatchMesh mesh = unit_square(0.2);
   AdaptiveFieldOptions options;
@@ -129,8 +167,9 @@ TEST(NoisyField, IsTheSameInAnyUnit) {
   const double unit = 0x1p500;
   const AdaptiveField strong = fit_noisy(
       other,
-      [&](std::span<const FieldPoint> points, const Progress& progress) {
-        auto values = field_of(shadows, 0.02)(points, progress);
+      [&](std::span<const FieldPoint> points, std::span<const double> slack,
+          const Progress& progress) {
+        auto values = field_of(shadows, 0.02)(points, slack, progress);
         for (NoisyValue& value : values) value = {unit * value.a, unit * value.b};
         return values;
       },

@@ -136,16 +136,17 @@ TEST(ManyLamps, AreTheSameInAnyUnitAndBatch) {
 
 TEST(ManyLamps, AreBoundedByWhatTheyGiveUnobstructed) {
   const auto places = lit_hall().places(500);
-  const RayLight light = lit_hall().rays(0.1 * reference().mean);
+  const double deviation = 0.1 * reference().mean;
+  const RayLight light = lit_hall().rays(deviation);
   for (const FieldPoint& place : places) {
     const double found = light.unobstructed(place.point);
     const double right = lit_hall().unobstructed(place.point);
     EXPECT_GE(found, right * (1 - 1e-12));
-    EXPECT_LE(found, right * 1.2);
+    EXPECT_LE(found, right * 1.2 + 0.1 * deviation);  // groups
   }
 }
 
-TEST(ManyLamps, AreExactWithinAFewPercentWithoutShadows) {
+TEST(ManyLamps, AreNearlyExactWithoutShadows) {
   test::SceneMaker maker;
   maker.up({0, 0}, {20, 20}, 0);
   for (int i = 0; i < 10; ++i)
@@ -153,13 +154,18 @@ TEST(ManyLamps, AreExactWithinAFewPercentWithoutShadows) {
       maker.down({2. * i + 0.6, 2. * j + 0.6}, {2. * i + 1, 2. * j + 1}, 3, test::white_light);
   const LitHall open(maker.scene);
   const auto places = open.places(300);
-  const RayLight light = open.rays(0.1 * open.unobstructed({{10, 10, 0}, Vec3::UnitZ()}));
+  const double deviation = 0.1 * open.unobstructed({{10, 10, 0}, Vec3::UnitZ()});
+  const RayLight light = open.rays(deviation);
   const auto found = light.irradiance(places);
+  double square = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double exact = open.exact.irradiance(places[k].point).irradiance.mean();
-    EXPECT_NEAR(found[k].a.mean(), exact, 0.03 * exact);
-    EXPECT_NEAR(found[k].b.mean(), exact, 0.03 * exact);
+    EXPECT_NEAR(found[k].a.mean(), exact, 0.7 * deviation);
+    EXPECT_NEAR(found[k].b.mean(), exact, 0.7 * deviation);
+    square += std::pow(found[k].mean().mean() - exact, 2);
   }
+  // What is left comes of colours, rough form factors and groups.
+  EXPECT_LT(std::sqrt(square / static_cast<double>(places.size())), 0.15 * deviation);
 }
 
 }  // namespace

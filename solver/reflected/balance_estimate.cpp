@@ -48,14 +48,15 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   return estimate;
 }
 
-std::vector<UnsureLoss> unsure_by_rays(const ReflectedSystem& system, int rays) {
+std::vector<UnsureLoss> unsure_by_rays(const ReflectedSystem& system,
+                                       const std::vector<double>& rays) {
   const auto& [mesh, light, exchange, systems] = system;
   constexpr double rule_of_three = 3;
   std::vector<double> cast(at(systems.count()), 0);
   std::vector<UnsureLoss> unsure;
   for (int e = 0; e < mesh.count(); ++e)
     cast[at(systems.of_element[at(e)])] +=
-        rays *
+        rays[at(e)] *
         static_cast<double>(element_nodes_of(mesh.order[at(mesh.triangle[at(e)])]).places.size());
   for (int e = 0; e < mesh.count(); ++e) {
     const int s = systems.of_element[at(e)];

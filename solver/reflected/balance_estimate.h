@@ -28,8 +28,9 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
                                  const std::vector<UnsureLoss>& unsure,
                                  const std::vector<double>& weight);
 
-/// What `rays` from each node cannot tell of open systems: of N rays that all arrive, up to three
-/// in N may get lost (the rule of three, at 95 %).
-std::vector<UnsureLoss> unsure_by_rays(const ReflectedSystem& system, int rays);
+/// What `rays`, as many from each node of each element, cannot tell of open systems: of N rays that
+/// all arrive, up to three in N may get lost (the rule of three, at 95 %).
+std::vector<UnsureLoss> unsure_by_rays(const ReflectedSystem& system,
+                                       const std::vector<double>& rays);
 
 }  // namespace halfshade

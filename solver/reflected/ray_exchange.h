@@ -21,10 +21,12 @@ struct NodeRays {
   std::vector<int> first;    ///< half → its first end, and the number of ends
   std::vector<int> rays;     ///< half → number of rays that its ends are taken from
   ChannelArray source;       ///< half → irradiance from S
+  int strata = 0;            ///< squared, rays of a half over the hemisphere
 };
 
 /// K, irradiance from leaving light, by a few rays from each node that are traced once and kept:
-/// two halves of strata² each. Only the elements that change are traced anew.
+/// two halves of strata² each, and less where very many elements are smaller than most of the area.
+/// Only the elements that change are traced anew.
 class RayExchange : public IrradianceOperator {
  public:
   /// Both must outlive it.
@@ -39,7 +41,13 @@ class RayExchange : public IrradianceOperator {
   /// What K (S + leaving) is off because the rays are few.
   FieldNoise noise(const ReflectedMesh& mesh, const ElementField& leaving) const;
 
+  /// Makes the noise of each element what 2 strata² rays from each node would leave.
+  void scale_to_all_rays(const ReflectedMesh& mesh, std::vector<double>& noise) const;
+
   std::size_t rays() const { return traced_; }
+
+  /// Rays over the hemisphere from a node of each element.
+  std::vector<double> rays_of_nodes(const ReflectedMesh& mesh) const;
 
  private:
   const ReflectingScene& scene_;

@@ -11,13 +11,10 @@ const RayPasses::OfTriangle* RayPasses::find(const ReflectedMesh& mesh, int elem
   return found.more.rows() == basis_size(mesh.order[at(t)]) ? &found : nullptr;
 }
 
-std::vector<double> RayPasses::sent(const ReflectedMesh& mesh, double kept) const {
-  std::vector<double> rays;
-  for (int e = 0; e < mesh.count(); ++e) {
-    const OfTriangle* found = find(mesh, e);
-    rays.push_back(kept + (found ? found->rays : 0));
-  }
-  return rays;
+std::vector<double> RayPasses::sent(const ReflectedMesh& mesh, std::vector<double> kept) const {
+  for (int e = 0; e < mesh.count(); ++e)
+    if (const OfTriangle* found = find(mesh, e)) kept[at(e)] += found->rays;
+  return kept;
 }
 
 void RayPasses::correct(const ReflectedMesh& mesh, ElementField& rest, FieldNoise& noise) const {

@@ -13,7 +13,7 @@ class RayPasses {
   int count() const { return count_; }
 
   /// Rays from a node of each element so far; `kept` are there anyway.
-  std::vector<double> sent(const ReflectedMesh& mesh, double kept) const;
+  std::vector<double> sent(const ReflectedMesh& mesh, std::vector<double> kept) const;
 
   /// Corrects what the kept rays say, and its noise.
   void correct(const ReflectedMesh& mesh, ElementField& rest, FieldNoise& noise) const;

@@ -80,7 +80,7 @@ class Rounds {
     SplitIrradiance irradiance;      ///< the same with balanced power and less noise
     ElementField reflected;          ///< what leaves for it; what the estimate looks from
     std::vector<double> noise_left;  ///< weighted, as the next
-    std::vector<double> noise_kept;  ///< of the kept rays alone
+    std::vector<double> noise_kept;  ///< of `kept_rays` rays from each node alone
     std::vector<double> weight;
     int passes = 0;  ///< on these elements
     ElementField ambient;
@@ -159,6 +159,7 @@ class Rounds {
     found.noise.resize(at(mesh.count()));
     if (kept_rays_) found.noise = kept_rays_->noise(mesh, found.leaving);
     found.noise_kept = noise_of_elements(found.noise, found.weight);
+    if (kept_rays_) kept_rays_->scale_to_all_rays(mesh, found.noise_kept);
     found.rest = by_kept_rows(system, found.leaving);
     passes_.correct(mesh, found.rest, found.noise);
     balance(system, found);
@@ -297,7 +298,7 @@ class Rounds {
     const auto share = [&](double x) { return all > 0 ? std::sqrt(x / all) : 0; };
     const BalanceEstimate unbalanced = estimate_balance(
         system, direct_.leaving(mesh_, state_.light), irradiance.rest,
-        parts_ ? parts_->unsure() : unsure_by_rays(system, static_cast<int>(kept_rays)),
+        parts_ ? parts_->unsure() : unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_)),
         found.weight);
     report.error = std::hypot(comes_back * share(square), share(unbalanced.square),
                               report.residual * report.amplification);
@@ -366,8 +367,8 @@ class Rounds {
       fewer *= step;
     const double all = sum_of(noise_of_elements(found.noise, found.weight));
     strata_ = share_rays(mesh_, found.noise_kept, found.weight,
-                         {kept_rays, passes_.sent(mesh_, kept_rays), all / fewer,
-                          static_cast<double>(options_.max_rays)});
+                         {kept_rays, passes_.sent(mesh_, kept_rays_->rays_of_nodes(mesh_)),
+                          all / fewer, static_cast<double>(options_.max_rays)});
     return std::any_of(strata_.begin(), strata_.end(), [](int n) { return n > 0; });
   }
 

@@ -1,0 +1,94 @@
+#include "solver/reflected/ray_exchange.h"
+
+#include "meshing/repair/repair.h"
+#include "solver/reflected/refinement.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+constexpr int strata = 7;
+constexpr double all_rays = 2 * strata * strata;
+
+/// A closed room with constant elements, and light that varies from place to place.
+struct Room {
+  explicit Room(double length)
+      : reflecting(make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})))),
+        light(first_light(
+            make_sound(test::room({1, 1, 1}, {})), reflecting.roots,
+            [](int, const Vec3& p) {
+              return Rgb(Rgb::Constant(1 + std::sin(20 * p.x()) * std::cos(17 * p.y() + p.z())));
+            },
+            false)),
+        mesh(make_reflected_mesh(reflecting.roots, length, 0, 100000)) {
+    for (Rgb& rho : light.rho) rho = Rgb::Constant(0.5);
+  }
+
+  ReflectingScene reflecting;
+  FirstLight light;
+  ReflectedMesh mesh;
+};
+
+TEST(RayExchange, TakesFewerRaysFromSmallElementsAmongVeryMany) {
+  Room room(0.05);
+  const int large = room.mesh.count();
+  // The elements of one corner, four times.
+  for (int k = 0; k < 4; ++k) {
+    std::vector<int> near;
+    for (int e = 0; e < room.mesh.count(); ++e)
+      if (room.mesh.position(e, TrianglePlace::Constant(1. / 3)).norm() < 0.5) near.push_back(e);
+    refine(room.mesh, near, std::vector<bool>(near.size(), false));
+  }
+  ASSERT_GT(room.mesh.count(), 20000);
+  ASSERT_LT(large, 20000);
+  RayExchange exchange(room.reflecting, room.light, strata);
+  ASSERT_TRUE(exchange.update(room.mesh, {}));
+  const std::vector<double> rays = exchange.rays_of_nodes(room.mesh);
+  const FieldNoise noise = exchange.noise(room.mesh, zero_field(room.mesh));
+  std::vector<double> scaled =
+      noise_of_elements(noise, std::vector<double>(at(room.mesh.count()), 1));
+  exchange.scale_to_all_rays(room.mesh, scaled);
+  double area = 0;
+  for (int e = 0; e < room.mesh.count(); ++e) area += room.mesh.area(e);
+  const double mean = area / room.mesh.count();
+  double noise_of_small = 0, area_of_small = 0, noise_of_large = 0, area_of_large = 0;
+  for (int e = 0; e < room.mesh.count(); ++e) {
+    const bool is_small = room.mesh.area(e) < 0.5 * mean;
+    EXPECT_GE(rays[at(e)], 18);
+    EXPECT_LE(rays[at(e)], all_rays);
+    if (room.mesh.area(e) >= mean) {
+      EXPECT_EQ(rays[at(e)], all_rays);
+    }
+    if (is_small) {
+      EXPECT_LT(rays[at(e)], 0.8 * all_rays);
+    }
+    (is_small ? noise_of_small : noise_of_large) += scaled[at(e)];
+    (is_small ? area_of_small : area_of_large) += room.mesh.area(e);
+  }
+  ASSERT_GT(area_of_small, 0.05 * area);
+  const double ratio = noise_of_small / area_of_small / (noise_of_large / area_of_large);
+  EXPECT_GT(ratio, 0.4);
+  EXPECT_LT(ratio, 2.5);
+  // In a closed room all rays arrive, however few.
+  ElementField ones = zero_field(room.mesh);
+  for (int e = 0; e < ones.count(); ++e) ones.of(e).row(0).setOnes();
+  const ElementField arriving = exchange.apply(room.mesh, ones);
+  for (int e = 0; e < ones.count(); ++e) EXPECT_NEAR(arriving.of(e)(0, 0), 1, 1e-6);
+}
+
+TEST(RayExchange, TakesAllRaysFromEachOfFewElements) {
+  Room room(0.3);
+  refine(room.mesh, std::vector<int>{0, 1, 2}, {true, true, true});
+  RayExchange exchange(room.reflecting, room.light, strata);
+  ASSERT_TRUE(exchange.update(room.mesh, {}));
+  for (const double rays : exchange.rays_of_nodes(room.mesh)) EXPECT_EQ(rays, all_rays);
+}
+
+}  // namespace
+}  // namespace halfshade

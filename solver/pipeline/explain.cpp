@@ -16,15 +16,21 @@
 namespace halfshade {
 namespace {
 
-/// About how many elements tell which parts of space there are.
+/// About how many elements tell which parts of space there are; so many surfaces do by themselves,
+/// whatever elements they take.
 constexpr int elements_for_parts = 2000;
+constexpr std::size_t any_number = 1'000'000'000;
 /// Measured on two cores: points with exact direct light a second from an emitter in penumbra, form
 /// factors a second, rays a second.
 constexpr double points_rate = 2e5, factors_rate = 8e5, rays_rate = 6e6;
 
 std::vector<SpacePart> find_parts(const SoundScene& scene, const Progress& progress) {
   PlanarMeshOptions coarse;
-  coarse.max_length = length_for_count(scene, elements_for_parts);
+  if (scene.surfaces.size() > at(elements_for_parts))
+    coarse.min_angle = 0;
+  else
+    coarse.max_length = length_for_count(scene, elements_for_parts);
+  coarse.max_triangles = any_number;
   const ElementTable elements = PatchMesh(scene, coarse, progress).elements();
   const SpaceCells cells = find_cells(scene, elements);
   std::vector<std::set<std::string>> groups(at(cells.count()));

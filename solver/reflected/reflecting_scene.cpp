@@ -12,6 +12,9 @@
 namespace halfshade {
 namespace {
 
+/// What surfaces and contacts alone take is needed: whether it is too much is asked before.
+constexpr std::size_t any_number = 1'000'000'000;
+
 /// The unit square to the unit disc, equal areas to equal areas (Shirley and Chiu 1997).
 Vec2 on_disc(double u, double v) {
   const double x = 2 * u - 1, y = 2 * v - 1;
@@ -50,6 +53,7 @@ double random_number(std::uint64_t seed, std::uint64_t place) {
 ReflectingScene make_reflecting_scene(const SoundScene& scene, const Progress& progress) {
   PlanarMeshOptions coarsest;
   coarsest.min_angle = 0;
+  coarsest.max_triangles = any_number;
   ElementTable roots = PatchMesh(scene, coarsest, progress).elements();
   SpaceCells cells = find_cells(scene, roots);
   std::vector<bool> two_sided;

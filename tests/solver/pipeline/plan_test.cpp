@@ -246,6 +246,23 @@ TEST(ForcedStages, CurvesOfWeakSourcesAreWithinTheTolerance) {
   EXPECT_NEAR(planned, forced, 0.01 * forced);
 }
 
+TEST(Explain, TellsThePartsOfVeryManyNarrowSurfaces) {
+  Scene scene = test::lit_cube({0, 0, 0, 0, 0, 0});
+  for (const auto& face : test::box_faces({3, 0, 0}, {4, 1, 1}, true))
+    test::add_polygon(scene, face, 0);
+  constexpr int across = 20;
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j) {
+      const Vec3 low(3.02 + 0.045 * i, 0.02 + 0.045 * j, 0.1);
+      for (const auto& face : test::box_faces(low, low + Vec3(0.001, 0.001, 0.8), false))
+        test::add_polygon(scene, face, 0);
+    }
+  const Explanation explanation = explain(PreparedScene(scene), {});
+  ASSERT_EQ(explanation.parts.size(), 2u);
+  EXPECT_TRUE(explanation.parts[0].closed && explanation.parts[1].closed);
+  EXPECT_NE(explanation.parts[0].lit, explanation.parts[1].lit);
+}
+
 TEST(Explain, SaysWhatSolveWillLeaveOutAndWhichPartsThereAre) {
   Scene scene = test::lit_cube({0, 0, 0, 0, 0, 0});
   for (const auto& face : test::box_faces({3, 0, 0}, {4, 1, 1}, true))

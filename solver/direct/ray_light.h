@@ -25,8 +25,8 @@ struct RayLightOptions {
 /// arrives: right in the mean, with noise that counts like that of other rays. Without a shadow
 /// only that is left which differs in their colours or, far away, from a rough form factor. Where
 /// they are so weak that groups of them are, groups are drawn by the most that they may give, and
-/// then one of the group: what a place takes grows with the lamps near it, not with all. That
-/// leaves noise without a shadow, too, of a tenth of the deviation or so.
+/// then one of the group: a place looks at the lamps near it alone. That leaves noise without a
+/// shadow, too, of a tenth of the deviation or so.
 ///
 /// Rays end at points of a sequence of low discrepancy (Roberts 2018), shifted by random numbers
 /// for each pair of point and emitter. These follow from the direction of the emitter, so that a

@@ -149,7 +149,7 @@ class NoisyFit {
 
   /// As many samples as are wanted, and what follows from them.
   void sample_and_fit() {
-    const double mean_area = total_area() / static_cast<double>(elements_.size());
+    const double mean_area = counted_.area / counted_.count;
     std::vector<FieldPoint> points;
     std::vector<double> slack;
     std::vector<int> changed;

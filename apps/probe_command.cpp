@@ -23,7 +23,7 @@ namespace {
 /// Points computed at a time are lost when the user interrupts: few at first, then twice as many as
 /// long as they take less than this.
 constexpr std::size_t first_block = 64;
-constexpr std::chrono::milliseconds short_time(200);
+constexpr std::chrono::milliseconds short_time(500);
 
 /// The same progress as a part of a larger whole that begins at `done` and takes `share` of it.
 Progress part_of(const Progress& progress, double done, double share) {

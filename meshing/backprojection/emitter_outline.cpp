@@ -7,13 +7,6 @@
 #include <utility>
 
 namespace halfshade {
-namespace {
-
-// More planes than this cost more in tests than they save in edges.
-constexpr std::size_t max_sides = 8;
-
-}  // namespace
-
 /// Above the horizon, which is raised by a few roundings: so edges of other faces that lie in the
 /// plane of the surface the point is on, as those of its own neighbours do, are clearly below it.
 double EmitterOutline::height(const PointView& view, int corner) const {
@@ -93,7 +86,7 @@ void EmitterOutline::put_in_order(const PointView& view) {
     }
 }
 
-void EmitterOutline::make_pyramid(const PointView& view) {
+void EmitterOutline::start_pyramid(const PointView& view) {
   const PlaneFrame& frame = view.emitter();
   pyramid.eye = point_;
   pyramid.normal = frame.normal;
@@ -106,20 +99,30 @@ void EmitterOutline::make_pyramid(const PointView& view) {
     pyramid.high = pyramid.high.cwiseMax(view.corners[at(edge.from)].image);
   }
   pyramid.sides.assign(1, frame.normal);
-  const std::size_t step = (edges.size() + max_sides - 1) / max_sides;
-  for (std::size_t e = 0; e < edges.size(); e += step) {
-    // Seen from the front the outline runs counter-clockwise, so outwards is to the right.
-    const Vec2 along = view.corners[at(edges[e].to)].image - view.corners[at(edges[e].from)].image;
-    const Vec2 out = Vec2(along.y(), -along.x()).normalized();
-    double limit = -HUGE_VAL;
-    for (const OutlineEdge& other : edges)
-      limit = std::max(limit, out.dot(view.corners[at(other.from)].image));
-    pyramid.sides.push_back(
-        (out.x() * frame.e1 + out.y() * frame.e2 + limit / view.distance() * frame.normal)
-            .normalized());
-  }
-  pyramid.spans.clear();
-  for (const Vec3& side : pyramid.sides) pyramid.spans.push_back(side.cwiseAbs());
+}
+
+/// Through a line in the emitter's plane, so far from the point's foot.
+void EmitterOutline::add_side(const PointView& view, const Vec3& out, double inset) {
+  pyramid.sides.push_back((view.distance() * out + inset * view.emitter().normal).normalized());
+}
+
+void EmitterOutline::add_side_along(const PointView& view, const OutlineEdge& edge) {
+  const PlaneFrame& frame = view.emitter();
+  // Seen from the front the outline runs counter-clockwise, so outwards is to the right.
+  const Vec2 along = view.corners[at(edge.to)].image - view.corners[at(edge.from)].image;
+  const Vec2 out = Vec2(along.y(), -along.x()).normalized();
+  double limit = -HUGE_VAL;
+  for (const OutlineEdge& other : edges)
+    limit = std::max(limit, out.dot(view.corners[at(other.from)].image));
+  add_side(view, out.x() * frame.e1 + out.y() * frame.e2, limit);
+}
+
+const std::vector<BorderLine>& EmitterOutline::lines_of(const OpaqueTopology& topology,
+                                                        int surface) {
+  lines_.resize(topology.surfaces.size());
+  std::vector<BorderLine>& lines = lines_[at(surface)];
+  if (lines.empty()) lines = border_lines(topology, surface);
+  return lines;
 }
 
 void EmitterOutline::copy_ends(std::vector<int>& ends) const {
@@ -142,22 +145,34 @@ void EmitterOutline::start(const PointView& view, const Vec3& point, const Vec3&
   horizon_ = normal.cross(view.emitter().normal);
 }
 
-bool EmitterOutline::finish(PointView& view) {
+/// False if nothing is left.
+bool EmitterOutline::close(PointView& view) {
   if (!reaches_above_ || edges.empty() || exits_.size() != entries_.size()) return false;
   if (!exits_.empty()) {
     close_along_horizon(view);
     put_in_order(view);
   }
-  make_pyramid(view);
+  start_pyramid(view);
   return true;
 }
 
+/// The pyramid's sides are those of the whole emitter, wherever the horizon cuts it, and one along
+/// the horizon: so what lies outside for several points together is outside for each of them.
 bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal, int emitter) {
   start(view, point, normal);
   const auto& surface = view.topology().surfaces[at(emitter)];
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
     cut_ring(view, view.topology().ring(r));
-  return finish(view);
+  if (!close(view)) return false;
+  for (const BorderLine& line : lines_of(view.topology(), emitter))
+    add_side(view, line.out, line.inset(view.emitter(), point));
+  for (const OutlineEdge& edge : edges)
+    if (edge.edge == EdgeId::horizon()) {
+      add_side_along(view, edge);
+      break;
+    }
+  pyramid.make_planes();
+  return true;
 }
 
 bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal,
@@ -165,7 +180,10 @@ bool EmitterOutline::make(PointView& view, const Vec3& point, const Vec3& normal
   start(view, point, normal);
   for (std::size_t k = 0; k < 3; ++k)
     cut_edge(view, corners[k], corners[(k + 1) % 3], EdgeId::emitter_edge(static_cast<int>(k)));
-  return finish(view);
+  if (!close(view)) return false;
+  for (const OutlineEdge& edge : edges) add_side_along(view, edge);
+  pyramid.make_planes();
+  return true;
 }
 
 void EmitterOutline::forget(PointView& view) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/backprojection/border_lines.h"
 #include "meshing/backprojection/edge_id.h"
 #include "meshing/backprojection/point_view.h"
 
@@ -30,6 +31,8 @@ class EmitterOutline {
   /// Takes back what the view's corners know of it.
   void forget(PointView& view) const;
 
+  const std::vector<BorderLine>& lines_of(const OpaqueTopology& topology, int surface);
+
   /// For each chain, where the next one starts.
   void copy_ends(std::vector<int>& ends) const;
 
@@ -43,16 +46,19 @@ class EmitterOutline {
   void start(const PointView& view, const Vec3& point, const Vec3& normal);
   void cut_ring(PointView& view, std::span<const OpaqueTopology::OutlineVertex> ring);
   void cut_edge(PointView& view, int a, int b, EdgeId edge);
-  bool finish(PointView& view);
+  bool close(PointView& view);
   void close_along_horizon(PointView& view);
   void put_in_order(const PointView& view);
-  void make_pyramid(const PointView& view);
+  void start_pyramid(const PointView& view);
+  void add_side(const PointView& view, const Vec3& out, double inset);
+  void add_side_along(const PointView& view, const OutlineEdge& edge);
   double height(const PointView& view, int corner) const;
 
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero(), horizon_ = Vec3::Zero();
   std::vector<Crossing> exits_, entries_;
   std::vector<OutlineEdge> unordered_;
   std::vector<int> first_at_, sibling_;
+  std::vector<std::vector<BorderLine>> lines_;  // of surfaces; if known
   bool reaches_above_ = false;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 
 /// Every number of this room that stands for rounding, in one place. What they decide is which of
@@ -36,8 +37,12 @@ inline constexpr double widest_gap = 1e5;
 
 // Margins of boxes, far above what can go wrong, and little enough to keep the boxes useful.
 
-// The pyramid's sides keep so many blurs clear of the emitter.
+// The pyramid's sides keep so many blurs clear of the emitter. Boxes are tested with half as much
+// again, and shafts that hold several pyramids keep so many slacks clear: whatever rounding does,
+// boxes and shafts leave out nothing that the pyramid does not, and results do not depend on them.
 inline constexpr double pyramid_margin = 8;
+inline constexpr double pyramid_boxes = 1.5;
+inline constexpr double shaft_margin = 4 * pyramid_margin;
 // Boxes of arcs are enlarged by this share of the outline's size and by so many blurs.
 inline constexpr double box_margin = 1e-9;
 inline constexpr double blur_margin = 1e5;
@@ -58,10 +63,17 @@ inline constexpr double nearest_image = 1e-4;
 inline constexpr double same_normal = 1 - 1e-6;
 // How far the square of a unit normal's length may be from 1.
 inline constexpr double unit_length = 1e-6;
+// Cosine beyond which two edges of a border that follow each other are one.
+inline constexpr double same_direction = 1 - 1e-9;
 // Stands for 0 where directions are inverted; its inverse is still finite.
 inline constexpr double least_slope = 1e-300;
 // Below this square of a sine, eight terms of the series of arcsin s / s are exact to rounding.
 inline constexpr double small_sine_squared = 2.5e-3;
+
+// Numbers.
+
+// More sides of a pyramid than this cost more in tests than they save in edges.
+inline constexpr std::size_t most_sides = 8;
 
 // Of the prepared scene.
 

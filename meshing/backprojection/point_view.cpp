@@ -36,17 +36,21 @@ double SightPyramid::margin(const Bounds& box) const {
   return slack + spread * (box.high - box.low).maxCoeff();
 }
 
-bool SightPyramid::is_outside(const Bounds& box) const {
-  const Vec3 offset = box.centre() - eye, half = box.half_size();
-  const double allowed = margin(box);
-  for (std::size_t k = sides.size(); k-- > 0;)
-    if (sides[k].dot(offset) - spans[k].dot(half) > allowed) return true;
-  return normal.dot(box.centre() - plane_point) + normal.cwiseAbs().dot(half) < -allowed;
+void SightPyramid::make_planes() {
+  box_slack = margins::pyramid_boxes * slack;
+  box_spread = 2 * margins::pyramid_boxes * spread;
+  planes.assign(sides.size() / 4 + 1, {});
+  // The sides along the border come first, for they keep out most.
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    const Vec3& out = sides[(k + 1) % sides.size()];
+    planes[k / 4].set(k % 4, out, out.dot(eye));
+  }
+  planes.back().set(sides.size() % 4, -normal, -normal.dot(plane_point));
 }
 
 bool SightPyramid::is_outside(const Vec3& from, const Vec3& to) const {
-  for (const Vec3& side : sides)
-    if (side.dot(from) > slack && side.dot(to) > slack) return true;
+  for (std::size_t k = sides.size(); k-- > 0;)
+    if (sides[k].dot(from) > slack && sides[k].dot(to) > slack) return true;
   return false;
 }
 
@@ -63,14 +67,17 @@ PointView::PointView(const OpaqueScene& scene)
     : topology_(scene.topology()),
       silhouette_trees_(scene.silhouette_trees()),
       face_tree_(scene.face_tree()),
+      everything_(all_candidates(face_tree_)),
       vertices_(topology_.vertices.size()),
       cuts_(topology_.edges.size()),
       signs_(topology_.triangles.size()),
-      edge_on_(topology_.surfaces.size()) {}
+      edge_on_(topology_.surfaces.size()),
+      edges_(topology_.edges.size()),
+      sides_beyond_(topology_.vertices.size()) {}
 
 void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
   if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
-    for (auto* marks : {&vertices_, &cuts_, &signs_, &edge_on_})
+    for (auto* marks : {&vertices_, &cuts_, &signs_, &edge_on_, &edges_, &sides_beyond_})
       std::fill(marks->begin(), marks->end(), Kept{});
     query_ = 1;
   }
@@ -78,6 +85,7 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   corners.clear();
   next_rank_ = static_cast<std::int64_t>(topology_.vertices.size() + topology_.edges.size());
   among_ = nullptr;
+  candidates_ = &everything_;
   point_ = point;
   jitter_ = jitter;
   normal_ = normal;
@@ -202,6 +210,19 @@ int PointView::face_sign(int triangle) {
   return kept.value;
 }
 
+std::uint32_t PointView::sides_beyond(int vertex, const SightPyramid& pyramid) {
+  Kept& kept = sides_beyond_[at(vertex)];
+  if (!is_fresh(kept)) {
+    const Vec3 direction = jitter_ > 0 ? corners[at(corner_of_vertex(vertex))].direction
+                                       : Vec3(topology_.vertices[at(vertex)] - point_);
+    std::uint32_t sides = 0;
+    for (std::size_t k = 0; k < pyramid.sides.size(); ++k)
+      if (pyramid.sides[k].dot(direction) > pyramid.slack) sides |= std::uint32_t{1} << k;
+    kept = {query_, static_cast<int>(sides)};
+  }
+  return static_cast<std::uint32_t>(kept.value);
+}
+
 int PointView::clipped(int triangle, std::array<int, 4>& polygon) {
   const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
   std::array<int, 3> c{};
@@ -257,8 +278,6 @@ int PointView::layers_over(const DirectionBeside& direction) {
     for (const int triangle : *among_) all += layers_of(triangle, direction);
     return all;
   }
-  const FlatTree& tree = face_tree_;
-  if (tree.nodes.empty()) return 0;
   const Corner& target = corners[at(direction.from)];
   const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
   // The direction is off by its rounding, which grows along the ray; what reaches far is rounded as
@@ -267,25 +286,17 @@ int PointView::layers_over(const DirectionBeside& direction) {
   const double spread = 1 + margins::slack + 4 * jitter_;
   const Vec3 inverse = target.direction.unaryExpr(
       [](double d) { return 1 / (std::abs(d) > margins::least_slope ? d : margins::least_slope); });
-  int stack[FlatTree::max_stack], depth = 0, sum = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const int index = stack[--depth];
+  const auto is_passed = [&](int index) {
     ++effort_.boxes;
-    const FlatTree::Node& node = tree.nodes[at(index)];
-    const Vec3 low = (node.box.low - margin - point_).cwiseProduct(inverse);
-    const Vec3 high = (node.box.high + margin - point_).cwiseProduct(inverse);
+    const Bounds& box = face_tree_.nodes[at(index)].box;
+    const Vec3 low = (box.low - margin - point_).cwiseProduct(inverse);
+    const Vec3 high = (box.high + margin - point_).cwiseProduct(inverse);
     const double enter = std::max(low.cwiseMin(high).maxCoeff(), 0.);
     const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + margins::slack));
-    if (enter > leave * spread) continue;
-    if (node.right >= 0) {
-      stack[depth++] = node.right;
-      stack[depth++] = index + 1;
-      continue;
-    }
-    for (int i = node.first; i < node.first + node.count; ++i)
-      sum += layers_of(tree.items[at(i)], direction);
-  }
+    return enter > leave * spread;
+  };
+  int sum = 0;
+  walk_tree(face_tree_, is_passed, [&](int triangle) { sum += layers_of(triangle, direction); });
   return sum;
 }
 

@@ -1,12 +1,15 @@
 #pragma once
 
+#include "meshing/backprojection/four_planes.h"
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/backprojection/sight_candidates.h"
 #include "meshing/backprojection/sight_effort.h"
 #include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/geometry/exact_signs.h"
 
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace halfshade {
@@ -33,15 +36,25 @@ struct DirectionBeside {
 
 /// The directions from one point towards one emitter that are worth looking at.
 struct SightPyramid {
-  std::vector<Vec3> sides;  ///< unit length, outwards; planes through the point
-  std::vector<Vec3> spans;  ///< [side] how far half a box's size along each axis reaches outwards
+  std::vector<Vec3> sides;         ///< unit length, outwards; planes through the point
+  std::vector<FourPlanes> planes;  ///< those of the sides and the emitter's
   Vec3 eye = Vec3::Zero(), normal = Vec3::Zero(), plane_point = Vec3::Zero();
-  double slack = 0;   ///< rounding of a distance near the pyramid
-  double spread = 0;  ///< rounding as a share of how far a box reaches
-  Vec2 low, high;     ///< of the outline's image
+  double slack = 0;                      ///< rounding of a distance near the pyramid
+  double spread = 0;                     ///< rounding as a share of how far a box reaches
+  double box_slack = 0, box_spread = 0;  ///< the same, for boxes that are left out
+  Vec2 low, high;                        ///< of the outline's image
 
-  /// Neither can be wrong about something that is inside.
-  bool is_outside(const Bounds& box) const;
+  /// When all sides are known.
+  void make_planes();
+  /// Neither can be wrong about something that is inside. If a box is outside, so are all segments
+  /// in it.
+  bool is_outside(const Bounds& box) const {
+    const Vec3 centre = box.centre(), half = box.half_size();
+    const double allowed = box_slack + box_spread * half.maxCoeff();
+    for (const FourPlanes& four : planes)
+      if (four.lowest(centre, half).maxCoeff() > allowed) return true;
+    return false;
+  }
   bool is_outside(const Vec3& from, const Vec3& to) const;  ///< directions of a segment's ends
   /// The box lies wholly between the point's side and the emitter's plane, clear of the latter.
   bool is_before_plane(const Bounds& box) const;
@@ -86,16 +99,24 @@ class PointView {
   /// Until the next start, or the next call, only these triangles count: no others block anything
   /// that is looked at. nullptr: all.
   void look_among(const std::vector<int>* triangles) { among_ = triangles; }
+  /// Until the next start: what may come between point and emitter, all there is to begin with.
+  void narrow_to(const SightCandidates& candidates) { candidates_ = &candidates; }
+  const SightCandidates& candidates() const { return *candidates_; }
   const std::vector<int>* among() const { return among_; }
 
   int turn(int a, int b, int c) const;
   /// All that it took since this was made; starts are looks.
   const SightEffort& effort() const { return effort_; }
-  void count_box() { ++effort_.boxes; }
+  void count_boxes(std::size_t count = 1) { effort_.boxes += count; }
 
   /// +1 or −1 as a face's corners run counter-clockwise or clockwise seen from the point; 0 if it
   /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane.
   int face_sign(int triangle);
+  /// One bit for each side of the pyramid that the vertex is clearly beyond; until the next start,
+  /// of the pyramid that was asked about first.
+  std::uint32_t sides_beyond(int vertex, const SightPyramid& pyramid);
+  /// True once an edge and start.
+  bool is_new(int edge) { return std::exchange(edges_[at(edge)].query, query_) != query_; }
   /// The part of a face before the emitter's plane, as up to four corners; their number.
   int clipped(int triangle, std::array<int, 4>& polygon);
   /// How many faces lie over a direction inside the pyramid, the emitter left out: Appel's
@@ -124,7 +145,9 @@ class PointView {
   const OpaqueTopology& topology_;
   const SilhouetteTrees& silhouette_trees_;
   const FlatTree& face_tree_;
-  std::vector<Kept> vertices_, cuts_, signs_, edge_on_;
+  const SightCandidates everything_;
+  const SightCandidates* candidates_ = nullptr;
+  std::vector<Kept> vertices_, cuts_, signs_, edge_on_, edges_, sides_beyond_;
   std::vector<int> layer_surfaces_;
   std::uint32_t query_ = 0;
   std::int64_t next_rank_ = 0;  ///< of corners that are neither vertices nor cuts

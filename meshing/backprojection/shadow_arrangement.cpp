@@ -27,6 +27,7 @@ bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bo
     set_box(arc);
     arcs_.push_back(arc);
   }
+  if (view.among() == nullptr && find_near_faces()) view.look_among(&near_faces_);
   first_layers_ = view.layers_over({arcs_[0].from, arcs_[0].to, 1});
   if (unless_crowded && first_layers_ > many_layers) return false;
   for (const int surface : view.layer_surfaces())
@@ -37,6 +38,12 @@ bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bo
       return true;
     }
   collect_silhouettes();
+  if (arcs_.size() == outline.edges.size()) {  // all is seen, or all is hidden
+    crossings_.clear();
+    fully_lit = first_layers_ == 0;
+    junction_count = 0;
+    return true;
+  }
   if (!find_crossings(unless_crowded)) return false;
   meetings_.assign(view.corners.size(), {});
   for (std::size_t i = outline.edges.size(); i < arcs_.size(); ++i) {

@@ -55,12 +55,16 @@ class ShadowArrangement {
   };
 
   bool is_hidden_by(int surface);
+  bool find_near_faces();
   void collect_silhouettes();
+  void collect_near();
   void collect_among(const std::vector<int>& triangles);
   void collect_cuts_of(int triangle);
   void collect_cuts();
-  void join_repeated(std::size_t first_cut);
+  void put_in_order();
+  void join_repeated();
   void consider_edge(int edge);
+  void consider_inside(int edge);
   void add_arc(int from, int to, int weight, EdgeId edge);
   bool set_box(Arc& arc) const;
 
@@ -87,7 +91,7 @@ class ShadowArrangement {
   const EmitterOutline* outline_ = nullptr;
   std::vector<Arc> arcs_;  // the outline's first
   std::vector<Crossing> crossings_;
-  std::vector<int> order_, sweep_, active_, near_edges_;
+  std::vector<int> order_, sweep_, active_, near_faces_, near_edges_;
   struct Meeting {
     int in = 0, out = 0, next = -1;  // silhouettes that end and start here; one that starts
   };

@@ -2,6 +2,8 @@
 
 #include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/part_search.h"
+#include "meshing/backprojection/sight_candidates.h"
+#include "meshing/backprojection/sight_shaft.h"
 #include "meshing/backprojection/visible_cells.h"
 #include "meshing/core/error.h"
 
@@ -27,23 +29,32 @@ void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal
 }  // namespace
 
 struct VisiblePartFinder::Impl {
-  explicit Impl(const OpaqueScene& scene) : search(scene), cells(search) {}
+  explicit Impl(const OpaqueScene& scene) : scene(scene), search(scene), cells(search) {
+    everything = all_candidates(scene.face_tree());
+  }
 
+  const OpaqueScene& scene;
   PartSearch search;
   VisibleCells cells;
+  SightCandidates everything;
+  SightShaft shaft;
+  CandidateSearch candidate_search;
 
-  bool find(const Vec3& point, const Vec3& normal, int surface, bool unless_crowded,
-            VisiblePart& part);
+  bool find(const Vec3& point, const Vec3& normal, int surface, const SightCandidates* candidates,
+            bool unless_crowded, VisiblePart& part);
 };
 
 bool VisiblePartFinder::Impl::find(const Vec3& point, const Vec3& normal, int surface,
-                                   bool unless_crowded, VisiblePart& part) {
+                                   const SightCandidates* candidates, bool unless_crowded,
+                                   VisiblePart& part) {
   PointView& view = search.view;
   check(view.topology(), point, normal, surface);
   clear(part);
   double jitter = 0;
   for (int attempt = 0; attempt < margins::most_attempts; ++attempt) {
     view.start(point, normal, surface, jitter);
+    // Scattered corners may leave the boxes that were looked through.
+    if (candidates != nullptr && jitter == 0) view.narrow_to(*candidates);
     if (!(view.distance() > view.slack()) || !search.outline.make(view, point, normal, surface))
       return true;
     if (unless_crowded && cells.is_hidden_as_before()) {
@@ -68,12 +79,26 @@ VisiblePartFinder& VisiblePartFinder::operator=(VisiblePartFinder&&) noexcept = 
 
 void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
                              VisiblePart& part) {
-  impl_->find(point, normal, surface, false, part);
+  impl_->find(point, normal, surface, nullptr, false, part);
 }
 
 bool VisiblePartFinder::find_unless_crowded(const Vec3& point, const Vec3& normal, int surface,
                                             VisiblePart& part) {
-  return impl_->find(point, normal, surface, true, part);
+  return impl_->find(point, normal, surface, nullptr, true, part);
+}
+
+bool VisiblePartFinder::find_unless_crowded(const Vec3& point, const Vec3& normal, int surface,
+                                            const SightCandidates& candidates, VisiblePart& part) {
+  return impl_->find(point, normal, surface, &candidates, true, part);
+}
+
+void VisiblePartFinder::find_candidates(std::span<const Vec3> points, int surface,
+                                        const SightCandidates* among, SightCandidates& found) {
+  const OpaqueTopology& topology = impl_->scene.topology();
+  impl_->shaft.make(topology.surfaces[at(surface)],
+                    impl_->search.outline.lines_of(topology, surface), points);
+  impl_->candidate_search.narrow(impl_->scene.face_tree(), impl_->shaft,
+                                 among != nullptr ? *among : impl_->everything, found);
 }
 
 std::size_t VisiblePartFinder::find_in_cells(const Vec3& point, const Vec3& normal, int surface,

@@ -9,9 +9,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace halfshade {
+
+struct SightCandidates;
 
 /// What a point sees of an emitter.
 enum class Region : std::uint8_t {
@@ -62,6 +65,16 @@ class VisiblePartFinder {
   /// The same, or false, with nothing found, where so many edges cross in the view of the emitter
   /// that find_in_cells is quicker.
   bool find_unless_crowded(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part);
+
+  /// The same, with the same bits, where it is known what may come between the point and the
+  /// emitter.
+  bool find_unless_crowded(const Vec3& point, const Vec3& normal, int surface,
+                           const SightCandidates& candidates, VisiblePart& part);
+
+  /// What may come between the emitter and any of the points, out of `among` if that is not
+  /// nullptr: it must be known to hold it.
+  void find_candidates(std::span<const Vec3> points, int surface, const SightCandidates* among,
+                       SightCandidates& found);
 
   /// Calls `use` with the visible part of each of the triangles into which the emitter is cut for
   /// it, in a fixed order; those away are left out. Returns how much was looked at, in faces and

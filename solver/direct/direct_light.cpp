@@ -1,8 +1,10 @@
 #include "solver/direct/direct_light.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "meshing/backprojection/sight_candidates.h"
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/flat_tree.h"
 #include "solver/direct/edge_derivatives.h"
 #include "solver/direct/emitter_target.h"
 #include "solver/elements/quadrature.h"
@@ -16,12 +18,47 @@ namespace halfshade {
 namespace {
 
 constexpr std::size_t chunk = 64;  // points of one task
+/// So few points are not divided: each looks by itself through what may be in their way.
+constexpr int few_points = 4;
+/// Scenes of fewer edges are looked through as quickly by each point as by several together.
+constexpr int few_edges = 64;
+
+/// Sums over emitters at a point that DirectLight does not hold.
+struct Tally {
+  double visible = 0, unobstructed = 0, strongest = 0;
+  bool is_away = false;  ///< from the emitter that is looked at
+};
 
 /// What each thread keeps between calls.
 struct Worker {
   VisiblePartFinder finder;
   VisiblePart part;
+  std::vector<Tally> tallies;
+  std::vector<Vec3> positions;
+  std::vector<SightCandidates> candidates;  ///< by depth in the tree of points
 };
+
+/// Points, and a tree over where they lie.
+struct PointTree {
+  std::span<const SurfacePoint> points;
+  FlatTree tree;
+  std::vector<int> tasks;  ///< nodes that together hold all
+};
+
+PointTree make_point_tree(std::span<const SurfacePoint> points) {
+  PointTree result{points, {}, {}};
+  std::vector<Bounds> boxes;
+  boxes.reserve(points.size());
+  for (const SurfacePoint& point : points) boxes.push_back({point.position, point.position});
+  result.tree = make_flat_tree(boxes, few_points);
+  const auto take = [&](int node) {
+    const bool is_task = result.tree.nodes[at(node)].count <= static_cast<int>(chunk);
+    if (is_task) result.tasks.push_back(node);
+    return is_task;
+  };
+  walk_tree(result.tree, take, [](int) {});
+  return result;
+}
 
 PointFactor factor_of(const VisiblePart& part, const EmitterTarget& target,
                       const SurfacePoint& point) {
@@ -37,6 +74,20 @@ PointFactor factor_of(const VisiblePart& part, const EmitterTarget& target,
   return factor;
 }
 
+void add(const PointFactor& factor, const EmitterTarget& source, Tally& tally, DirectLight& light) {
+  light.irradiance += factor.visible * source.exitance;
+  tally.visible += factor.visible * source.strength;
+  tally.unobstructed += factor.unobstructed * source.strength;
+  if (factor.unobstructed * source.strength > tally.strongest) {
+    tally.strongest = factor.unobstructed * source.strength;
+    light.region = factor.region;
+  }
+}
+
+void finish(const Tally& tally, DirectLight& light) {
+  if (tally.unobstructed > 0) light.visible = tally.visible / tally.unobstructed;
+}
+
 /// Leaves the boundary in worker.part.
 PointFactor find_factor(Worker& worker, const EmitterTarget& target, const SurfacePoint& point,
                         int id) {
@@ -47,12 +98,15 @@ PointFactor find_factor(Worker& worker, const EmitterTarget& target, const Surfa
 /// Without a signature, and with nothing left in worker.part: what takes less where very much lies
 /// before the emitter.
 PointFactor find_light(Worker& worker, const EmitterTarget& target, const SurfacePoint& point,
-                       int id, std::size_t& crowd_work) {
-  if (worker.finder.find_unless_crowded(point.position, point.normal, id, worker.part))
+                       int id, const SightCandidates* candidates, std::size_t& crowd_work) {
+  VisiblePartFinder& finder = worker.finder;
+  if (candidates != nullptr
+          ? finder.find_unless_crowded(point.position, point.normal, id, *candidates, worker.part)
+          : finder.find_unless_crowded(point.position, point.normal, id, worker.part))
     return factor_of(worker.part, target, point);
   PointFactor factor;
   bool is_lit = true, is_dark = true;
-  crowd_work += worker.finder.find_in_cells(
+  crowd_work += finder.find_in_cells(
       point.position, point.normal, id, worker.part, [&](const VisiblePart& part) {
         factor.visible += enclosed_factor(point.position, point.normal, part.pieces);
         is_lit = is_lit && part.region == Region::lit;
@@ -74,7 +128,9 @@ struct DirectLightIndex::Impl {
 
   Impl(const SoundScene& scene, std::shared_ptr<const OpaqueScene> shared)
       : opaque(std::move(shared)), workers([this] {
-          return Worker{VisiblePartFinder(*opaque), {}};
+          Worker worker{VisiblePartFinder(*opaque), {}, {}, {}, {}};
+          worker.candidates.resize(FlatTree::max_stack);
+          return worker;
         }) {
     for (const Surface& surface : scene.surfaces) {
       targets.push_back(make_emitter_target(scene, surface));
@@ -92,22 +148,66 @@ struct DirectLightIndex::Impl {
   DirectLight gather(Worker& worker, const SurfacePoint& point, std::span<const int> from) const {
     DirectLight light;
     const SightEffort before = worker.finder.effort();
-    double visible = 0, unobstructed = 0, strongest = 0;
+    Tally tally;
     for (const int emitter : from) {
       const EmitterTarget& source = targets[static_cast<std::size_t>(emitter)];
       if (is_clearly_away(source, point)) continue;
-      const PointFactor factor = find_light(worker, source, point, emitter, light.crowd_work);
-      light.irradiance += factor.visible * source.exitance;
-      visible += factor.visible * source.strength;
-      unobstructed += factor.unobstructed * source.strength;
-      if (factor.unobstructed * source.strength > strongest) {
-        strongest = factor.unobstructed * source.strength;
-        light.region = factor.region;
-      }
+      add(find_light(worker, source, point, emitter, nullptr, light.crowd_work), source, tally,
+          light);
     }
-    if (unobstructed > 0) light.visible = visible / unobstructed;
+    finish(tally, light);
     light.effort = worker.finder.effort() - before;
     return light;
+  }
+
+  /// The same for the points below a node of their tree, which look through the scene together.
+  void gather(Worker& worker, const PointTree& points, int node,
+              std::span<DirectLight> light) const {
+    const FlatTree::Node& all = points.tree.nodes[at(node)];
+    worker.tallies.assign(at(all.count), {});
+    for (const int emitter : emitters) {
+      const EmitterTarget& source = targets[at(emitter)];
+      for (int i = 0; i < all.count; ++i)
+        worker.tallies[at(i)].is_away =
+            is_clearly_away(source, points.points[at(points.tree.items[at(all.first + i)])]);
+      look(worker, points, {node, all.first, emitter}, nullptr, 0, light);
+    }
+    for (int i = 0; i < all.count; ++i)
+      finish(worker.tallies[at(i)], light[at(points.tree.items[at(all.first + i)])]);
+  }
+
+  struct Look {
+    int node;
+    int first;  // of the worker's tallies, among the tree's items
+    int emitter;
+  };
+
+  /// The more points lie together, the less there is between them and the emitter.
+  void look(Worker& worker, const PointTree& points, const Look& at_node,
+            const SightCandidates* among, std::size_t depth, std::span<DirectLight> light) const {
+    const auto [index, first, emitter] = at_node;
+    const FlatTree::Node& node = points.tree.nodes[at(index)];
+    worker.positions.clear();
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (!worker.tallies[at(i - first)].is_away)
+        worker.positions.push_back(points.points[at(points.tree.items[at(i)])].position);
+    if (worker.positions.empty()) return;
+    SightCandidates& candidates = worker.candidates[depth];
+    worker.finder.find_candidates(worker.positions, emitter, among, candidates);
+    if (node.right >= 0) {
+      look(worker, points, {index + 1, first, emitter}, &candidates, depth + 1, light);
+      look(worker, points, {node.right, first, emitter}, &candidates, depth + 1, light);
+      return;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i) {
+      if (worker.tallies[at(i - first)].is_away) continue;
+      const int k = points.tree.items[at(i)];
+      const SightEffort before = worker.finder.effort();
+      const PointFactor factor = find_light(worker, targets[at(emitter)], points.points[at(k)],
+                                            emitter, &candidates, light[at(k)].crowd_work);
+      add(factor, targets[at(emitter)], worker.tallies[at(i - first)], light[at(k)]);
+      light[at(k)].effort += worker.finder.effort() - before;
+    }
   }
 };
 
@@ -178,6 +278,16 @@ Region DirectLightIndex::region(const SurfacePoint& point) const {
 std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,
                                                       const Progress& progress) const {
   std::vector<DirectLight> light(points.size());
+  if (impl_->opaque->edge_count() >= few_edges) {
+    const PointTree tree = make_point_tree(points);
+    parallel_for(
+        tree.tasks.size(),
+        [&](std::size_t task) {
+          impl_->gather(impl_->workers.local(), tree, tree.tasks[task], light);
+        },
+        progress, "direct light");
+    return light;
+  }
   parallel_for((points.size() + chunk - 1) / chunk,
                [&](std::size_t c) {
                  Worker& worker = impl_->workers.local();

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
+#include <algorithm>
+
 namespace halfshade {
 namespace {
 
@@ -79,6 +81,64 @@ TEST(DirectLightBatch, ThreadsAndOrderDoNotChangeABit) {
     const std::size_t j = points.size() - 1 - k;
     EXPECT_TRUE((index.irradiance(points[j]).irradiance == one[j].irradiance).all());
   }
+}
+
+/// Lamps over so many boxes that points look through them together.
+SoundScene scene_with_many_boxes() {
+  Random random(15);
+  SoundScene scene = test::empty_sound_scene(6);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      const double x = 2 * i - 2.2, y = 2 * j - 2.2;
+      test::add_surface(
+          scene, {{{x, y, 3}, {x, y + 0.4, 3}, {x + 0.4, y + 0.4, 3}, {x + 0.4, y, 3}}}, 1 + i);
+    }
+  // One that stands upright, and one that boxes reach through.
+  test::add_surface(scene, {{{-3, -1, 1}, {-3, 1, 1}, {-3, 1, 2}, {-3, -1, 2}}}, 2);
+  test::add_surface(scene, {{{-1, -1, 1.2}, {-1, 1, 1.2}, {1, 1, 1.2}, {1, -1, 1.2}}}, 1);
+  test::add_surface(scene, {{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}}}, 0);
+  for (int k = 0; k < 60; ++k)
+    for (const auto& face :
+         test::random_box(random, random.in_box({-2.5, -2.5, 0.4}, {2.5, 2.5, 2.6}), 0.25))
+      test::add_surface(scene, {face}, 0);
+  return scene;
+}
+
+TEST(DirectLightBatch, SizeAndOrderOfBatchesDoNotChangeABit) {
+  const DirectLightIndex index(scene_with_many_boxes());
+  std::vector<SurfacePoint> points = random_points(600);
+  // Close together, and all in one place.
+  Random random(16);
+  for (int k = 0; k < 100; ++k)
+    points.push_back({random.in_box({0.2, 0.2, 0}, {0.3, 0.3, 0}), Vec3::UnitZ()});
+  points.insert(points.end(), 20, points.back());
+  // In the planes of lamps.
+  for (int k = 0; k < 50; ++k)
+    points.push_back({random.in_box({-3, -3, 1.2}, {3, 3, 1.2}), Vec3::UnitZ()});
+  std::vector<DirectLight> alone;
+  for (const SurfacePoint& p : points) alone.push_back(index.irradiance(p));
+  int penumbras = 0;
+  for (const std::size_t size : {std::size_t{7}, std::size_t{64}, points.size()})
+    for (const bool backwards : {false, true})
+      for (std::size_t first = 0; first < points.size(); first += size) {
+        std::vector<SurfacePoint> some(
+            points.begin() + static_cast<std::ptrdiff_t>(first),
+            points.begin() + static_cast<std::ptrdiff_t>(std::min(points.size(), first + size)));
+        if (backwards) std::reverse(some.begin(), some.end());
+        const auto light = index.irradiance(some);
+        for (std::size_t k = 0; k < some.size(); ++k) {
+          const DirectLight& one = alone[first + (backwards ? some.size() - 1 - k : k)];
+          ASSERT_TRUE((light[k].irradiance == one.irradiance).all()) << size << ' ' << first + k;
+          ASSERT_EQ(light[k].visible, one.visible);
+          ASSERT_EQ(light[k].region, one.region);
+          ASSERT_EQ(light[k].crowd_work, one.crowd_work);
+          ASSERT_EQ(light[k].effort.looks, one.effort.looks);
+          ASSERT_EQ(light[k].effort.turns, one.effort.turns);
+          ASSERT_EQ(light[k].effort.boxes, one.effort.boxes);
+          penumbras += one.visible > 0 && one.visible < 1 ? 1 : 0;
+        }
+      }
+  EXPECT_GT(penumbras, 1000);
 }
 
 TEST(DirectLightBatch, IsTheSumOverTheEmitters) {

@@ -11,6 +11,10 @@
 namespace halfshade {
 namespace {
 
+/// Times the area of all that light reaches: emitters that light themselves only, and are larger,
+/// are suns.
+constexpr double far_larger = 30;
+
 /// Around a surface.
 struct Ball {
   Vec3 centre = Vec3::Zero();
@@ -27,20 +31,36 @@ Ball ball_around(const Surface& surface) {
   return ball;
 }
 
-/// What the emitter that gives most can give to each surface, W/m².
-std::vector<double> most_light(const SoundScene& scene) {
-  const std::vector<LightSource> sources = light_sources(scene);
+/// Whether some of the outline lies before a plane.
+bool reaches_before(const Surface& surface, const Surface& plane) {
+  const Ring& ring = surface.rings.front();
+  const double least = tolerance_of(surface, plane).length;
+  return std::any_of(ring.begin(), ring.end(), [&](const Vec2& q) {
+    return plane.frame.height(surface.frame.to_space(q)) > least;
+  });
+}
+
+/// What the emitter that gives most can give to each surface, W/m². Emitters have to see others for
+/// that; all else gets light that was reflected, too.
+std::vector<double> most_light(const SoundScene& scene, std::span<const LightSource> sources) {
+  std::vector<bool> emits(scene.surfaces.size(), false);
+  for (const LightSource& source : sources) emits[at(source.surface)] = true;
   std::vector<Ball> balls;
   for (const Surface& surface : scene.surfaces) balls.push_back(ball_around(surface));
   std::vector<double> most;
-  for (const Ball& ball : balls) {
+  for (std::size_t s = 0; s < balls.size(); ++s) {
+    const Surface& surface = scene.surfaces[s];
     double here = 0;
     for (const LightSource& source : sources) {
+      const Surface& emitter = scene.surfaces[at(source.surface)];
       const Ball& lamp = balls[at(source.surface)];
-      const double distance = (ball.centre - lamp.centre).norm() - ball.radius - lamp.radius;
-      const double factor =
-          area(scene.surfaces[at(source.surface)]) / (std::numbers::pi * distance * distance);
-      here = std::max(here, source.exitance * (distance > 0 ? std::min(factor, 1.) : 1.));
+      const double distance =
+          (balls[s].centre - lamp.centre).norm() - balls[s].radius - lamp.radius;
+      const double factor = area(emitter) / (std::numbers::pi * distance * distance);
+      const double light = source.exitance * (distance > 0 ? std::min(factor, 1.) : 1.);
+      if (light > here &&
+          (!emits[s] || (reaches_before(surface, emitter) && reaches_before(emitter, surface))))
+        here = light;
     }
     most.push_back(here);
   }
@@ -50,7 +70,8 @@ std::vector<double> most_light(const SoundScene& scene) {
 }  // namespace
 
 std::vector<int> lit_surfaces(const SoundScene& scene, double share) {
-  const std::vector<double> light = most_light(scene);
+  const std::vector<LightSource> sources = light_sources(scene);
+  const std::vector<double> light = most_light(scene, sources);
   const double brightest = *std::max_element(light.begin(), light.end());
   std::vector<int> ids(light.size());
   std::iota(ids.begin(), ids.end(), 0);
@@ -58,9 +79,15 @@ std::vector<int> lit_surfaces(const SoundScene& scene, double share) {
   const auto square = [&](int s) {
     return area(scene.surfaces[at(s)]) * std::pow(light[at(s)] / brightest, 2);
   };
-  double all = 0;
+  double all = 0, lit_area = 0;
   for (const int s : ids) all += square(s);
   std::erase_if(ids, [&](int s) { return square(s) <= share * share * all; });
+  for (const int s : ids) lit_area += area(scene.surfaces[at(s)]);
+  for (const LightSource& source : sources)
+    if (light[at(source.surface)] == 0 &&
+        area(scene.surfaces[at(source.surface)]) < far_larger * lit_area)
+      ids.push_back(source.surface);
+  std::sort(ids.begin(), ids.end());
   return ids;
 }
 

@@ -8,8 +8,9 @@
 namespace halfshade {
 
 /// The surfaces, in order, that are near and large enough to get a noticeable part of emitters'
-/// light, by size and distance alone: those that could have more than `share` of the L2 norm of the
-/// light that all could have; all of them if nothing emits. What the others do is worth no effort.
+/// light, by size and distance: those that could have more than `share` of the L2 norm of the light
+/// that all could have, and emitters but suns; all of them if nothing emits. What the others do is
+/// worth no effort.
 std::vector<int> lit_surfaces(const SoundScene& scene, double share);
 
 /// Surface → whether it is one of `ids`.

@@ -1,12 +1,16 @@
 #include "solver/reflected/kernel_moments.h"
 
 #include "meshing/core/planar.h"
+#include "meshing/core/rounded.h"
+#include "meshing/core/sound_scene.h"
 #include "solver/elements/quadrature.h"
 
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -44,26 +48,59 @@ double power(double x, int n) {
   return result;
 }
 
-/// How often parts may be halved: by then their sizes are as small as rounding.
-constexpr int most_depth = 90;
+/// Sizes of parts fall by half each time: by then they are as small as rounding.
+constexpr int most_depth = 45;
 
-/// Parts whose area is less than this times the square of their size are halved across, for of
-/// quarters of a needle those that are close would be as many as its rows.
-constexpr double needle = 0.03;
+/// Triangles whose area is less than this times the square of their longest edge are cut across:
+/// quarters of a needle that are close to the point would be as many as its rows.
+constexpr double needle = 0.02;
+/// Of its length: no part is shorter.
+constexpr double shortest = 1e-14;
 
-/// Corners of the halves at the longest edge; the same area each.
-std::array<std::array<Vec2, 3>, 2> halves_of(std::array<Vec2, 3> corners) {
-  const auto edge = [&](std::size_t k) {
-    return (corners[(k + 1) % 3] - corners[k]).squaredNorm();
-  };
-  const std::size_t longest = edge(0) >= edge(1) && edge(0) >= edge(2) ? 0
-                              : edge(1) >= edge(2)                     ? 1
-                                                                       : 2;
-  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(longest),
-              corners.end());
-  const auto& [a, b, c] = corners;
-  const Vec2 middle = 0.5 * (a + b);
-  return {{{a, middle, c}, {middle, b, c}}};
+/// A triangle along its longest edge.
+struct Needle {
+  Vec2 start, along;  ///< of the edge; `along` is a unit vector
+  double length;
+};
+
+Needle needle_of(const std::array<Vec2, 3>& corners) {
+  Needle longest{corners[0], Vec2::Zero(), -1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2 edge = corners[(k + 1) % 3] - corners[k];
+    if (rounded(edge.norm()) > rounded(longest.length)) longest = {corners[k], edge, edge.norm()};
+  }
+  longest.along /= longest.length;
+  return longest;
+}
+
+/// Where to cut a needle: from the foot of the point twice as far each time.
+std::vector<double> cuts_of(const Needle& whole, double area, const PointAbovePlane& from) {
+  const Vec2 way = from.foot - whole.start;
+  const double middle = whole.along.dot(way);
+  const double nearest = std::max({std::abs(from.height), std::abs(cross_2d(whole.along, way)),
+                                   2 * std::abs(area) / whole.length, shortest * whole.length});
+  const double farthest = std::max(middle, whole.length - middle);
+  std::vector<double> cuts;
+  for (double away = nearest; rounded(away) < rounded(farthest); away *= 2)
+    for (const double cut : {middle - away, middle + away})
+      if (cut > 0 && rounded(cut) < rounded(whole.length)) cuts.push_back(cut);
+  std::sort(cuts.begin(), cuts.end());
+  return cuts;
+}
+
+/// The parts of a ring before and behind a line across a needle.
+std::array<Ring, 2> parted(const Ring& ring, const Needle& whole, double cut) {
+  std::array<Ring, 2> parts;
+  const auto beyond = [&](const Vec2& p) { return whole.along.dot(p - whole.start) - cut; };
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Vec2 &p = ring[k], &q = ring[(k + 1) % ring.size()];
+    const double at_p = beyond(p), at_q = beyond(q);
+    if (at_p <= 0) parts[0].push_back(p);
+    if (at_p >= 0) parts[1].push_back(p);
+    if ((at_p < 0 && at_q > 0) || (at_p > 0 && at_q < 0))
+      for (Ring& part : parts) part.push_back(p + at_p / (at_p - at_q) * (q - p));
+  }
+  return parts;
 }
 
 }  // namespace
@@ -92,7 +129,22 @@ void KernelMoments::add(std::span<const Vec2> ring) {
 
 void KernelMoments::add(const Vec2& a, const Vec2& b, const Vec2& c) {
   const double area = 0.5 * cross_2d(b - a, c - a);
-  if (area != 0) add_part(a, b, c, area, 0);
+  if (area == 0) return;
+  const Needle whole = needle_of({a, b, c});
+  if (rounded(std::abs(area) / (whole.length * whole.length)) > needle)
+    return add_part(a, b, c, area, 0);
+  const auto add_fan = [this](const Ring& ring) {
+    for (std::size_t k = 2; k < ring.size(); ++k)
+      add_part(ring[0], ring[k - 1], ring[k],
+               0.5 * cross_2d(ring[k - 1] - ring[0], ring[k] - ring[0]), 0);
+  };
+  Ring rest = {a, b, c};
+  for (const double cut : cuts_of(whole, area, from_)) {
+    auto [before, behind] = parted(rest, whole, cut);
+    add_fan(before);
+    rest = std::move(behind);
+  }
+  add_fan(rest);
 }
 
 void KernelMoments::add_part(const Vec2& a, const Vec2& b, const Vec2& c, double area, int depth) {
@@ -112,17 +164,13 @@ void KernelMoments::add_part(const Vec2& a, const Vec2& b, const Vec2& c, double
       chosen = &rule;
       break;
     }
-  if (!chosen && depth < most_depth && std::abs(area) < needle * size * size) {
-    for (const auto& [p, q, r] : halves_of({a, b, c})) add_part(p, q, r, 0.5 * area, depth + 1);
-    return;
-  }
   if (!chosen && depth < most_depth) {
     const Vec2 ab = 0.5 * (a + b), bc = 0.5 * (b + c), ca = 0.5 * (c + a);
     const double quarter = 0.25 * area;
-    add_part(a, ab, ca, quarter, depth + 2);
-    add_part(ab, b, bc, quarter, depth + 2);
-    add_part(ca, bc, c, quarter, depth + 2);
-    add_part(bc, ca, ab, quarter, depth + 2);
+    add_part(a, ab, ca, quarter, depth + 1);
+    add_part(ab, b, bc, quarter, depth + 1);
+    add_part(ca, bc, c, quarter, depth + 1);
+    add_part(bc, ca, ab, quarter, depth + 1);
     return;
   }
   if (!chosen) chosen = &rules().front();

@@ -11,11 +11,15 @@
 namespace halfshade {
 namespace {
 
+/// Of squared lengths that are compared: both long edges of a needle are alike to more than are
+/// usual, and which is longer would depend on the unit.
+constexpr int edge_digits = 20;
+
 // A strict order of all edges, so that both triangles at an edge agree and the closure ends.
 bool is_longer(const TriangleMesh& mesh, EdgeHandle a, EdgeHandle b) {
   const Link m = ends(mesh, a), n = ends(mesh, b);
   const auto length = [&](const Link& link) {
-    return rounded((position(mesh, link[1]) - position(mesh, link[0])).squaredNorm());
+    return rounded<edge_digits>((position(mesh, link[1]) - position(mesh, link[0])).squaredNorm());
   };
   const double length_m = length(m), length_n = length(n);
   return length_m > length_n || (length_m == length_n && m < n);

@@ -22,11 +22,10 @@
 namespace halfshade {
 namespace {
 
-constexpr int most_rounds = 60;
+constexpr int most_rounds = 60, most_merges = 20;
 /// Of the square of the error allowed: what may come of elements left alone, and of dropping
 /// orders.
 constexpr double share_left_alone = 0.25, share_after_merging = 0.7, share_after_dropping = 0.8;
-constexpr int most_merges = 20;
 /// Places of an element at which its estimate is checked, and by how much it may be off there.
 constexpr std::size_t checks = 4;
 constexpr double noticeably = 2;
@@ -305,8 +304,7 @@ class Adaptation {
       report_.limit = FieldLimit::rounds;
     if (report_.limit != FieldLimit::none) return false;
     std::vector<int> to_split;
-    auto unknowns = static_cast<double>(unknowns_);
-    auto count = static_cast<double>(elements_.size());
+    double unknowns = static_cast<double>(unknowns_), count = static_cast<double>(elements_.size());
     bool is_changed = false;
     FieldLimit limit = FieldLimit::fixed;
     const double may_stay = share_left_alone * allowed();

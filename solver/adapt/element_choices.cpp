@@ -17,6 +17,9 @@ namespace {
 /// one more order and four smaller elements gain alike per unknown.
 constexpr double smooth = 0.45;
 constexpr double most_orders_at_once = 3;
+/// Errors are small differences of large values: those of twins in a symmetric scene are alike to
+/// so many digits.
+constexpr int error_digits = 12;
 
 double square_error_of(std::span<const FittedElement> elements) {
   double sum = 0;
@@ -30,7 +33,8 @@ std::vector<int> worst_elements(std::span<const FittedElement> elements, double 
   std::vector<int> order(elements.size());
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> key;
-  for (const FittedElement& element : elements) key.push_back(rounded(element.square_error()));
+  for (const FittedElement& element : elements)
+    key.push_back(rounded<error_digits>(element.square_error()));
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return key[at(a)] > key[at(b)]; });
   double left = square_error_of(elements);
@@ -62,7 +66,7 @@ void drop_orders(std::span<FittedElement> elements, double most) {
   };
   const auto candidate = [&](int e) {
     const FittedElement& element = elements[at(e)];
-    return Candidate(rounded(square_of_layer(element) / (element.fit.order + 1)), e);
+    return Candidate(rounded<error_digits>(square_of_layer(element) / (element.fit.order + 1)), e);
   };
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   for (int e = 0; e < static_cast<int>(elements.size()); ++e)

@@ -18,7 +18,7 @@ namespace {
 /// estimates of lattices are at least this many times as much. Where there are few, they count as
 /// more.
 double parts_of_row(double entries) {
-  constexpr double few = 0.3, many = 0.5, overestimated = 3.75;
+  constexpr double few = 0.25, many = 0.5, overestimated = 3.75;
   return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
 
@@ -109,7 +109,7 @@ class ExactPairs {
         sight_(sight),
         // Most of it for pairs that are not clear: the others take little.
         for_clear_{0.1 * options.tolerance, 0, options.max_points},
-        for_partial_{0.9 * options.tolerance, 0, options.max_points},
+        for_partial_{0.8 * options.tolerance, 0, options.max_points},
         progress_(progress),
         pairs_(find_pairs(scene, sight, progress)),
         shares_(scene, pairs_),

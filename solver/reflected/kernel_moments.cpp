@@ -54,8 +54,9 @@ constexpr int most_depth = 45;
 /// Triangles whose area is less than this times the square of their longest edge are cut across:
 /// quarters of a needle that are close to the point would be as many as its rows.
 constexpr double needle = 0.02;
-/// Of its length: no part is shorter.
-constexpr double shortest = 1e-14;
+/// Of its length: no part is shorter. Of the shortest part: corners as close as that to a cut lie
+/// on it, so that rounding does not choose where parts begin.
+constexpr double shortest = 1e-12, on_cut = 1e-3;
 
 /// A triangle along its longest edge.
 struct Needle {
@@ -74,24 +75,32 @@ Needle needle_of(const std::array<Vec2, 3>& corners) {
 }
 
 /// Where to cut a needle: from the foot of the point twice as far each time.
-std::vector<double> cuts_of(const Needle& whole, double area, const PointAbovePlane& from) {
+struct Cuts {
+  std::vector<double> at;
+  double margin;  ///< what lies as close to one lies on it
+};
+
+Cuts cuts_of(const Needle& whole, double area, const PointAbovePlane& from) {
   const Vec2 way = from.foot - whole.start;
   const double middle = whole.along.dot(way);
   const double nearest = std::max({std::abs(from.height), std::abs(cross_2d(whole.along, way)),
                                    2 * std::abs(area) / whole.length, shortest * whole.length});
   const double farthest = std::max(middle, whole.length - middle);
-  std::vector<double> cuts;
+  Cuts cuts{{}, on_cut * nearest};
   for (double away = nearest; rounded(away) < rounded(farthest); away *= 2)
     for (const double cut : {middle - away, middle + away})
-      if (cut > 0 && rounded(cut) < rounded(whole.length)) cuts.push_back(cut);
-  std::sort(cuts.begin(), cuts.end());
+      if (cut > cuts.margin && cut < whole.length - cuts.margin) cuts.at.push_back(cut);
+  std::sort(cuts.at.begin(), cuts.at.end());
   return cuts;
 }
 
 /// The parts of a ring before and behind a line across a needle.
-std::array<Ring, 2> parted(const Ring& ring, const Needle& whole, double cut) {
+std::array<Ring, 2> parted(const Ring& ring, const Needle& whole, double cut, double margin) {
   std::array<Ring, 2> parts;
-  const auto beyond = [&](const Vec2& p) { return whole.along.dot(p - whole.start) - cut; };
+  const auto beyond = [&](const Vec2& p) {
+    const double by = whole.along.dot(p - whole.start) - cut;
+    return std::abs(by) > margin ? by : 0;
+  };
   for (std::size_t k = 0; k < ring.size(); ++k) {
     const Vec2 &p = ring[k], &q = ring[(k + 1) % ring.size()];
     const double at_p = beyond(p), at_q = beyond(q);
@@ -139,8 +148,9 @@ void KernelMoments::add(const Vec2& a, const Vec2& b, const Vec2& c) {
                0.5 * cross_2d(ring[k - 1] - ring[0], ring[k] - ring[0]), 0);
   };
   Ring rest = {a, b, c};
-  for (const double cut : cuts_of(whole, area, from_)) {
-    auto [before, behind] = parted(rest, whole, cut);
+  const Cuts cuts = cuts_of(whole, area, from_);
+  for (const double cut : cuts.at) {
+    auto [before, behind] = parted(rest, whole, cut, cuts.margin);
     add_fan(before);
     rest = std::move(behind);
   }

@@ -40,27 +40,35 @@ bool reaches_before(const Surface& surface, const Surface& plane) {
   });
 }
 
-/// What the emitter that gives most can give to each surface, W/m². Emitters have to see others for
-/// that; all else gets light that was reflected, too.
+/// ∫ H² that the emitter which gives most can make on each surface, for the strongest exitance 1.
+/// Emitters have to see others for that; all else gets light that was reflected, too.
 std::vector<double> most_light(const SoundScene& scene, std::span<const LightSource> sources) {
   std::vector<bool> emits(scene.surfaces.size(), false);
-  for (const LightSource& source : sources) emits[at(source.surface)] = true;
+  double strongest = 0;
+  for (const LightSource& source : sources) {
+    emits[at(source.surface)] = true;
+    strongest = std::max(strongest, source.exitance);
+  }
   std::vector<Ball> balls;
   for (const Surface& surface : scene.surfaces) balls.push_back(ball_around(surface));
   std::vector<double> most;
   for (std::size_t s = 0; s < balls.size(); ++s) {
     const Surface& surface = scene.surfaces[s];
+    const double own = area(surface);
     double here = 0;
     for (const LightSource& source : sources) {
       const Surface& emitter = scene.surfaces[at(source.surface)];
       const Ball& lamp = balls[at(source.surface)];
       const double distance =
           (balls[s].centre - lamp.centre).norm() - balls[s].radius - lamp.radius;
-      const double factor = area(emitter) / (std::numbers::pi * distance * distance);
-      const double light = source.exitance * (distance > 0 ? std::min(factor, 1.) : 1.);
-      if (light > here &&
+      const double lamp_area = area(emitter), exitance = source.exitance / strongest;
+      const double factor = lamp_area / (std::numbers::pi * distance * distance);
+      const double light = exitance * (distance > 0 ? std::min(factor, 1.) : 1.);
+      // No more power arrives than is sent out.
+      const double square = light * std::min(own * light, lamp_area * exitance);
+      if (square > here &&
           (!emits[s] || (reaches_before(surface, emitter) && reaches_before(emitter, surface))))
-        here = light;
+        here = square;
     }
     most.push_back(here);
   }
@@ -71,20 +79,16 @@ std::vector<double> most_light(const SoundScene& scene, std::span<const LightSou
 
 std::vector<int> lit_surfaces(const SoundScene& scene, double share) {
   const std::vector<LightSource> sources = light_sources(scene);
-  const std::vector<double> light = most_light(scene, sources);
-  const double brightest = *std::max_element(light.begin(), light.end());
-  std::vector<int> ids(light.size());
+  const std::vector<double> squares = most_light(scene, sources);
+  const double all = std::accumulate(squares.begin(), squares.end(), 0.);
+  std::vector<int> ids(squares.size());
   std::iota(ids.begin(), ids.end(), 0);
-  if (!(brightest > 0)) return ids;
-  const auto square = [&](int s) {
-    return area(scene.surfaces[at(s)]) * std::pow(light[at(s)] / brightest, 2);
-  };
-  double all = 0, lit_area = 0;
-  for (const int s : ids) all += square(s);
-  std::erase_if(ids, [&](int s) { return square(s) <= share * share * all; });
+  if (!(all > 0)) return ids;
+  std::erase_if(ids, [&](int s) { return squares[at(s)] <= share * share * all; });
+  double lit_area = 0;
   for (const int s : ids) lit_area += area(scene.surfaces[at(s)]);
   for (const LightSource& source : sources)
-    if (light[at(source.surface)] == 0 &&
+    if (squares[at(source.surface)] == 0 &&
         area(scene.surfaces[at(source.surface)]) < far_larger * lit_area)
       ids.push_back(source.surface);
   std::sort(ids.begin(), ids.end());

@@ -14,7 +14,7 @@ namespace {
 /// over edges.
 constexpr std::size_t many_faces = 100;
 /// So few faces are told apart by their corners sooner than by boxes.
-constexpr int few_faces = 2;
+constexpr int faces_of_leaf = 2;
 /// All faces below a node look towards the eye, or all look away from it.
 bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
   if (cone.axis.isZero()) return false;
@@ -40,7 +40,7 @@ bool ShadowArrangement::find_near_faces() {
       const int index = stack[--depth];
       const FlatTree::Node& node = faces.nodes[at(index)];
       if (outline_->pyramid.is_outside(node.box)) continue;
-      if (node.count > few_faces) {
+      if (node.count > faces_of_leaf) {
         stack[depth++] = node.right;
         stack[depth++] = index + 1;
         continue;

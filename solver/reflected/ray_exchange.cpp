@@ -17,7 +17,7 @@ constexpr int second_half = most_uses - 1;
 /// With so many elements, those of less than the mean area have fewer rays. Noise falls with n rays
 /// as n^-1.3: it is least for all of them with n as the area to the power of 1 / 2.3, which leaves
 /// less than twice as much of it as the same number everywhere.
-constexpr int many_elements = 20000, fewest_strata = 3;
+constexpr int many_elements = 20000, fewest_kept_strata = 3;
 constexpr double power_of_rays = 1 / (1 + noise_exponent);
 
 /// Of the mean area, if elements are so many that it matters; else 0.
@@ -32,7 +32,7 @@ int strata_for(double area, double area_of_all, int most) {
   if (area >= area_of_all) return most;
   const double share = std::pow(area / area_of_all, power_of_rays);
   return std::clamp(static_cast<int>(std::lround(most * std::sqrt(share))),
-                    std::min(fewest_strata, most), most);
+                    std::min(fewest_kept_strata, most), most);
 }
 
 /// What arrives by each half of the rays.

@@ -90,11 +90,11 @@ SoundScene scene_with_many_boxes() {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const double x = 2 * i - 2.2, y = 2 * j - 2.2;
-      test::add_surface(
-          scene, {{{x, y, 3}, {x, y + 0.4, 3}, {x + 0.4, y + 0.4, 3}, {x + 0.4, y, 3}}}, 1 + i % 2);
+      test::add_surface(scene,
+                        {{{x, y, 3}, {x, y + 0.4, 3}, {x + 0.4, y + 0.4, 3}, {x + 0.4, y, 3}}}, 1);
     }
   // One that stands upright, and one that boxes reach through.
-  test::add_surface(scene, {{{-3, -1, 1}, {-3, 1, 1}, {-3, 1, 2}, {-3, -1, 2}}}, 2);
+  test::add_surface(scene, {{{-3, -1, 1}, {-3, 1, 1}, {-3, 1, 2}, {-3, -1, 2}}}, 1);
   test::add_surface(scene, {{{-1, -1, 1.2}, {-1, 1, 1.2}, {1, 1, 1.2}, {1, -1, 1.2}}}, 1);
   test::add_surface(scene, {{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}}}, 0);
   for (int k = 0; k < 60; ++k)

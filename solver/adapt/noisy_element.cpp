@@ -21,36 +21,46 @@ constexpr double sure = 2;
 /// all as without any slack.
 constexpr double power_of_slack = 0.3, most_slack = 16;
 
+constexpr int most_coefficients = basis_size(highest_order);
+using BasisRow = Eigen::Matrix<double, most_coefficients, 1>;
+/// As large as they ever are on the stack: there are very many fits.
+using NormalMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_coefficients, most_coefficients>;
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, most_coefficients, 3>;
+
 struct NoisyPolynomial {
-  ChannelArray coefficients;
+  Coefficients coefficients;
   double left = 0, surely_left = 0, by_chance = std::numeric_limits<double>::infinity();
 };
 
+/// `basis` has a row of the highest order for each sample, which begins with those of lower ones.
 /// Without a finite error if the samples do not tell it.
-NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples, double noise) {
-  NoisyPolynomial result;
-  const auto count = static_cast<Eigen::Index>(samples.size());
+NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples,
+                          const std::vector<BasisRow>& basis, double noise) {
   const Eigen::Index size = basis_size(order);
-  Eigen::MatrixXd basis(count, size);
-  ChannelArray values(count, 3);
-  Eigen::VectorXd row(size);
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const NoisySample& sample = samples[static_cast<std::size_t>(k)];
-    basis_at(order, sample.place, row);
-    basis.row(k) = row;
-    values.row(k) = sample.value.mean();
+  NormalMatrix normal = NormalMatrix::Zero(size, size);
+  Coefficients moments = Coefficients::Zero(size, 3);
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const auto row = basis[k].head(size);
+    normal += row.lazyProduct(row.transpose());
+    moments += row.lazyProduct(samples[k].value.mean().matrix().transpose());
   }
-  const Eigen::LDLT<Eigen::MatrixXd> normal(basis.transpose() * basis);
-  const Eigen::MatrixXd inverse = normal.solve(Eigen::MatrixXd::Identity(size, size));
-  result.coefficients = (inverse * (basis.transpose() * values.matrix())).array();
-  const double spread = (values.matrix() - basis * result.coefficients.matrix()).squaredNorm() /
-                        static_cast<double>(count - size);
+  const Eigen::LDLT<NormalMatrix> factors(normal);
+  const NormalMatrix inverse = factors.solve(NormalMatrix::Identity(size, size));
+  NoisyPolynomial result;
+  result.coefficients = inverse.lazyProduct(moments);
+  double spread = 0;
+  for (std::size_t k = 0; k < samples.size(); ++k)
+    spread += (samples[k].value.mean().matrix() -
+               result.coefficients.transpose().lazyProduct(basis[k].head(size)))
+                  .squaredNorm();
+  const double freedom = static_cast<double>(samples.size()) - static_cast<double>(size);
+  spread /= freedom;
   const double trace = inverse.trace();
-  if (!(normal.isPositive() && std::isfinite(spread) && trace > 0 && std::isfinite(trace)))
+  if (!(factors.isPositive() && std::isfinite(spread) && trace > 0 && std::isfinite(trace)))
     return result;
   result.left = spread - noise;
-  const double deviation = noise * std::sqrt(2 / static_cast<double>(count - size));
-  result.surely_left = std::max(result.left - sure * deviation, 0.);
+  result.surely_left = std::max(result.left - sure * noise * std::sqrt(2 / freedom), 0.);
   result.by_chance = std::max(spread, noise) * trace;
   return result;
 }
@@ -70,17 +80,21 @@ Rgb value_at(const NoisyElement& element, const TrianglePlace& place) {
 void fit(NoisyElement& element) {
   const int count = static_cast<int>(element.samples.size());
   double noise = 0;  // variance of a mean of two values
-  for (const NoisySample& sample : element.samples)
+  std::vector<BasisRow> basis(element.samples.size());
+  for (std::size_t k = 0; k < basis.size(); ++k) {
+    const NoisySample& sample = element.samples[k];
     noise += (sample.value.a - sample.value.b).matrix().squaredNorm() / 4 / count;
+    basis_at(highest_order, sample.place, basis[k]);
+  }
   double least = std::numeric_limits<double>::infinity();
   for (int order = 0; order <= highest_order && count >= samples_each * basis_size(order);
        ++order) {
-    NoisyPolynomial polynomial = fit_order(order, element.samples, noise);
+    const NoisyPolynomial polynomial = fit_order(order, element.samples, basis, noise);
     const double square_error = polynomial.left + polynomial.by_chance;
     if (!(square_error < least)) continue;
     least = square_error;
     element.order = order;
-    element.coefficients = std::move(polynomial.coefficients);
+    element.coefficients = polynomial.coefficients.array();
     element.left = polynomial.left;
     element.surely_left = polynomial.surely_left;
     element.by_chance = polynomial.by_chance;

@@ -12,9 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 
 namespace halfshade {
@@ -90,9 +88,9 @@ class NoisyFit {
 
  private:
   double sum_of_reaches() const {
-    return std::accumulate(
-        elements_.begin(), elements_.end(), 0.,
-        [](double sum, const NoisyElement& element) { return sum + element.area * element.reach; });
+    double sum = 0;
+    for (const NoisyElement& element : elements_) sum += element.area * element.reach;
+    return sum;
   }
 
   /// Square of the error.
@@ -108,19 +106,19 @@ class NoisyFit {
     counted_ = counted_elements(table_, options_);
     const PatchHierarchy hierarchy = mesh_.hierarchy();
     std::vector<NoisyElement> before = std::move(elements_);
-    const std::unordered_map<int, int> index_before = std::move(index_of_node_);
+    std::vector<int> index_before = std::move(index_of_node_);
+    index_before.resize(hierarchy.element.size(), -1);
     elements_.assign(table_.corners.size(), {});
-    index_of_node_.clear();
-    std::unordered_map<int, std::vector<int>> parts;  // of elements before
+    index_of_node_ = hierarchy.element;
+    std::vector<std::vector<int>> parts(before.size());  // of elements before
     for (int node = 0; node < static_cast<int>(hierarchy.element.size()); ++node) {
       const int e = hierarchy.element[at(node)];
       if (e < 0) continue;
-      index_of_node_[node] = e;
       int known = node;
-      while (known >= 0 && !index_before.contains(known)) known = hierarchy.parent[at(known)];
+      while (known >= 0 && index_before[at(known)] < 0) known = hierarchy.parent[at(known)];
       NoisyElement& element = elements_[at(e)];
       if (known == node) {
-        element = std::move(before[at(index_before.at(known))]);
+        element = std::move(before[at(index_before[at(known)])]);
         continue;
       }
       element.triangle = table_.triangle(e);
@@ -128,9 +126,10 @@ class NoisyFit {
       element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
       element.wanted = least_samples;
-      if (known >= 0) parts[index_before.at(known)].push_back(e);
+      if (known >= 0) parts[at(index_before[at(known)])].push_back(e);
     }
-    for (const auto& [whole, ids] : parts) share_samples(before[at(whole)], ids, elements_);
+    for (std::size_t whole = 0; whole < before.size(); ++whole)
+      share_samples(before[whole], parts[whole], elements_);
     find_reaches();
   }
 
@@ -271,8 +270,9 @@ class NoisyFit {
     if (report_.rounds >= most_noisy_rounds) report_.limit = FieldLimit::rounds;
     if (report_.limit != FieldLimit::none) return false;
     // Samples that compared the elements are theirs now.
-    for (NoisyElement& element : elements_)
-      if (element.samples.size() > at(element.wanted)) fit(element);
+    parallel_for(elements_.size(), [&](std::size_t e) {
+      if (elements_[e].samples.size() > at(elements_[e].wanted)) fit(elements_[e]);
+    });
     sum_up();
     std::vector<int> to_split;
     double count = static_cast<double>(elements_.size()), unknowns = static_cast<double>(unknowns_);
@@ -327,26 +327,27 @@ class NoisyFit {
 
   /// The fewest elements that are likely to make the error do, and without which it would.
   std::vector<int> worst() const {
-    std::vector<int> order(elements_.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto error = [&](int e) {
-      return elements_[at(e)].area * elements_[at(e)].known_error();
-    };
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) > error(b); });
+    std::vector<std::pair<double, int>> heap;  // error and −index
     double known = 0;
-    for (const int e : order) known += error(e);
+    for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
+      heap.emplace_back(elements_[at(e)].area * elements_[at(e)].known_error(), -e);
+      known += heap.back().first;
+    }
     // The sum over elements of what noise did not surely make is not what is said of all together.
     const double most = std::min(allowed() / correction_, known);
     const double may_stay = noisy_share_left_alone * most, aim = aim_of_round * most;
+    std::ranges::make_heap(heap);
+    std::vector<int> found;
     double without = known, after = known;
-    std::size_t count = 0;
-    while (count < order.size() && without > may_stay && after > aim) {
-      const double here = error(order[count++]);
-      without -= here;
-      after -= (1 - left_of_improved) * here;
+    while (!heap.empty() && without > may_stay && after > aim) {
+      std::ranges::pop_heap(heap);
+      const auto [error, minus_e] = heap.back();
+      found.push_back(-minus_e);
+      heap.pop_back();
+      without -= error;
+      after -= (1 - left_of_improved) * error;
     }
-    order.resize(count);
-    return order;
+    return found;
   }
 
   AdaptiveField result() {
@@ -378,9 +379,9 @@ class NoisyFit {
   ElementTable table_;
   CountedElements counted_;
   std::vector<NoisyElement> elements_;
-  double largest_ = -1;  ///< bound of the first elements; < 0: not known yet
-  std::unordered_map<int, int> index_of_node_;
-  std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
+  double largest_ = -1;             ///< bound of the first elements; < 0: not known yet
+  std::vector<int> index_of_node_;  ///< of elements_; −1: of none
+  std::optional<Rgb> scale_;        ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0;
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;

@@ -17,6 +17,8 @@ constexpr double cells_per_element = 1;
 /// left.
 constexpr std::size_t most_in_cell = 4;
 constexpr int most_quarterings = 12;
+/// So many may meet at a corner: where a quarter has no fewer of them, others would not either.
+constexpr std::size_t most_at_corner = 8;
 /// Points that rounding puts beside their element are looked for in its cells, too.
 constexpr double cell_margin = 1e-6;
 /// Points this close to an edge lie in the first of the elements at it: symmetric places lie there
@@ -74,6 +76,9 @@ ElementLookup::ElementLookup(const ElementTable& elements) {
   }
   for (Grid& grid : grids_)
     if (!grid.elements.empty()) fill(elements, grid);
+  maps_.shrink_to_fit();
+  cells_.shrink_to_fit();
+  items_.shrink_to_fit();
 }
 
 void ElementLookup::fill(const ElementTable& elements, Grid& grid) {
@@ -109,14 +114,15 @@ void ElementLookup::fill(const ElementTable& elements, Grid& grid) {
   for (int c = 0; c < static_cast<int>(inside.size()); ++c) {
     const std::size_t first = items_.size();
     fill_cell(triangles, std::move(inside[at(c)]), grid.first_cell + c,
-              {c % grid.columns, c / grid.columns}, 0);
+              {c % grid.columns, c / grid.columns}, 0, true);
     for (std::size_t i = first; i < items_.size(); ++i) items_[i] = grid.elements[at(items_[i])];
   }
 }
 
 void ElementLookup::fill_cell(const FlatTriangles& triangles, std::vector<int> inside, int cell,
-                              const Vec2& low, int quarterings) {
-  if (inside.size() <= most_in_cell || quarterings == most_quarterings) {
+                              const Vec2& low, int quarterings, bool is_fewer) {
+  if (inside.size() <= most_in_cell || quarterings == most_quarterings ||
+      (inside.size() <= most_at_corner && !is_fewer)) {
     cells_[at(cell)].first = static_cast<int>(items_.size());
     items_.insert(items_.end(), inside.begin(), inside.end());
     cells_[at(cell)].end = static_cast<int>(items_.size());
@@ -131,7 +137,8 @@ void ElementLookup::fill_cell(const FlatTriangles& triangles, std::vector<int> i
     std::vector<int> here;
     for (const int t : inside)
       if (may_overlap(triangles[at(t)], corner, size)) here.push_back(t);
-    fill_cell(triangles, std::move(here), first + k, corner, quarterings + 1);
+    const bool fewer = here.size() < inside.size();
+    fill_cell(triangles, std::move(here), first + k, corner, quarterings + 1, fewer);
   }
 }
 

@@ -49,8 +49,9 @@ class ElementLookup {
   using FlatTriangles = std::vector<std::array<Vec2, 3>>;
 
   void fill(const ElementTable& elements, Grid& grid);
+  /// `is_fewer`: inside the cell are fewer than in the one that it is a quarter of.
   void fill_cell(const FlatTriangles& triangles, std::vector<int> inside, int cell, const Vec2& low,
-                 int quarterings);
+                 int quarterings, bool is_fewer);
   const Cell& cell_at(const Grid& grid, Vec2 q) const;
 
   std::vector<PlaceMap> maps_;

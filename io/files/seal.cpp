@@ -18,10 +18,7 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash;
 }
 
-std::string seal(std::string xml) {
-  const std::string end = comment(xml);
-  return std::move(xml) + end;
-}
+std::string seal(std::string xml) { return std::move(xml.append(comment(xml))); }
 
 bool is_sealed(std::string_view bytes) {
   static const std::size_t length = comment({}).size();

@@ -36,23 +36,25 @@ void add_array(vtkFieldData* data, const char* name, const std::vector<Value>& v
 }
 
 /// Cuts out the ranges that VTK notes as information keys: for empty arrays and values near the
-/// ends of the range of doubles its own reader fails on them.
-std::string without_keys(std::string xml) {
-  std::string result;
-  result.reserve(xml.size());
+/// ends of the range of doubles its own reader fails on them. In place, for files may be large.
+void remove_keys(std::string& xml) {
   constexpr std::string_view begin = "<InformationKey", end = "</InformationKey>";
-  std::size_t place = 0;
+  std::size_t kept = 0, place = 0;
+  const auto keep_up_to = [&](std::size_t last) {
+    std::copy(xml.data() + place, xml.data() + last, xml.data() + kept);
+    kept += last - place;
+  };
   for (std::size_t key = xml.find(begin); key != std::string::npos; key = xml.find(begin, place)) {
-    const std::size_t line = xml.find_last_not_of(' ', key - 1) + 1;
-    result.append(xml, place, line - place);
+    keep_up_to(xml.find_last_not_of(' ', key - 1) + 1);
     place = xml.find(end, key) + end.size();
     if (place < xml.size() && xml[place] == '\n') ++place;
   }
-  return result.append(xml, place);
+  keep_up_to(xml.size());
+  xml.resize(kept);
 }
 
 template <class Writer, class Grid>
-std::string encode(Grid* grid, const char* caller) {
+std::string written(Grid* grid, const char* caller) {
   VtkMessages messages;
   vtkNew<Writer> writer;
   messages.listen_to(writer);
@@ -64,7 +66,14 @@ std::string encode(Grid* grid, const char* caller) {
   writer->SetInputData(grid);
   if (writer->Write() == 0 || !messages.first.empty())
     throw Error(ErrorCode::unwritable, caller, "the data could not be encoded");
-  return seal(without_keys(writer->GetOutputString()));
+  return writer->GetOutputString();
+}
+
+template <class Writer, class Grid>
+std::string encode(Grid* grid, const char* caller) {
+  std::string xml = written<Writer>(grid, caller);
+  remove_keys(xml);
+  return seal(std::move(xml));
 }
 
 }  // namespace

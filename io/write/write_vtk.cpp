@@ -160,9 +160,9 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
 }
 
 /// The polynomials themselves, by their values at the nodes of each element.
-std::string polynomial_bytes(const SolveResult& result) {
+auto polynomial_result_grid(const SolveResult& result) {
   const NodeValues nodes = node_values(result);
-  const auto grid = polynomial_grid(nodes.points, nodes.order);
+  auto grid = polynomial_grid(nodes.points, nodes.order);
   add_cell_data({result.elements, result.solution, result.regions, result, result.irradiance.order},
                 result.emitters.size(), grid->GetCellData());
   add_edge_orders(result.elements, grid->GetCellData());
@@ -171,7 +171,11 @@ std::string polynomial_bytes(const SolveResult& result) {
   add_bounces(grid->GetPointData(), nodes.bounces);
   add_picture_places(used_paints(result.scene, result.elements), nodes, grid->GetPointData());
   add_field_data(result, grid->GetFieldData());
-  return vtk_bytes(grid, "write_result");
+  return grid;
+}
+
+std::string polynomial_bytes(const SolveResult& result) {
+  return vtk_bytes(polynomial_result_grid(result), "write_result");
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
   cell.is_dark = sum.is_dark && !sum.is_lit;
   cell.is_smooth = sum.is_smooth;
   cell.signature = sum.signature;
-  if (cell.degree == degrees[0] || !cell.is_smooth)
+  if (cell.degree < degrees[2] || !cell.is_smooth)
     cell.error = std::max(cell.error,
                           std::ldexp(share_of_spread, -cell.halvings) * area * cell.hidden.size());
   const double all = area * sum.unobstructed;

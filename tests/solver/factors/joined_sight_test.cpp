@@ -264,6 +264,27 @@ TEST(JoinedSight, LatticesAgreeWithCells) {
   EXPECT_GT(checked, 50);
 }
 
+/// Past many boxes all points of a cell may see the same edges, and two rules agree by chance.
+TEST(JoinedSight, CellsDoNotAgreeByChance) {
+  constexpr int side = 1, tile = 6;  // faces: the side of the first box looks at the tile
+  for (const double y : {.75, 2.25}) {
+    Scene scene;
+    test::add_material(scene, 0.5, 0);
+    add_box(scene, {.8, 1.8, 2.8}, {.4, .4, .4}, 1, true);
+    add_tiles(scene, {6, y, 1.5}, {0, 0, .75}, {0, .75, 0}, 1);
+    for (int k = 0; k < 125; ++k)
+      if (k != 7)  // the first one
+        add_box(scene, {k / 25 + .8, k / 5 % 5 + .8, k % 5 + .8}, {.4, .4, .4}, 1, true);
+    const Sights sights(scene);
+    ASSERT_EQ(sights.scene.row[side], side);
+    ASSERT_EQ(sights.scene.row[tile], tile);
+    const MutualSight coarse = partial_sight(sights.sight, tile, side, {8e-6, 2e-7, 300000});
+    const MutualSight fine = partial_sight(sights.sight, tile, side, {1e-9, 1e-8, 300000});
+    ASSERT_GT(fine.value, 1e-4);
+    EXPECT_LT(std::abs(coarse.value - fine.value) - fine.error, coarse.error);
+  }
+}
+
 /// A lattice says nothing where things are narrower than its points are apart, or where all points
 /// see nothing; and it takes no more points than are allowed.
 TEST(JoinedSight, LatticesDoNotSayWhatTheyDidNotSee) {

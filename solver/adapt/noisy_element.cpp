@@ -21,6 +21,13 @@ constexpr double sure = 2;
 /// all as without any slack.
 constexpr double power_of_slack = 0.3, most_slack = 16;
 
+/// No element has more samples than this.
+constexpr int most_samples = 96;
+/// Where this share of an element's error comes of too few samples, it gets more of them.
+constexpr double few_samples = 0.5;
+/// An element whose light varies by less than this share of it is worth samples for order 2.
+constexpr double varies_little = 0.3;
+
 constexpr int most_coefficients = basis_size(highest_order);
 using BasisRow = Eigen::Matrix<double, most_coefficients, 1>;
 /// As large as they ever are on the stack: there are very many fits.
@@ -100,6 +107,16 @@ void fit(NoisyElement& element) {
     element.by_chance = polynomial.by_chance;
   }
   element.is_fitted = true;
+}
+
+int next_samples(const NoisyElement& element) {
+  const int now = static_cast<int>(element.samples.size());
+  const double mean = element.coefficients.row(0).matrix().norm();
+  const bool varies = std::sqrt(std::max(element.left, 0.)) >= varies_little * mean;
+  const int enough = varies ? least_samples_of_parts : 2 * basis_size(highest_order);
+  const bool too_few = element.by_chance > few_samples * element.known_error();
+  if (now >= most_samples || !(too_few || now < enough)) return now;
+  return std::min(std::max(2 * now, least_samples_of_parts), most_samples);
 }
 
 void share_samples(const NoisyElement& whole, std::span<const int> parts,

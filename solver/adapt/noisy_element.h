@@ -49,6 +49,14 @@ Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
 /// together, times the trace of the inverse normal matrix, are what the fit is off by chance.
 void fit(NoisyElement& element);
 
+/// Parts of an element begin with no fewer samples.
+constexpr int least_samples_of_parts = 6;
+
+/// The samples that an element should have before it is split: more, up to 96, where too few of
+/// them are what it is off by, or where light varies so little that it may be an order that is
+/// missing.
+int next_samples(const NoisyElement& element);
+
 /// Gives each sample of an element to the part of it where it lies.
 void share_samples(const NoisyElement& whole, std::span<const int> parts,
                    std::span<NoisyElement> elements);

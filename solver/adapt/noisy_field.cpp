@@ -25,12 +25,9 @@ constexpr double noisy_share_left_alone = 0.25;
 constexpr std::array<std::pair<double, int>, 3> first_samples = {{{0.5, 6}, {0.02, 3}, {0, 2}}};
 /// Of the same: what a round aims at, if more samples or parts leave this share of an element's.
 constexpr double aim_of_round = 0.8, left_of_improved = 0.5;
-/// No element has more samples than this; parts have no fewer than that.
-constexpr int most_samples = 96, least_samples = 6;
-/// Where this share of an element's error comes of too few samples, it gets more of them.
-constexpr double few_samples = 0.5;
-/// An element whose light varies by less than this share of it is worth samples for order 2.
-constexpr double varies_little = 0.3;
+/// Where elements must not be split, rounds that leave more than this of the square of the error
+/// do not pay.
+constexpr double hardly_less = 0.97;
 /// An edge across an element leaves a sixth of the square of its height on the mean of all places;
 /// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
 constexpr double missed = 3;
@@ -125,7 +122,7 @@ class NoisyFit {
       element.normal = table_.normal[at(e)];
       element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
-      element.wanted = least_samples;
+      element.wanted = least_samples_of_parts;
       if (known >= 0) parts[at(index_before[at(known)])].push_back(e);
     }
     for (std::size_t whole = 0; whole < before.size(); ++whole)
@@ -271,7 +268,10 @@ class NoisyFit {
     if (report_.limit != FieldLimit::none) return false;
     // Samples that compared the elements are theirs now.
     parallel_for(elements_.size(), [&](std::size_t e) {
-      if (elements_[e].samples.size() > at(elements_[e].wanted)) fit(elements_[e]);
+      NoisyElement& element = elements_[e];
+      if (element.samples.size() <= at(element.wanted)) return;
+      fit(element);
+      element.wanted = static_cast<int>(element.samples.size());
     });
     sum_up();
     std::vector<int> to_split;
@@ -280,9 +280,8 @@ class NoisyFit {
     FieldLimit limit = FieldLimit::fixed;
     for (const int e : worst()) {
       NoisyElement& element = elements_[at(e)];
-      const int now = static_cast<int>(element.samples.size());
-      if (now < most_samples && (is_short_of_samples(element) || now < samples_to_split(element))) {
-        element.wanted = std::min(std::max(2 * now, first_samples[0].second), most_samples);
+      if (const int samples = next_samples(element); at(samples) > element.samples.size()) {
+        element.wanted = samples;
         is_changed = true;
         continue;
       }
@@ -299,10 +298,13 @@ class NoisyFit {
       unknowns += (growth_of_split - 1) * basis_size(1);
       to_split.push_back(e);
     }
-    if (to_split.empty() && !is_changed) {
+    const bool is_stuck =
+        limit != FieldLimit::fixed && square_error_ > hardly_less * last_square_error_;
+    if (to_split.empty() && (!is_changed || is_stuck)) {
       report_.limit = limit;
       return false;
     }
+    last_square_error_ = square_error_;
     if (!to_split.empty()) {
       mesh_.bisect(to_split);
       take_elements();
@@ -312,17 +314,6 @@ class NoisyFit {
                           std::sqrt(correction_ * square_error_ / square_)),
               0);
     return true;
-  }
-
-  static bool is_short_of_samples(const NoisyElement& element) {
-    return element.by_chance > few_samples * element.known_error();
-  }
-
-  /// Where light varies little, what is missing may be an order.
-  static int samples_to_split(const NoisyElement& element) {
-    const double mean = element.coefficients.row(0).matrix().norm();
-    return std::sqrt(std::max(element.left, 0.)) < varies_little * mean ? 2 * basis_size(2)
-                                                                        : least_samples;
   }
 
   /// The fewest elements that are likely to make the error do, and without which it would.
@@ -383,6 +374,7 @@ class NoisyFit {
   std::vector<int> index_of_node_;  ///< of elements_; −1: of none
   std::optional<Rgb> scale_;        ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0;
+  double last_square_error_ = HUGE_VAL;  ///< square_error_ of the round before
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;
   std::size_t unknowns_ = 0;

@@ -41,7 +41,7 @@ struct ElementPass {
 FinalPass final_pass(const ReflectingScene& scene, const ReflectedMesh& mesh,
                      const FirstLight& light, const ElementField& leaving,
                      const std::vector<int>& strata, int use, const Progress& progress) {
-  const ElementPass pass{scene, mesh, light, QuickField(leaving), use};
+  const ElementPass pass{scene, mesh, light, QuickField(mesh, leaving), use};
   FinalPass result;
   result.rest = zero_field(mesh);
   result.noise.resize(at(mesh.count()));

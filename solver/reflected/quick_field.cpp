@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include <array>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -24,15 +25,23 @@ Eigen::MatrixXd to_powers(int order) {
 
 }  // namespace
 
-QuickField::QuickField(const ElementField& field) : order_(field.order), first_(field.first) {
+QuickField::QuickField(const ElementField& field) {
   static const std::array<Eigen::MatrixXd, max_reflected_order + 1> change = {
       to_powers(0), to_powers(1), to_powers(2), to_powers(3)};
-  powers_.resize(at(first_.back()));
+  powers_.reserve(at(field.first.back()));
   for (int e = 0; e < field.count(); ++e) {
-    const Eigen::MatrixXd powers = change[at(order_[at(e)])] * field.of(e).matrix();
+    const int order = field.order[at(e)];
+    parts_.push_back({static_cast<int>(powers_.size()), order});
+    const Eigen::MatrixXd powers = change[at(order)] * field.of(e).matrix();
     for (Eigen::Index k = 0; k < powers.rows(); ++k)
-      powers_[at(first_[at(e)]) + static_cast<std::size_t>(k)] = powers.row(k).transpose();
+      powers_.emplace_back(powers.row(k).transpose());
   }
+}
+
+QuickField::QuickField(const ReflectedMesh& mesh, const ElementField& field) : QuickField(field) {
+  std::vector<Part> of_triangles;
+  for (const int e : mesh.element) of_triangles.push_back(e < 0 ? Part{0, 0} : parts_[at(e)]);
+  parts_ = std::move(of_triangles);
 }
 
 }  // namespace halfshade

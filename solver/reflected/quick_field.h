@@ -7,15 +7,20 @@
 
 namespace halfshade {
 
-/// A field of order ≤ max_reflected_order as sums of powers, for the many places that rays ask for.
+/// A field of order ≤ max_reflected_order as sums of powers, for the many places that rays ask for:
+/// what takes the time is to fetch it from memory.
 class QuickField {
  public:
   explicit QuickField(const ElementField& field);
 
+  /// The same with the forest's triangles, where rays end, in the place of their elements.
+  QuickField(const ReflectedMesh& mesh, const ElementField& field);
+
   Rgb value(int element, const TrianglePlace& place) const {
     const double s = place.x(), t = place.y();
-    const Rgb* c = powers_.data() + first_[at(element)];
-    switch (order_[at(element)]) {
+    const auto [first, order] = parts_[at(element)];
+    const Rgb* c = powers_.data() + first;
+    switch (order) {
       case 0:
         return c[0];
       case 1:
@@ -29,10 +34,13 @@ class QuickField {
   }
 
   /// Of an element: the coefficients of 1, s, t, s², st, t², s³, s²t, st², t³, up to its order.
-  const Rgb* powers(int element) const { return powers_.data() + first_[at(element)]; }
+  const Rgb* powers(int element) const { return powers_.data() + parts_[at(element)].first; }
 
  private:
-  std::vector<int> order_, first_;
+  struct Part {
+    int first, order;  ///< the first of its powers
+  };
+  std::vector<Part> parts_;  ///< of each element, or triangle
   std::vector<Rgb> powers_;
 };
 

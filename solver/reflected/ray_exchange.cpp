@@ -35,14 +35,14 @@ int strata_for(double area, double area_of_all, int most) {
                     std::min(fewest_kept_strata, most), most);
 }
 
-/// What arrives by each half of the rays.
-ChannelArray arriving(const ReflectedMesh& mesh, const NodeRays& rays, const QuickField& leaving) {
+/// What arrives by each half of the rays of what leaves triangles.
+ChannelArray arriving(const NodeRays& rays, const QuickField& leaving) {
   ChannelArray values(static_cast<Eigen::Index>(rays.rays.size()), 3);
   for (std::size_t k = 0; k < rays.rays.size(); ++k) {
     Rgb sum = Rgb::Zero();
     for (int i = rays.first[k]; i < rays.first[k + 1]; ++i) {
       const RayEnd& end = rays.ends[at(i)];
-      sum += leaving.value(mesh.element[at(end.triangle)], end.place());
+      sum += leaving.value(end.triangle, end.place());
     }
     values.row(static_cast<Eigen::Index>(k)) = (sum / rays.rays[k]).transpose();
   }
@@ -114,7 +114,7 @@ Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickF
   Rgb sum = Rgb::Zero();
   for (const RayEnd& end : ends) {
     const ForestPlace leaf = mesh.forest.leaf_at({end.triangle, end.place()});
-    sum += leaving.value(mesh.element[at(leaf.triangle)], leaf.place);
+    sum += leaving.value(leaf.triangle, leaf.place);
   }
   return first + sum / rays;
 }
@@ -164,11 +164,11 @@ ElementField RayExchange::source(const ReflectedMesh& mesh) const {
 }
 
 ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& leaving) const {
-  const QuickField quick(leaving);
+  const QuickField quick(mesh, leaving);
   ElementField result = zero_field(mesh);
   parallel_for(at(mesh.count()), [&](std::size_t e) {
     const int t = mesh.triangle[e];
-    const ChannelArray values = means_of_halves(arriving(mesh, *of_triangle_[at(t)], quick));
+    const ChannelArray values = means_of_halves(arriving(*of_triangle_[at(t)], quick));
     result.of(static_cast<int>(e)) =
         (element_nodes_of(mesh.order[at(t)]).fit * values.matrix()).array();
   });
@@ -176,13 +176,13 @@ ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& l
 }
 
 FieldNoise RayExchange::noise(const ReflectedMesh& mesh, const ElementField& leaving) const {
-  const QuickField quick(leaving);
+  const QuickField quick(mesh, leaving);
   FieldNoise noise(at(mesh.count()));
   parallel_for(noise.size(), [&](std::size_t e) {
     const int t = mesh.triangle[e];
     const NodeRays& rays = *of_triangle_[at(t)];
     noise[e] = noise_of_halves(element_nodes_of(mesh.order[at(t)]), mesh.forest.area(t),
-                               rays.source + arriving(mesh, rays, quick));
+                               rays.source + arriving(rays, quick));
   });
   return noise;
 }

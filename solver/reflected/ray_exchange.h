@@ -79,7 +79,7 @@ struct Gathering {
   std::size_t rays(int strata) const;
 };
 
-/// The same from S and from a field on the elements.
+/// The same from S and from a field on the elements, by triangles.
 Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
              const RayOrigin& from, int strata, std::uint64_t seed);
 

@@ -69,12 +69,12 @@ void finish(ReflectedLight::State& state) {
   if (state.field.count() != state.mesh.count()) state.field = zero_field(state.mesh);
   state.light.painted.update(state.mesh, state.light.rho);
   state.leaving_rest = reflected_part(state.mesh, state.light, state.field);
-  state.leaving.emplace(state.leaving_rest);
+  state.leaving.emplace(state.mesh, state.leaving_rest);
   state.field.coefficients.rowwise() /= state.scale.transpose();
-  state.irradiance.emplace(state.field);
+  state.irradiance.emplace(state.mesh, state.field);
   for (ElementField& part : state.by_bounce) {
     part.coefficients.rowwise() /= state.scale.transpose();
-    state.irradiance_by_bounce.emplace_back(part);
+    state.irradiance_by_bounce.emplace_back(state.mesh, part);
   }
   state.elements = element_table(state.mesh, state.reflecting.roots);
   state.report.elements = state.mesh.count();
@@ -85,7 +85,7 @@ Rgb value_in(const ReflectedMesh& mesh, const QuickField& field, int surface,
              const Vec3& position) {
   const ForestPlace leaf = mesh.forest.leaf_at(surface, position);
   if (leaf.triangle < 0) return Rgb::Zero();
-  return field.value(mesh.element[at(leaf.triangle)], leaf.place);
+  return field.value(leaf.triangle, leaf.place);
 }
 
 }  // namespace

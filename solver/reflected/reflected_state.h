@@ -30,10 +30,10 @@ struct ReflectedLight::State {
   ReflectedMesh mesh;
   ElementTable elements;
   ElementField field;
-  ElementField leaving_rest;  ///< what leaves, without S
-  std::optional<QuickField> irradiance, leaving;
-  std::vector<ElementField> by_bounce;  ///< if asked for, as the next
-  std::vector<QuickField> irradiance_by_bounce;
+  ElementField leaving_rest;                      ///< what leaves, without S
+  std::optional<QuickField> irradiance, leaving;  ///< by triangles of the mesh
+  std::vector<ElementField> by_bounce;            ///< if asked for, as the next
+  std::vector<QuickField> irradiance_by_bounce;   ///< likewise
   ReflectedReport report;
   mutable std::once_flag gather_made;
   mutable std::optional<ExactGather> gather;  ///< made when it is asked for

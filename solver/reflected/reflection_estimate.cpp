@@ -58,7 +58,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
                                   const SplitIrradiance& irradiance,
                                   const ReflectionProbes& options, const Progress& progress) {
   const auto& [mesh, light, exchange, systems] = system;
-  const QuickField leaving(options.leaving);
+  const QuickField leaving(mesh, options.leaving);
   const QuickField rest(irradiance.rest);
   std::vector<ProbePlace> probes =
       spread_probes(mesh, options.weight, options.shares, options.points, options.use);

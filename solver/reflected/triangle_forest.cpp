@@ -30,34 +30,37 @@ TriangleForest::TriangleForest(const ElementTable& roots)
     : root_count_(roots.count()), roots_(roots) {
   for (int e = 0; e < roots.count(); ++e) {
     const auto corner = roots.triangle(e);
-    triangles_.push_back({corner, area_of(corner), e, 0, -1, longest_edge(corner)});
+    add({corner, area_of(corner), e, 0});
   }
+}
+
+void TriangleForest::add(const Triangle& triangle) {
+  triangles_.push_back(triangle);
+  splits_.push_back({-1, longest_edge(triangle.corner)});
 }
 
 void TriangleForest::bisect(int triangle) {
   const Triangle parent = triangles_[at(triangle)];
-  if (parent.child >= 0) return;
-  const std::size_t a = at(parent.cut), b = (a + 1) % 3, c = (a + 2) % 3;
+  if (!is_leaf(triangle)) return;
+  const std::size_t a = at(cut(triangle)), b = (a + 1) % 3, c = (a + 2) % 3;
   const Vec3 middle = 0.5 * (parent.corner[a] + parent.corner[b]);
-  triangles_[at(triangle)].child = count();
+  splits_[at(triangle)].child = count();
   for (const auto& corner : {std::array<Vec3, 3>{parent.corner[a], middle, parent.corner[c]},
                              std::array<Vec3, 3>{middle, parent.corner[b], parent.corner[c]}})
-    triangles_.push_back(
-        {corner, 0.5 * parent.area, parent.root, parent.level + 1, -1, longest_edge(corner)});
+    add({corner, 0.5 * parent.area, parent.root, parent.level + 1});
 }
 
 ForestPlace TriangleForest::leaf_at(ForestPlace from) const {
   for (;;) {
-    const Triangle& triangle = triangles_[at(from.triangle)];
-    if (triangle.child < 0) return from;
+    const auto [child, edge] = splits_[at(from.triangle)];
+    if (child < 0) return from;
     const std::array<double, 3> w = {1 - from.place.x() - from.place.y(), from.place.x(),
                                      from.place.y()};
-    const double wa = w[at(triangle.cut)], wb = w[at((triangle.cut + 1) % 3)];
-    const double wc = w[at((triangle.cut + 2) % 3)];
+    const double wa = w[at(edge)], wb = w[at((edge + 1) % 3)], wc = w[at((edge + 2) % 3)];
     if (wa >= wb - edge_margin)
-      from = {triangle.child, {2 * wb, wc}};
+      from = {child, {2 * wb, wc}};
     else
-      from = {triangle.child + 1, {wb - wa, wc}};
+      from = {child + 1, {wb - wa, wc}};
   }
 }
 

@@ -15,7 +15,7 @@ class TriangleForest {
 
   int count() const { return static_cast<int>(triangles_.size()); }
   int root_count() const { return root_count_; }
-  bool is_leaf(int triangle) const { return triangles_[at(triangle)].child < 0; }
+  bool is_leaf(int triangle) const { return splits_[at(triangle)].child < 0; }
   int root(int triangle) const { return triangles_[at(triangle)].root; }
   int level(int triangle) const { return triangles_[at(triangle)].level; }
   const std::array<Vec3, 3>& corners(int triangle) const { return triangles_[at(triangle)].corner; }
@@ -25,10 +25,10 @@ class TriangleForest {
   void bisect(int triangle);
 
   /// The edge from this corner to the next is the one that bisect() cuts.
-  int cut(int triangle) const { return triangles_[at(triangle)].cut; }
+  int cut(int triangle) const { return splits_[at(triangle)].cut; }
 
   /// The first half of a triangle that is no leaf; the second follows it.
-  int first_half(int triangle) const { return triangles_[at(triangle)].child; }
+  int first_half(int triangle) const { return splits_[at(triangle)].child; }
 
   /// The leaf that holds a place, and where in it.
   ForestPlace leaf_at(ForestPlace place) const;
@@ -41,11 +41,17 @@ class TriangleForest {
     std::array<Vec3, 3> corner;
     double area = 0;
     int root = 0, level = 0;
+  };
+  /// Apart, for it is all that a search from the root reads.
+  struct Split {
     int child = -1;  // the first of two; −1 in leaves
     int cut = 0;     // the edge from this corner to the next is the one that is cut
   };
 
+  void add(const Triangle& triangle);
+
   std::vector<Triangle> triangles_;
+  std::vector<Split> splits_;  ///< of each
   int root_count_ = 0;
   ElementLookup roots_;
 };

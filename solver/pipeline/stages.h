@@ -30,7 +30,7 @@ class Stages {
     const std::size_t count = stage();
     const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
     const double cpu = static_cast<double>(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-    reports_.push_back({name, elapsed.count(), count, {}, cpu});
+    end({name, elapsed.count(), count, {}, cpu});
   }
 
   void leave_out_if(bool needless, const char* name, const std::string& because) {
@@ -38,6 +38,9 @@ class Stages {
   }
 
  private:
+  /// What the stage took beside its result, the next one is to have.
+  void end(StageReport report);
+
   std::vector<StageReport>& reports_;
 };
 

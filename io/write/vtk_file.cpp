@@ -53,6 +53,7 @@ void remove_keys(std::string& xml) {
   xml.resize(kept);
 }
 
+/// Apart from what is done to it, so that the writer's own copy is gone by then.
 template <class Writer, class Grid>
 std::string written(Grid* grid, const char* caller) {
   VtkMessages messages;

@@ -159,7 +159,8 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
   return vtk_bytes(grid, "write_result");
 }
 
-/// The polynomials themselves, by their values at the nodes of each element.
+/// The polynomials themselves, by their values at the nodes of each element, which are gone when
+/// the grid is encoded.
 auto polynomial_result_grid(const SolveResult& result) {
   const NodeValues nodes = node_values(result);
   auto grid = polynomial_grid(nodes.points, nodes.order);

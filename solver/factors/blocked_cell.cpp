@@ -18,7 +18,7 @@ constexpr double share_of_unseen = 0.5;
 constexpr std::array<double, 6> share_of_gaps = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 0};
 constexpr int surely_dark = 100;  ///< instead of such a number: nothing can be seen
 /// Of the spread of values, what a first cell may be off by, though two rules agree by chance; half
-/// of it after each halving.
+/// of it after each halving. Less only of smooth cells that three rules have looked at.
 constexpr double share_of_spread = 0.1;
 
 /// How much of a cell lies outside of the outermost points of its rules, about.

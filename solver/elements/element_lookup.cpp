@@ -14,11 +14,12 @@ namespace {
 
 constexpr double cells_per_element = 1;
 /// Cells with more elements are quartered, down to sizes at which corners would be all that is
-/// left.
-constexpr std::size_t most_in_cell = 4;
+/// left. The smaller they are, the more they may have: few points lie there, and splinters side by
+/// side would take thousands of cells each.
+constexpr double most_in_cell = 4, more_in_quarter = 1.5;
 constexpr int most_quarterings = 12;
 /// So many may meet at a corner: where a quarter has no fewer of them, others would not either.
-constexpr std::size_t most_at_corner = 8;
+constexpr double most_at_corner = 8;
 /// Points that rounding puts beside their element are looked for in its cells, too.
 constexpr double cell_margin = 1e-6;
 /// Points this close to an edge lie in the first of the elements at it: symmetric places lie there
@@ -121,8 +122,9 @@ void ElementLookup::fill(const ElementTable& elements, Grid& grid) {
 
 void ElementLookup::fill_cell(const FlatTriangles& triangles, std::vector<int> inside, int cell,
                               const Vec2& low, int quarterings, bool is_fewer) {
-  if (inside.size() <= most_in_cell || quarterings == most_quarterings ||
-      (inside.size() <= most_at_corner && !is_fewer)) {
+  const double share = static_cast<double>(inside.size()) / std::pow(more_in_quarter, quarterings);
+  if (share <= most_in_cell || quarterings == most_quarterings ||
+      (share <= most_at_corner && !is_fewer)) {
     cells_[at(cell)].first = static_cast<int>(items_.size());
     items_.insert(items_.end(), inside.begin(), inside.end());
     cells_[at(cell)].end = static_cast<int>(items_.size());

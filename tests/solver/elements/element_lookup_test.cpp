@@ -57,6 +57,35 @@ TEST(ElementLookup, OnCommonEdgesTheFirstElementCounts) {
     }
 }
 
+/// Triangles from a corner to far away, hundreds of times as long as wide.
+ElementTable splinters() {
+  constexpr int count = 1500;
+  ElementTable elements;
+  elements.points.emplace_back(0, 0, 0);
+  for (int k = 0; k <= count; ++k)
+    elements.points.emplace_back(1, static_cast<double>(k) / count, 0);
+  for (int k = 0; k < count; ++k) {
+    elements.corners.push_back({0, k + 1, k + 2});
+    elements.surface.push_back(0);
+    elements.normal.push_back(Vec3::UnitZ());
+    elements.area.push_back(0.5 / count);
+  }
+  return elements;
+}
+
+TEST(ElementLookup, FindsPlacesInSplinters) {
+  const ElementTable elements = splinters();
+  const ElementLookup lookup(elements);
+  test::Random random(3);
+  for (int e = 0; e < elements.count(); ++e)
+    for (int k = 0; k < 20; ++k) {
+      const double far = random(0.01, 0.99), across = random(0.01, 0.99);
+      const TrianglePlace place(far * across, far * (1 - across));
+      const ForestPlace found = lookup.find(0, position(elements.triangle(e), place));
+      ASSERT_EQ(found.triangle, e) << place.transpose();
+    }
+}
+
 TEST(ElementLookup, PointsBesideASurfaceBelongToWhatIsNext) {
   const ElementTable elements = uneven_elements();
   const ElementLookup lookup(elements);

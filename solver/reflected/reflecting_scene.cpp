@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -26,10 +28,23 @@ Vec2 on_disc(double u, double v) {
   return {r * std::cos(angle), r * std::sin(angle)};
 }
 
+/// The numbers from 0 to `count` − 1 in random order.
+std::vector<int> shuffled(int count, std::uint64_t seed) {
+  std::vector<int> order(at(count));
+  std::iota(order.begin(), order.end(), 0);
+  for (int i = count - 1; i > 0; --i) {
+    const double place = random_number(seed, static_cast<std::uint64_t>(i)) * (i + 1);
+    std::swap(order[at(i)], order[static_cast<std::size_t>(place)]);
+  }
+  return order;
+}
+
 /// Directions in square tiles of 16, so that packets are narrow.
 void fill_directions(const RayOrigin& from, int strata, std::uint64_t seed,
                      std::vector<Vec3>& directions) {
   const PlaneFrame frame = make_frame(from.position, from.normal);
+  const std::vector<int> across = shuffled(strata, mix_bits(seed ^ 0x2545f491)),
+                         along = shuffled(strata, mix_bits(seed ^ 0x6c62272e));
   constexpr int tile = 4;
   directions.clear();
   std::uint64_t place = 0;
@@ -37,8 +52,9 @@ void fill_directions(const RayOrigin& from, int strata, std::uint64_t seed,
     for (int bj = 0; bj < strata; bj += tile)
       for (int i = bi; i < std::min(bi + tile, strata); ++i)
         for (int j = bj; j < std::min(bj + tile, strata); ++j, place += 2) {
-          const Vec2 d = on_disc((i + random_number(seed, place)) / strata,
-                                 (j + random_number(seed, place + 1)) / strata);
+          const double u = (across[at(j)] + random_number(seed, place)) / strata;
+          const double v = (along[at(i)] + random_number(seed, place + 1)) / strata;
+          const Vec2 d = on_disc((i + u) / strata, (j + v) / strata);
           const double height = std::sqrt(std::max(0., 1 - d.squaredNorm()));
           directions.push_back(d.x() * frame.e1 + d.y() * frame.e2 + height * frame.normal);
         }

@@ -38,9 +38,10 @@ struct RayOrigin {
   int plane = -1;          ///< of the soup, that it lies in; −1: none
 };
 
-/// Rays over the hemisphere above a point, one in each of strata² parts of equal form factor, as
-/// jittered points of a square taken to the disc below the hemisphere (Shirley and Chiu 1997).
-/// Holds its buffers; one a thread.
+/// Rays over the hemisphere above a point, one in each of strata² parts of equal form factor:
+/// points of a square, each alone in its cell and in its strata²-th of rows and of columns (Kensler
+/// 2013), taken to the disc below the hemisphere (Shirley and Chiu 1997). Holds its buffers; one a
+/// thread.
 class HemisphereRays {
  public:
   explicit HemisphereRays(const ReflectingScene& scene) : scene_(&scene) {}

@@ -1,11 +1,16 @@
 #include "solver/reflected/reflecting_scene.h"
 
+#include "meshing/core/plane_frame.h"
 #include "meshing/repair/repair.h"
+#include "solver/elements/element_field.h"
 #include "solver/exchange/form_factor.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+#include <set>
 #include <vector>
 
 namespace halfshade {
@@ -32,6 +37,37 @@ TEST(HemisphereRays, SharesAreFormFactors) {
     const double expected = point_to_polygon(from.position, from.normal, faces[f]);
     EXPECT_NEAR(share_of(scene, ends, rays, static_cast<int>(f)), expected, 2e-3) << f;
   }
+}
+
+/// The point of the unit square that on_disc takes to a point of the disc.
+Vec2 in_square(const Vec2& d) {
+  const double r = d.norm(), quarter = std::numbers::pi / 4;
+  const bool wide = std::abs(d.x()) > std::abs(d.y());
+  const double along = std::copysign(r, wide ? d.x() : d.y());
+  const double across =
+      along * (wide ? std::atan(d.y() / d.x()) : std::atan(d.x() / d.y())) / quarter;
+  return 0.5 * (Vec2(wide ? along : across, wide ? across : along) + Vec2::Ones());
+}
+
+TEST(HemisphereRays, AreAloneInTheirCellsAndInTheirRowsAndColumns) {
+  constexpr int strata = 8, all = strata * strata;
+  const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
+  const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ()};
+  const PlaneFrame frame = make_frame(from.position, from.normal);
+  std::vector<RayEnd> ends;
+  ASSERT_EQ(HemisphereRays(scene).cast(from, strata, 5, ends), all);
+  std::set<int> cells, rows, columns;
+  for (const RayEnd& end : ends) {
+    const Vec3 d =
+        (position(scene.roots.triangle(end.triangle), end.place()) - from.position).normalized();
+    const Vec2 p = in_square({d.dot(frame.e1), d.dot(frame.e2)});
+    columns.insert(static_cast<int>(all * p.x()));
+    rows.insert(static_cast<int>(all * p.y()));
+    cells.insert(static_cast<int>(strata * p.x()) * strata + static_cast<int>(strata * p.y()));
+  }
+  EXPECT_EQ(cells.size(), at(all));
+  EXPECT_EQ(rows.size(), at(all));
+  EXPECT_EQ(columns.size(), at(all));
 }
 
 TEST(HemisphereRays, BacksSwallowAndTwoSidedSheetsDoNot) {

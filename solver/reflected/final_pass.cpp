@@ -30,7 +30,8 @@ struct ElementPass {
       const int node = i / 2;
       const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
       const std::uint64_t seed = ray_seed(mesh, element, node, 2 * use + i % 2);
-      halves.row(i) = gathered({scene, light}, mesh, leaving, from, strata, seed).transpose();
+      halves.row(i) =
+          gathered({scene, light, Looks::quick}, mesh, leaving, from, strata, seed).transpose();
     }
     return halves;
   }

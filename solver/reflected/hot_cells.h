@@ -1,27 +1,32 @@
 #pragma once
 
-#include "solver/reflected/huge_roots.h"
-#include "solver/reflected/reflecting_scene.h"
+#include "solver/reflected/leaving_cells.h"
 
+#include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 namespace halfshade {
 
-/// Where much more light leaves than elsewhere. Few rays of a hemisphere meet such places, and what
-/// they bring is most of the noise; so some rays are sent there on purpose.
+/// How exactly light is looked for where rays end.
+enum class Looks {
+  quick,  ///< in cells that are far away by their mean
+  exact   ///< at each place
+};
+
+/// Irradiance from what leaves for the first time, by rays. Where much more of it leaves than
+/// elsewhere, few rays of a hemisphere meet the place, and what they bring is most of the noise; so
+/// some rays are sent there on purpose.
 class HotCells {
  public:
   /// Light that leaves a point of a root.
-  using Leaving = std::function<Rgb(int root, const Vec3& position)>;
+  using Leaving = LeavingCells::Leaving;
 
-  /// None are.
+  /// None are, and all looks are exact.
   HotCells() = default;
 
-  /// Looks at about 20,000 cells of roots, each at a few random points.
-  HotCells(const ReflectingScene& scene, const HugeRoots& huge, const Leaving& leaving);
+  HotCells(const ReflectingScene& scene, const HugeRoots& huge, LeavingCells cells);
 
   /// Rays to them that go with so many over the hemisphere; 0 if they do not pay.
   int count(int rays) const;
@@ -29,27 +34,28 @@ class HotCells {
   /// Irradiance from what leaves `ends`, of which `rays` are the whole hemisphere, and from hot
   /// cells by count(strata²) more rays: each place counts by how many rays of both kinds were to be
   /// expected there (the balance heuristic; Veach and Guibas 1995).
-  Rgb irradiance(const ReflectingScene& scene, const Leaving& leaving, const RayOrigin& from,
-                 int strata, int rays, std::span<const RayEnd> ends, std::uint64_t seed) const;
+  Rgb irradiance(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                 const RayOrigin& from, int strata, int rays, std::span<const RayEnd> ends,
+                 std::uint64_t seed) const;
 
  private:
   struct Cell {
-    int root;
+    int root, number;
     std::array<TrianglePlace, 3> corners;
-    double density;  ///< of rays per area
   };
 
   /// Rays to hot cells that were to be expected at a place, for each ray over the hemisphere that
-  /// was.
-  double expected(const ReflectingScene& scene, const RayOrigin& from, int root,
-                  const Vec3& position, double density) const;
-  /// Per area; 0 where it is not hot.
-  double density(int root, const TrianglePlace& place) const;
-  Rgb by_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, const RayOrigin& from,
-                    int rays, int aimed, std::uint64_t seed) const;
+  /// was; d from the origin.
+  double expected(const ReflectingScene& scene, const RayOrigin& from, int root, const Vec3& d,
+                  int cell) const;
+  Rgb by_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                    const RayOrigin& from, int rays, int aimed, std::uint64_t seed) const;
+  /// What leaves a place of a cell.
+  Rgb look(const Leaving& leaving, Looks looks, int root, int cell, const Vec3& position,
+           double square_distance) const;
 
-  std::vector<int> columns_, first_;  ///< of each root: cells along an edge, and the first one
-  std::vector<double> density_;       ///< of each cell of each root
+  LeavingCells cells_;
+  std::vector<double> density_;  ///< of each cell: of aimed rays per area; 0 where it is not hot
   std::vector<Cell> hot_;
   std::vector<double> up_to_;  ///< shares of the power of all hot cells, summed
 };

@@ -52,7 +52,7 @@ ChannelArray arriving(const NodeRays& rays, const QuickField& leaving) {
 std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& light,
                                 const ReflectedMesh& mesh, int element, int strata) {
   std::vector<RayEnd> ends;
-  const Gathering gathering{scene, light};
+  const Gathering gathering{scene, light, Looks::quick};
   auto rays = std::make_unique<NodeRays>();
   const int triangle = mesh.triangle[at(element)];
   const ElementNodes& nodes = element_nodes_of(mesh.order[at(triangle)]);
@@ -100,7 +100,7 @@ Gathering::Result Gathering::operator()(const RayOrigin& from, int strata, std::
   ends.clear();
   const int rays = HemisphereRays(scene).cast(from, strata, seed, ends);
   const auto leaving = [this](int root, const Vec3& p) { return light.leaving(root, p); };
-  return {light.hot.irradiance(scene, leaving, from, strata, rays, ends, seed), rays};
+  return {light.hot.irradiance(scene, leaving, looks, from, strata, rays, ends, seed), rays};
 }
 
 std::size_t Gathering::rays(int strata) const {
@@ -190,7 +190,7 @@ FieldNoise RayExchange::noise(const ReflectedMesh& mesh, const ElementField& lea
 void RayExchange::scale_to_all_rays(const ReflectedMesh& mesh, std::vector<double>& noise) const {
   const std::vector<double> rays = rays_of_nodes(mesh);
   for (std::size_t e = 0; e < noise.size(); ++e)
-    noise[e] *= std::pow(rays[e] / (2. * strata_ * strata_), noise_exponent);
+    noise[e] *= std::pow(rays[e] / most_rays(), noise_exponent);
 }
 
 std::vector<double> RayExchange::rays_of_nodes(const ReflectedMesh& mesh) const {

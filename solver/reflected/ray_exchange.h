@@ -46,7 +46,10 @@ class RayExchange : public IrradianceOperator {
 
   std::size_t rays() const { return traced_; }
 
-  /// Rays over the hemisphere from a node of each element.
+  /// Rays over the hemisphere from a node, of all elements or of those of mean size.
+  double most_rays() const { return 2. * strata_ * strata_; }
+
+  /// The same of each element.
   std::vector<double> rays_of_nodes(const ReflectedMesh& mesh) const;
 
  private:
@@ -65,6 +68,7 @@ RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, in
 struct Gathering {
   const ReflectingScene& scene;
   const FirstLight& light;
+  Looks looks = Looks::exact;
 
   /// Irradiance from S. Puts the ends on roots into `ends`, and returns the number of rays that
   /// each of them is one of.

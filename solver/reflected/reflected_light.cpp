@@ -65,6 +65,17 @@ void scale_light(ReflectedLight::State& state) {
                            int surface, const Vec3& p) { return Rgb(scale * direct(surface, p)); };
 }
 
+/// As many as suit the tolerance.
+void find_hot_cells(ReflectedLight::State& state, const HugeRoots& huge, double tolerance) {
+  constexpr double cells = 1000, fewest = 20000, most = 200000;
+  const LeavingCells::Leaving leaving = [&](int root, const Vec3& p) {
+    return state.light.leaving(root, p);
+  };
+  state.light.hot = HotCells(
+      state.reflecting, huge,
+      LeavingCells(state.reflecting, huge, std::clamp(cells / tolerance, fewest, most), leaving));
+}
+
 void finish(ReflectedLight::State& state) {
   if (state.field.count() != state.mesh.count()) state.field = zero_field(state.mesh);
   state.light.painted.update(state.mesh, state.light.rho);
@@ -129,25 +140,26 @@ const ElementField& ReflectedLight::field() const { return state_->field; }
 ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
                                const ReflectedOptions& options, const Progress& progress) {
   check(options);
-  auto state = std::make_shared<ReflectedLight::State>(scene, direct, options, progress);
-  const bool nothing = reflects_nothing(state->light) || options.bounces == 0;
-  const ElementTable& roots = state->reflecting.roots;
-  const HugeRoots huge = find_huge(roots, options.counted);
-  const int surfaces = static_cast<int>(scene.surfaces.size());
-  state->report.is_exact = reflected_cost(surfaces, options).is_exact;
-  const double length = nothing ? HUGE_VAL : first_length(huge, state->report.is_exact, options);
-  state->mesh = make_reflected_mesh(roots, length, options.order, options.max_elements, huge);
+  ReflectingScene reflecting = make_reflecting_scene(scene, progress);
+  const HugeRoots huge = find_huge(reflecting.roots, options.counted);
+  FirstLight light = first_light(scene, reflecting.roots, direct, options.through_operator);
+  const bool nothing = reflects_nothing(light) || options.bounces == 0;
+  const bool is_exact = reflected_cost(static_cast<int>(scene.surfaces.size()), options).is_exact;
+  const double length = nothing ? HUGE_VAL : first_length(huge, is_exact, options);
+  ReflectedMesh mesh =
+      make_reflected_mesh(reflecting.roots, length, options.order, options.max_elements, huge);
+  auto state = std::make_shared<ReflectedLight::State>(std::move(reflecting), std::move(light),
+                                                       std::move(mesh));
+  state->report.is_exact = is_exact;
   scale_light(*state);
   state->report.through_operator = options.through_operator;
-  if (state->report.is_exact && !nothing) {
+  if (is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
     state->accuracy = row_accuracy(options.tolerance, huge.area);
   }
-  if (!nothing && !state->report.is_exact && !options.through_operator)
-    state->light.hot = HotCells(state->reflecting, huge, [&](int root, const Vec3& p) {
-      return state->light.leaving(root, p);
-    });
+  if (!nothing && !is_exact && !options.through_operator)
+    find_hot_cells(*state, huge, options.tolerance);
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
     run_rounds(*state, options, progress);

@@ -9,17 +9,15 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace halfshade {
 
 /// All that a solution is made of.
 struct ReflectedLight::State {
-  State(const SoundScene& scene, const DirectIrradiance& direct, const ReflectedOptions& options,
-        const Progress& progress)
-      : reflecting(make_reflecting_scene(scene, progress)),
-        light(first_light(scene, reflecting.roots, direct, options.through_operator)),
-        mesh(reflecting.roots) {}
+  State(ReflectingScene all, FirstLight first, ReflectedMesh elements)
+      : reflecting(std::move(all)), light(std::move(first)), mesh(std::move(elements)) {}
 
   ReflectingScene reflecting;
   FirstLight light;

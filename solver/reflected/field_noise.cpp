@@ -1,27 +1,6 @@
 #include "solver/reflected/field_noise.h"
 
-#include <algorithm>
-
 namespace halfshade {
-namespace {
-
-/// What is no noise of a square that has some.
-double signal(double square, double noise) { return std::max(square - noise, 0.); }
-
-/// The share of noise that is left where a share of the field is kept. Some of what is taken for
-/// noise is none.
-double left_of_noise(double kept) {
-  constexpr double least = 0.15;
-  return least + (1 - least) * kept;
-}
-
-/// The square of the polynomials of one degree on an element.
-double square_of(const ReflectedMesh& mesh, const ElementField& field, int e, int degree) {
-  return mesh.area(e) * field.of(e).middleRows(basis_size(degree - 1), degree + 1).square().sum();
-}
-
-}  // namespace
-
 ChannelArray means_of_halves(const ChannelArray& halves) {
   ChannelArray means(halves.rows() / 2, 3);
   for (Eigen::Index k = 0; k < means.rows(); ++k)
@@ -56,32 +35,6 @@ std::vector<double> noise_of_elements(const FieldNoise& noise, const std::vector
     result.push_back(weight[e] * sum);
   }
   return result;
-}
-
-QuietField without_noise(const ReflectedMesh& mesh, ElementField field, const FieldNoise& noise) {
-  QuietField quiet{std::move(field), noise};
-  for (int e = 0; e < mesh.count(); ++e)
-    for (int d = 1; d <= quiet.field.order[at(e)]; ++d) {
-      double& off = quiet.noise[at(e)][at(d)];
-      const double square = square_of(mesh, quiet.field, e, d);
-      const double keep = square > 0 ? signal(square, off) / square : 1;
-      quiet.field.of(e).middleRows(basis_size(d - 1), d + 1) *= keep;
-      off *= left_of_noise(keep);
-    }
-  return quiet;
-}
-
-double noise_left(const ReflectedMesh& mesh, const ElementField& field, const FieldNoise& noise,
-                  const std::vector<double>& weight, double rays) {
-  double sum = 0;
-  for (int e = 0; e < mesh.count(); ++e)
-    for (int d = 0; d <= field.order[at(e)]; ++d) {
-      const double now = noise[at(e)][at(d)], then = now / rays;
-      const double own = signal(square_of(mesh, field, e, d), now);
-      const double kept = d == 0 ? 1 : own + then > 0 ? own / (own + then) : 0;
-      sum += weight[at(e)] * then * left_of_noise(kept);
-    }
-  return sum;
 }
 
 }  // namespace halfshade

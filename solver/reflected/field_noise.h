@@ -27,18 +27,4 @@ FieldNoise::value_type mean_noise(const FieldNoise::value_type& a, const FieldNo
 /// Over all degrees, times `weight`; one number an element.
 std::vector<double> noise_of_elements(const FieldNoise& noise, const std::vector<double>& weight);
 
-/// A field with less noise, and what is left of that.
-struct QuietField {
-  ElementField field;
-  FieldNoise noise;
-};
-
-/// The polynomials of each degree but 0 on each element as small as they are expected to be without
-/// the noise (Wiener's filter): what is mostly noise goes, what is not stays. Means stay.
-QuietField without_noise(const ReflectedMesh& mesh, ElementField field, const FieldNoise& noise);
-
-/// The noise that would be left with `rays` times as many rays from everywhere, over all.
-double noise_left(const ReflectedMesh& mesh, const ElementField& field, const FieldNoise& noise,
-                  const std::vector<double>& weight, double rays);
-
 }  // namespace halfshade

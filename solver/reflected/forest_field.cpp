@@ -1,9 +1,7 @@
 #include "solver/reflected/forest_field.h"
 
 namespace halfshade {
-namespace {
 
-/// Takes coefficients on a triangle to those on a half of it, where it is cut at edge `cut`.
 const Eigen::MatrixXd& restriction_to_half(int order, int cut, int half) {
   static const auto table = [] {
     std::array<std::array<std::array<Eigen::MatrixXd, 2>, 3>, max_reflected_order + 1> all;
@@ -19,6 +17,8 @@ const Eigen::MatrixXd& restriction_to_half(int order, int cut, int half) {
   }();
   return table[at(order)][at(cut)][at(half)];
 }
+
+namespace {
 
 void restrict_to(const ReflectedMesh& fine, int triangle, int order,
                  const ChannelArray& coefficients, ElementField& result) {
@@ -41,9 +41,14 @@ int forest_order(const ReflectedMesh& mesh, int triangle) {
 }
 
 ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field) {
-  const TriangleForest& forest = mesh.forest;
   std::vector<int> order;
-  for (int t = 0; t < forest.count(); ++t) order.push_back(forest_order(mesh, t));
+  for (int t = 0; t < mesh.forest.count(); ++t) order.push_back(forest_order(mesh, t));
+  return forest_field(mesh, field, std::move(order));
+}
+
+ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field,
+                          std::vector<int> order) {
+  const TriangleForest& forest = mesh.forest;
   ElementField result = zero_field(std::move(order));
   // Halves come after their whole.
   for (int t = forest.count() - 1; t >= 0; --t) {
@@ -55,7 +60,7 @@ ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field) 
       const auto part = result.of(forest.first_half(t) + half);
       // Of orthonormal polynomials, the projection is the transpose.
       result.of(t) += (0.5 *
-                       restriction_to_half(mesh.highest_order, forest.cut(t), half)
+                       restriction_to_half(result.order[at(t)], forest.cut(t), half)
                            .topRows(part.rows())
                            .transpose() *
                        part.matrix())

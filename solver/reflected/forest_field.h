@@ -13,6 +13,14 @@ int forest_order(const ReflectedMesh& mesh, int triangle);
 /// moments.
 ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field);
 
+/// The same with an order for each triangle, of which none is less than that of its halves.
+ElementField forest_field(const ReflectedMesh& mesh, const ElementField& field,
+                          std::vector<int> order);
+
+/// Takes coefficients of an order on a triangle to those on a half of it, where it is cut at edge
+/// `cut`; see TriangleForest::cut.
+const Eigen::MatrixXd& restriction_to_half(int order, int cut, int half);
+
 /// The same polynomials on the elements of a mesh whose elements are parts of the first one's, of
 /// the same orders.
 ElementField restricted(const ReflectedMesh& mesh, const ElementField& field,

@@ -46,6 +46,15 @@ void add_unsure(const BalanceEstimate& balance, RefinementPlan& plan) {
 
 }  // namespace
 
+std::vector<double> element_weights(const ReflectedMesh& mesh, const FirstLight& light,
+                                    const ErrorWeight& weight) {
+  std::vector<double> weights;
+  for (int e = 0; e < mesh.count(); ++e)
+    weights.push_back(mean_weight(weight, light.surface[at(mesh.root(e))],
+                                  mesh.forest.corners(mesh.triangle[at(e)])));
+  return weights;
+}
+
 std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
                           const std::vector<double>& weight) {
   std::vector<double> result;

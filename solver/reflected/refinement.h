@@ -19,10 +19,14 @@ struct RefinementInput {
   const ReflectedMesh& mesh;
   const ElementField& irradiance;
   const std::vector<double>& noise;   ///< of rays, see noise_of_elements; it has been filtered
-  const std::vector<double>& weight;  ///< of square errors of each element
+  const std::vector<double>& weight;  ///< see element_weights
   const ReflectionEstimate& estimate;
   const BalanceEstimate& balance;
 };
+
+/// Of square errors of each element.
+std::vector<double> element_weights(const ReflectedMesh& mesh, const FirstLight& light,
+                                    const ErrorWeight& weight);
 
 /// The share of a field's square in the polynomials of the highest degree on each element,
 /// weighted: where it is large elements are likely to be too coarse. Constants are taken to be off

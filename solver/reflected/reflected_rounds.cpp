@@ -1,7 +1,9 @@
 #include "solver/reflected/reflected_rounds.h"
 
+#include "meshing/core/free_memory.h"
 #include "solver/reflected/exact_estimate.h"
 #include "solver/reflected/exact_exchange.h"
+#include "solver/reflected/quiet_field.h"
 #include "solver/reflected/ray_passes.h"
 #include "solver/reflected/refinement.h"
 
@@ -12,9 +14,10 @@
 namespace halfshade {
 namespace {
 
-/// Rays from a node that are kept: two halves of strata².
-constexpr int kept_strata = 7;
-constexpr double kept_rays = 2 * kept_strata * kept_strata;
+/// Rays from a node that are kept are two halves of strata², fewer where so much may be off that
+/// their noise matters less than elements.
+constexpr int usual_strata = 7, few_strata = 5;
+constexpr double much_off = 0.025;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
 constexpr double comes_back = 1.2;
@@ -23,6 +26,9 @@ constexpr double comes_back = 1.2;
 constexpr double most_for_gaps = 2000;
 
 constexpr int points_of_projection = 20000;
+
+/// So many take hundreds of megabytes in each round that the next does not need.
+constexpr int many_to_free = 100000;
 
 /// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
 constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
@@ -61,12 +67,13 @@ class Rounds {
       parts_ = std::make_unique<ExactExchange>(*state.sight, state.reflecting, state.light, direct_,
                                                state.accuracy);
     else
-      kept_rays_ = std::make_unique<RayExchange>(state.reflecting, state.light, kept_strata);
+      kept_rays_ = std::make_unique<RayExchange>(
+          state.reflecting, state.light, options.tolerance < much_off ? usual_strata : few_strata);
   }
 
   void run() {
-    while (run_once()) {
-    }
+    while (run_once())
+      if (mesh_.count() > many_to_free) return_free_memory();
     if (kept_rays_) state_.report.rays += kept_rays_->rays();
   }
 
@@ -80,7 +87,7 @@ class Rounds {
     SplitIrradiance irradiance;      ///< the same with balanced power and less noise
     ElementField reflected;          ///< what leaves for it; what the estimate looks from
     std::vector<double> noise_left;  ///< weighted, as the next
-    std::vector<double> noise_kept;  ///< of `kept_rays` rays from each node alone
+    std::vector<double> noise_kept;  ///< of as many kept rays from each node alone
     std::vector<double> weight;
     int passes = 0;  ///< on these elements
     ElementField ambient;
@@ -103,7 +110,7 @@ class Rounds {
     systems.power = power_put_in(mesh_, state_.light, direct_, systems);
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
     Found found;
-    found.weight = element_weights();
+    found.weight = element_weights(mesh_, state_.light, options_.weight);
     solve(system, found);
     ++report.rounds;
     return improve(system, found);
@@ -180,13 +187,14 @@ class Rounds {
     conserve_power(mesh, systems, found.leaving, systems.power, found.irradiance);
     if (all_bounces() && passes_.count() > 0)
       reflect_change(system, found.base.rest, found.ambient, found.irradiance);
-    FieldNoise noise = found.noise;
-    if (kept_rays_) {
-      QuietField quiet = without_noise(mesh, std::move(found.irradiance.rest), found.noise);
+    if (!kept_rays_) {
+      found.noise_left.assign(at(mesh.count()), 0);
+    } else {
+      QuietField quiet =
+          without_noise(mesh, noisy_forest(mesh, found.irradiance.rest, found.noise), found.weight);
       found.irradiance.rest = std::move(quiet.field);
-      noise = std::move(quiet.noise);
+      found.noise_left = std::move(quiet.noise);
     }
-    found.noise_left = noise_of_elements(noise, found.weight);
     found.reflected = all_bounces() && kept_rays_
                           ? leaving_rest(mesh, light, systems, found.irradiance)
                           : found.leaving;
@@ -211,14 +219,6 @@ class Rounds {
     ++found.passes;
     balance(system, found);
     return true;
-  }
-
-  std::vector<double> element_weights() const {
-    std::vector<double> weights;
-    for (int e = 0; e < mesh_.count(); ++e)
-      weights.push_back(mean_weight(options_.weight, state_.light.surface[at(mesh_.root(e))],
-                                    mesh_.forest.corners(mesh_.triangle[at(e)])));
-    return weights;
   }
 
   /// About the square of all irradiance, from means over elements.
@@ -248,7 +248,8 @@ class Rounds {
     const double goal = goal_square(norm_square(rough_square(system, found.irradiance)));
     const double allowed = noise_of_estimate * goal * std::sqrt(points);
     const double share = allowed > 0 ? sum_of(found.noise_kept) / allowed : 0;
-    const double rays = std::max(kept_rays * std::pow(share, 1 / noise_exponent), fewest_in_mean);
+    const double rays =
+        std::max(kept_rays_->most_rays() * std::pow(share, 1 / noise_exponent), fewest_in_mean);
     return share_probe_rays(mesh_, found.noise_kept, shares, rays);
   }
 
@@ -356,19 +357,18 @@ class Rounds {
   /// Rays that bring the noise down to what suits the goal, or to `enough`. False if there may be
   /// no more.
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
-    const double noise = sum_of(found.noise_left);
-    const double of_elements = std::max(input.estimate.sum - noise, 0.);
+    const double noise = sum_of(found.noise_left),
+                 of_elements = std::max(input.estimate.sum - noise, 0.);
     const double allowed =
         std::max(share_of_both * goal - of_elements, least_noise * goal) / uncertain;
     const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
-    double fewer = 1;
-    constexpr double step = 1.125, most = 1e4;
-    while (fewer < most && noise_left(mesh_, found.rest, found.noise, found.weight, fewer) > wanted)
-      fewer *= step;
+    const double more =
+        rays_for(mesh_, noisy_forest(mesh_, found.rest, found.noise), found.weight, wanted);
     const double all = sum_of(noise_of_elements(found.noise, found.weight));
-    strata_ = share_rays(mesh_, found.noise_kept, found.weight,
-                         {kept_rays, passes_.sent(mesh_, kept_rays_->rays_of_nodes(mesh_)),
-                          all / fewer, static_cast<double>(options_.max_rays)});
+    strata_ =
+        share_rays(mesh_, found.noise_kept, found.weight,
+                   {kept_rays_->most_rays(), passes_.sent(mesh_, kept_rays_->rays_of_nodes(mesh_)),
+                    all / more, static_cast<double>(options_.max_rays)});
     return std::any_of(strata_.begin(), strata_.end(), [](int n) { return n > 0; });
   }
 

@@ -1,6 +1,7 @@
 #include "solver/reflected/leaving_cells.h"
 
 #include "meshing/core/parallel.h"
+#include "meshing/core/rounded.h"
 #include "meshing/geometry/mix_bits.h"
 #include "solver/elements/element_field.h"
 #include "solver/elements/triangle_key.h"
@@ -39,7 +40,7 @@ LeavingCells::LeavingCells(const ReflectingScene& scene, const HugeRoots& huge, 
   std::vector<int> root;  // of each cell
   for (int r = 0; r < roots.count(); ++r) {
     const double share = std::sqrt(wanted * std::min(roots.area[at(r)] / area, 1.));
-    const int columns = std::max(1, static_cast<int>(std::lround(share)));
+    const int columns = std::max(1, static_cast<int>(std::lround(rounded(share))));
     columns_.push_back(columns);
     first_.push_back(static_cast<int>(root.size()));
     square_size_.push_back(square_of_longest_edge(roots.triangle(r)) / (columns * columns));

@@ -49,7 +49,7 @@ void measure(const std::string& name, const PreparedScene& prepared, const Study
     total += (light[k].irradiance - walks.direct[k] - walks.reflected[k]).square().sum();
     noise += walks.reflected_error[k].square().sum();
   }
-  const double scale = std::sqrt(3. * static_cast<double>(light.size())) * walks.scale();
+  const double scale = std::sqrt(static_cast<double>(light.size())) * walks.scale();
   fmt::print("{},{},{:.2g},{},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f},{:.2f},{:.2f},{}\n", name,
              prepared.scene().surfaces.size(), tolerance, result.reflected.elements,
              result.relative_error, without_noise(total, noise) / scale, result.reflected.error,

@@ -12,7 +12,7 @@ namespace {
 // Of the goal, elements may have this share and are refined to have a little less.
 constexpr double share_of_elements = 0.55, aim_of_elements = 0.3;
 /// Elements that are off by more than this many times their part are bisected twice.
-constexpr double far_too_much = 6;
+constexpr double far_too_much = 16;
 /// The share of an element's error that bisecting it takes away, beside edges.
 constexpr double gain = 0.5;
 constexpr double most_scale = 4;

@@ -15,9 +15,10 @@ namespace halfshade {
 namespace {
 
 /// Rays from a node that are kept are two halves of strata², fewer where so much may be off that
-/// their noise matters less than elements.
+/// their noise matters less than elements; not of many, which have fewer as it is (RayExchange).
 constexpr int usual_strata = 7, few_strata = 5;
 constexpr double much_off = 0.025;
+constexpr int many_to_solve = 20000;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
 constexpr double comes_back = 1.2;
@@ -68,7 +69,9 @@ class Rounds {
                                                state.accuracy);
     else
       kept_rays_ = std::make_unique<RayExchange>(
-          state.reflecting, state.light, options.tolerance < much_off ? usual_strata : few_strata);
+          state.reflecting, state.light,
+          options.tolerance < much_off || mesh_.count() > many_to_solve ? usual_strata
+                                                                        : few_strata);
   }
 
   void run() {

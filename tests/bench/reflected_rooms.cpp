@@ -22,7 +22,7 @@
 namespace halfshade {
 namespace {
 
-constexpr int points = 500, samples = 2048;
+constexpr int points = 3000, samples = 2048;
 
 double cpu_seconds(const SolveResult& result, std::string_view stage = {}) {
   double sum = 0;

@@ -4,6 +4,7 @@
 #include "solver/elements/polynomial.h"
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 namespace halfshade {
@@ -15,7 +16,8 @@ struct ForestPlace {
 };
 
 /// Finds the element that a point of a surface lies in, by a grid over each surface whose cells are
-/// quartered where elements are small. Cost: a few elements a query, whatever their number.
+/// quartered where elements are small. Cost: a few elements a query, whatever their number; more in
+/// the smallest cells.
 class ElementLookup {
  public:
   explicit ElementLookup(const ElementTable& elements);
@@ -24,6 +26,9 @@ class ElementLookup {
   /// negative, moved to its border, if rounding puts it outside of all. Nowhere if the surface has
   /// no elements.
   ForestPlace find(int surface, const Vec3& position) const;
+
+  /// Cells, and elements in them, which are what takes memory: 8 bytes and 4.
+  std::size_t entries() const { return cells_.size() + items_.size(); }
 
  private:
   /// Takes points of a triangle's plane to places.

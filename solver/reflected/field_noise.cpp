@@ -1,6 +1,7 @@
 #include "solver/reflected/field_noise.h"
 
 namespace halfshade {
+
 ChannelArray means_of_halves(const ChannelArray& halves) {
   ChannelArray means(halves.rows() / 2, 3);
   for (Eigen::Index k = 0; k < means.rows(); ++k)

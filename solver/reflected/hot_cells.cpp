@@ -41,7 +41,9 @@ HotCells::HotCells(const ReflectingScene& scene, const HugeRoots& huge, LeavingC
     }
   if (!(of_hot > least_power * power)) {
     hot_.clear();
-    of_hot = HUGE_VAL;
+    up_to_.clear();
+    density_.clear();
+    return;
   }
   for (double& d : density_) d /= of_hot;
   for (double& share : up_to_) share /= of_hot;

@@ -3,6 +3,7 @@
 #include "solver/reflected/huge_roots.h"
 #include "solver/reflected/reflecting_scene.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 

@@ -56,15 +56,12 @@ class Filter {
     return kept.share;
   }
 
-  /// Of what halves add; `more` is that of each.
-  double at_halves(int whole, const std::array<ChannelArray, 2>& more) {
+  /// Of what halves add.
+  double at_halves(int whole) {
     const int first = mesh_.forest.first_half(whole);
-    double square = 0, noise = -sum_of(noisy_.noise[at(whole)]);
-    for (int h = 0; h < 2; ++h) {
-      square += mesh_.forest.area(first + h) * more[at(h)].square().sum();
-      noise += sum_of(noisy_.noise[at(first + h)]);
-    }
-    const Kept kept = kept_of(square, std::max(noise, 0.), rays_);
+    const double noise = sum_of(noisy_.noise[at(first)]) + sum_of(noisy_.noise[at(first + 1)]) -
+                         sum_of(noisy_.noise[at(whole)]);
+    const Kept kept = kept_of(noisy_.added[at(whole)], std::max(noise, 0.), rays_);
     for (int h = 0; h < 2; ++h) noise_[at(first + h)] = 0.5 * (noise_[at(whole)] + kept.noise);
     return kept.share;
   }
@@ -99,7 +96,7 @@ double noise_left(const ReflectedMesh& mesh, const NoisyForest& noisy,
   for (int t = 0; t < forest.count(); ++t) {
     if (t < forest.root_count())
       for (int d = 0; d <= noisy.field.order[at(t)]; ++d) filter.at_root(t, d);
-    if (!forest.is_leaf(t)) filter.at_halves(t, added_by_halves(mesh, noisy.field, t));
+    if (!forest.is_leaf(t)) filter.at_halves(t);
   }
   double sum = 0;
   for (int e = 0; e < mesh.count(); ++e)
@@ -119,14 +116,17 @@ NoisyForest noisy_forest(const ReflectedMesh& mesh, const ElementField& field,
       const std::size_t first = at(forest.first_half(t));
       order[at(t)] = std::max(order[first], order[first + 1]);
     }
-  NoisyForest noisy{forest_field(mesh, field, std::move(order)), FieldNoise(at(forest.count()))};
+  NoisyForest noisy{forest_field(mesh, field, std::move(order)), FieldNoise(at(forest.count())),
+                    std::vector<double>(at(forest.count()))};
   for (int t = forest.count() - 1; t >= 0; --t) {
     if (forest.is_leaf(t)) {
       noisy.noise[at(t)] = noise[at(mesh.element[at(t)])];
       continue;
     }
+    const std::array<ChannelArray, 2> more = added_by_halves(mesh, noisy.field, t);
     for (int h = 0; h < 2; ++h) {
       const int half = forest.first_half(t) + h;
+      noisy.added[at(t)] += forest.area(half) * more[at(h)].square().sum();
       add_to_whole(restriction_to_half(noisy.field.order[at(t)], forest.cut(t), h),
                    noisy.field.order[at(half)], noisy.noise[at(half)], noisy.noise[at(t)]);
     }
@@ -145,7 +145,7 @@ QuietField without_noise(const ReflectedMesh& mesh, const NoisyForest& noisy,
         quiet.of(t).middleRows(basis_size(d - 1), d + 1) *= filter.at_root(t, d);
     if (forest.is_leaf(t)) continue;
     const std::array<ChannelArray, 2> more = added_by_halves(mesh, noisy.field, t);
-    const double share = filter.at_halves(t, more);
+    const double share = filter.at_halves(t);
     for (int h = 0; h < 2; ++h)
       quiet.of(forest.first_half(t) + h) = on_half(mesh, quiet, t, h) + share * more[at(h)];
   }

@@ -12,6 +12,8 @@ namespace halfshade {
 struct NoisyForest {
   ElementField field;  ///< triangle → projection of what its leaves carry, of their highest order
   FieldNoise noise;    ///< of it
+  /// Triangle that is split → ∫ of the square of what its halves add to it.
+  std::vector<double> added;
 };
 NoisyForest noisy_forest(const ReflectedMesh& mesh, const ElementField& field,
                          const FieldNoise& noise);

@@ -46,7 +46,7 @@ class RayExchange : public IrradianceOperator {
 
   std::size_t rays() const { return traced_; }
 
-  /// Rays over the hemisphere from a node, of all elements or of those of mean size.
+  /// Rays over the hemisphere from a node, but for elements that are small among many.
   double most_rays() const { return 2. * strata_ * strata_; }
 
   /// The same of each element.

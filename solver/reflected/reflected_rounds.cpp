@@ -90,7 +90,7 @@ class Rounds {
     SplitIrradiance irradiance;      ///< the same with balanced power and less noise
     ElementField reflected;          ///< what leaves for it; what the estimate looks from
     std::vector<double> noise_left;  ///< weighted, as the next
-    std::vector<double> noise_kept;  ///< of as many kept rays from each node alone
+    std::vector<double> noise_kept;  ///< of RayExchange::most_rays from each node alone
     std::vector<double> weight;
     int passes = 0;  ///< on these elements
     ElementField ambient;

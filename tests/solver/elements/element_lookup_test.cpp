@@ -86,6 +86,12 @@ TEST(ElementLookup, FindsPlacesInSplinters) {
     }
 }
 
+TEST(ElementLookup, SplintersTakeLittleMemory) {
+  const ElementTable elements = splinters();
+  // Cells with four elements at most, of any size, would be 17,000 for each.
+  EXPECT_LT(ElementLookup(elements).entries(), 3000 * elements.corners.size());
+}
+
 TEST(ElementLookup, PointsBesideASurfaceBelongToWhatIsNext) {
   const ElementTable elements = uneven_elements();
   const ElementLookup lookup(elements);

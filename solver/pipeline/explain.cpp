@@ -82,7 +82,7 @@ PlannedStage plan_reflected_light(const SoundScene& scene, const Plan& plan,
   if (!plan.no_factors.empty()) return stage;
   const ReflectedCost cost =
       reflected_cost(static_cast<int>(scene.surfaces.size()),
-                     reflected_options(plan, options, options.tolerance, nullptr));
+                     reflected_options(scene, plan, options, options.tolerance, nullptr));
   stage.seconds = cost.cpu_seconds / cores;
   stage.how = cost.is_exact ? "by exactly visible parts" : "by rays over hemispheres";
   return stage;

@@ -19,14 +19,12 @@
 namespace halfshade {
 namespace {
 
-/// Of the tolerance: direct light, relative to it alone; reflected light; its values on the
-/// elements of direct light. Squares sum to less than 1.
-constexpr double direct_share = 0.5, reflected_share = 0.75, values_share = 0.35;
+/// Of the tolerance: direct light, relative to it alone; values of reflected light on the elements
+/// of direct light. Reflected light may be off by what they leave: squares sum to 1.
+constexpr double direct_share = 0.5, values_share = 0.35;
 /// Where direct light is what takes the time, as rays find it: more, for reflected light takes
 /// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
 constexpr double direct_share_of_rays = 0.75;
-/// Of the square of all irradiance: direct light, where some of it is reflected.
-constexpr double direct_part = 0.85;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
 /// by so much more than the goal, for the residual corrects what that does; values do not enter it.
 constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;
@@ -137,9 +135,10 @@ void fill_powers(SolveResult& result) {
   }
 }
 
-/// Of the tolerance: what reflected light may be off where direct light is off such a share.
-double left_by(double of_direct) {
-  return std::sqrt(1 - direct_part * of_direct * of_direct - values_share * values_share);
+/// ∫ error² of direct light, to the root.
+double norm_of_error(const AdaptiveField& light) {
+  const Eigen::Map<const Eigen::ArrayXd> areas(light.elements.area.data(), light.elements.count());
+  return (areas.sqrt() * light.error).matrix().stableNorm();
 }
 
 /// The goal asked for and what matters to it.
@@ -188,11 +187,13 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, double tolerance
 
 }  // namespace
 
-ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options, double tolerance,
+ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
+                                   const SolveOptions& options, double tolerance,
                                    const GoalWeights* goal) {
   ReflectedOptions result;
+  result.counted = mark_surfaces(scene, plan.lit);
   result.visibility = options.visibility;
-  result.tolerance = reflected_share * tolerance;
+  result.tolerance = std::sqrt(1 - values_share * values_share) * tolerance;
   if (goal) {
     result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
     result.weight = goal->weight;
@@ -240,11 +241,10 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     // Where direct light could not be had as exact, reflected light need not be more exact.
     const double of_direct = direct.light.report.relative_error;
     const double tolerance = std::max(options.tolerance, of_direct);
-    ReflectedOptions of_reflected = reflected_options(plan, options, tolerance, goal);
-    of_reflected.counted = mark_surfaces(prepared.scene(), plan.lit);
+    ReflectedOptions of_reflected =
+        reflected_options(prepared.scene(), plan, options, tolerance, goal);
     if (!goal && of_direct < options.tolerance)
-      of_reflected.tolerance =
-          std::min(of_reflected.tolerance, left_by(of_direct / tolerance) * tolerance);
+      of_reflected.other_error = norm_of_error(direct.light);
     TotalField total = add_reflected_light(
         prepared.scene(), std::move(direct),
         {of_reflected, values_options(prepared.scene(), plan, options, tolerance, goal)}, progress,

@@ -16,7 +16,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
 
 /// How reflected light is found, to a tolerance of all light; `goal` is null where all light
 /// counts.
-ReflectedOptions reflected_options(const Plan& plan, const SolveOptions& options, double tolerance,
+ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
+                                   const SolveOptions& options, double tolerance,
                                    const GoalWeights* goal);
 
 }  // namespace halfshade

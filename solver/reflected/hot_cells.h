@@ -55,8 +55,8 @@ class HotCells {
            double square_distance) const;
 
   LeavingCells cells_;
-  std::vector<double>
-      density_;  ///< of each cell: of aimed rays per area, 0 where it is not hot; empty: none is
+  /// Of each cell: aimed rays per area, 0 where it is not hot; empty: none is.
+  std::vector<double> density_;
   std::vector<Cell> hot_;
   std::vector<double> up_to_;  ///< shares of the power of all hot cells, summed
 };

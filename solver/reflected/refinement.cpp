@@ -11,8 +11,9 @@ namespace {
 
 // Of the goal, elements may have this share and are refined to have a little less.
 constexpr double share_of_elements = 0.55, aim_of_elements = 0.3;
-/// Elements that are off by more than this many times their part are bisected twice.
+/// Elements that are off by so many times their part are bisected twice, by its square thrice.
 constexpr double far_too_much = 16;
+constexpr int most_bisections = 4;
 /// The share of an element's error that bisecting it takes away, beside edges.
 constexpr double gain = 0.5;
 constexpr double most_scale = 4;
@@ -40,8 +41,14 @@ void add_unsure(const BalanceEstimate& balance, RefinementPlan& plan) {
   for (int e = 0; e < static_cast<int>(unsure.size()); ++e)
     if (!is_in[at(e)] && unsure[at(e)] > 0) {
       plan.elements.push_back(e);
-      plan.twice.push_back(true);
+      plan.times.push_back(2);
     }
+}
+
+/// Of an element that is off by so many times its part.
+int bisections(double too_much) {
+  const double more = std::log(std::max(too_much, 1.)) / std::log(far_too_much);
+  return 1 + static_cast<int>(std::min(more, most_bisections - 1.));
 }
 
 }  // namespace
@@ -89,7 +96,7 @@ RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
       if (left <= aim_of_elements * goal || coarse[at(e)] <= part) break;
       left -= gain * coarse[at(e)];
       plan.elements.push_back(e);
-      plan.twice.push_back(coarse[at(e)] > far_too_much * part);
+      plan.times.push_back(bisections(coarse[at(e)] / part));
     }
   if (input.balance.square > share_of_elements * goal) add_unsure(input.balance, plan);
   return plan;

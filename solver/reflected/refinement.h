@@ -11,7 +11,7 @@ namespace halfshade {
 /// Which elements to refine so that the next estimate meets a goal, if noise has its part.
 struct RefinementPlan {
   std::vector<int> elements;
-  std::vector<bool> twice;  ///< one an entry of `elements`: far too coarse
+  std::vector<int> times;  ///< one an entry of `elements`: how often it and its parts are bisected
 };
 
 /// What is known of a solution that is not yet right.

@@ -24,11 +24,11 @@ void check(const ReflectedOptions& options) {
                 fmt::format("order {} must lie in [0, {}]", options.order, max_reflected_order));
   if (options.each_bounce && options.bounces < 0)
     throw Error(ErrorCode::contract, "reflected_light", "each_bounce takes a number of bounces");
-  if (!(options.tolerance > 0) || !(options.max_length >= 0) || options.max_rays < 32 ||
-      options.max_elements < 1 || options.max_rounds < 1)
+  if (!(options.tolerance > 0) || !(options.other_error >= 0) || !(options.max_length >= 0) ||
+      options.max_rays < 32 || options.max_elements < 1 || options.max_rounds < 1)
     throw Error(ErrorCode::contract, "reflected_light",
-                "the tolerance must be > 0, max_length ≥ 0, max_rays ≥ 32, and elements and rounds "
-                "at least 1");
+                "the tolerance must be > 0, other errors and max_length ≥ 0, max_rays ≥ 32, and "
+                "elements and rounds at least 1");
 }
 
 /// Elements as long as this to begin with.

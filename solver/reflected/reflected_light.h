@@ -21,7 +21,7 @@ using DirectIrradiance = std::function<Rgb(int surface, const Vec3& position)>;
 
 /// How irradiance at a place follows from what leaves all others.
 enum class ReflectedVisibility {
-  automatic,  ///< whichever is expected to take less time
+  automatic,  ///< exact, unless rays are expected to take far less time
   exact,   ///< by exactly visible parts: nothing is random; for some tens or hundreds of surfaces
   sampled  ///< by rays over hemispheres
 };
@@ -30,7 +30,10 @@ struct ReflectedOptions {
   ReflectedVisibility visibility = ReflectedVisibility::automatic;
   int order = 2;            ///< of the elements, 0…3
   double tolerance = 0.01;  ///< of G, relative to all irradiance in the L2 norm, > 0
-  double max_length = 0;    ///< of elements to begin with, scene units; 0: by the tolerance
+  /// L2 norm of what else is off, W/m² times √area, ≥ 0: if not 0, G may be off by what that leaves
+  /// of `tolerance`, or a fifth of it where nothing is left. Not with `weight`.
+  double other_error = 0;
+  double max_length = 0;  ///< of elements to begin with, scene units; 0: by the tolerance
   int max_elements = 20000;
   int max_rays = 4096;       ///< from a node of mean size, ≥ 32
   int max_rounds = 8;        ///< of solving, estimating and refining; 1: no refinement

@@ -102,13 +102,13 @@ ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int 
   return mesh;
 }
 
-void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<bool>& twice) {
+void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<int>& times) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const int t = mesh.triangle[at(wanted[i])];
     if (mesh.order[at(t)] < mesh.highest_order)
       mesh.order[at(t)] = mesh.highest_order;
     else
-      split(mesh, t, twice[i] ? 2 : 1);
+      split(mesh, t, times[i]);
   }
   number_elements(mesh);
 }

@@ -41,9 +41,9 @@ struct ReflectedMesh {
 ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int order,
                                   int max_elements, const HugeRoots& huge = {});
 
-/// Raises the order of elements where that is the next thing to do, else bisects them, and the
-/// halves again where `twice` says so. One entry of it a wanted element.
-void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<bool>& twice);
+/// Raises the order of elements where that is the next thing to do, else bisects them and their
+/// parts, each as many times as `times` says. One entry of it a wanted element.
+void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<int>& times);
 
 /// Every element bisected that many times, and its parts as well.
 ReflectedMesh bisected(ReflectedMesh mesh, int times);

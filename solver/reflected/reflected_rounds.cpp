@@ -1,6 +1,7 @@
 #include "solver/reflected/reflected_rounds.h"
 
 #include "meshing/core/free_memory.h"
+#include "solver/reflected/allowed_error.h"
 #include "solver/reflected/exact_estimate.h"
 #include "solver/reflected/exact_exchange.h"
 #include "solver/reflected/quiet_field.h"
@@ -45,9 +46,9 @@ constexpr double least_gain = 0.75;
 constexpr int most_passes = 5;
 /// Deviation of the estimate above which it may be off by so much that it asks for too much.
 constexpr double unsure = 0.1, much_noise = 0.6;
-/// Noise of more than `hides` times what elements are off hides which of them are; of this share it
-/// does not.
-constexpr double hides = 1, unseen = 0.6;
+/// Noise of more than `hides` times what elements are off hides which of them are; of `unseen`
+/// times it does not.
+constexpr double hides = 2.5, unseen = 0.6;
 
 /// As many points that noise of the rays from each may be this share of the goal in their mean.
 constexpr double noise_of_estimate = 0.1, fewest_in_mean = 25;
@@ -236,19 +237,16 @@ class Rounds {
     return sum;
   }
 
-  double norm_square(double square_total) const {
-    return options_.weight ? std::pow(state_.scale.minCoeff() * options_.norm, 2) : square_total;
-  }
-
   double goal_square(double all) const {
-    return std::pow(options_.tolerance / comes_back, 2) * all;
+    return allowed_square(options_, state_.scale, all) / std::pow(comes_back, 2);
   }
 
   /// The strata of either half of the rays from a point of each element: as many rays as keep the
   /// noise of the estimate low, more where there is more noise.
   std::vector<int> strata_of_estimate(const ReflectedSystem& system, const Found& found,
                                       const std::vector<double>& shares, int points) const {
-    const double goal = goal_square(norm_square(rough_square(system, found.irradiance)));
+    const double goal =
+        goal_square(norm_square(options_, state_.scale, rough_square(system, found.irradiance)));
     const double allowed = noise_of_estimate * goal * std::sqrt(points);
     const double share = allowed > 0 ? sum_of(found.noise_kept) / allowed : 0;
     const double rays =
@@ -261,20 +259,20 @@ class Rounds {
     const int unknowns = static_cast<int>(found.rest.first.back());
     const int usual =
         parts_ ? std::clamp(unknowns / 3, 800, 4000) : std::clamp(unknowns / 2, 2000, 6000);
-    const int points = std::max(usual, (parts_ ? 3 : 1) * points_);
+    const int points = std::max(usual, points_);
     ++use_;
+    std::vector<double> expected = tails(mesh_, found.irradiance.rest, found.weight);
+    for (std::size_t e = 0; e < expected.size(); ++e) expected[e] += found.noise_left[e];
+    const std::vector<double> shares = shares_of_probes(mesh_, expected);
     ReflectionEstimate more;
     if (parts_) {
       more = estimate_exactly(
           *state_.sight,
           ExactGather(*state_.sight, state_.reflecting, state_.light, mesh_, found.reflected,
                       state_.accuracy, points_of_exact_projection),
-          system, found.irradiance,
-          spread_probes(mesh_, found.weight, shares_of_probes(mesh_), points, use_), progress_);
+          system, found.irradiance, spread_probes(mesh_, found.weight, shares, points, use_),
+          progress_);
     } else {
-      std::vector<double> expected = tails(mesh_, found.irradiance.rest, found.weight);
-      for (std::size_t e = 0; e < expected.size(); ++e) expected[e] += found.noise_left[e];
-      const std::vector<double> shares = shares_of_probes(mesh_, expected);
       const std::vector<int> strata = strata_of_estimate(system, found, shares, points);
       more =
           estimate_error(state_.reflecting, system, found.irradiance,
@@ -298,7 +296,7 @@ class Rounds {
     ReflectedReport& report = state_.report;
     const double square = std::max(estimate.sum, 0.) + 2 * estimate.deviation;
     const double scale = state_.scale.minCoeff();  // of the channels that count
-    const double all = norm_square(estimate.square_total);
+    const double all = norm_square(options_, state_.scale, estimate.square_total);
     const auto share = [&](double x) { return all > 0 ? std::sqrt(x / all) : 0; };
     const BalanceEstimate unbalanced = estimate_balance(
         system, direct_.leaving(mesh_, state_.light), irradiance.rest,
@@ -309,7 +307,8 @@ class Rounds {
     report.noise = share(sum_of(found.noise_left));
     report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
     report.end = ReflectedEnd::accurate;
-    if (report.error <= options_.tolerance) return Next::end;
+    if (std::pow(report.error, 2) * all <= allowed_square(options_, state_.scale, all))
+      return Next::end;
     const double goal = goal_square(all);
     if (unbalanced.square > goal && (kept_rays_ || unbalanced.elements > most_for_gaps)) {
       report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
@@ -327,7 +326,7 @@ class Rounds {
     const int room = options_.max_elements - mesh_.count();
     std::size_t fits = 0;
     for (int made = 0; fits < plan.elements.size() && !is_last; ++fits)
-      if ((made += plan.twice[fits] ? 3 : 1) > room) break;
+      if ((made += (1 << plan.times[fits]) - 1) > room) break;
     const ReflectedEnd end = is_coarse && !is_last ? ReflectedEnd::elements : ReflectedEnd::rounds;
     report.end = ReflectedEnd::interrupted;
     const double noise = sum_of(found.noise_left);
@@ -337,15 +336,14 @@ class Rounds {
     constexpr int surest = 16, sure = 3;
     const bool could_be_surer = !is_coarse && surer_ < surest;
     // More points take less than what an outlier among a few may ask for.
-    if (kept_rays_ && noise <= much_noise * goal && surer_ < sure &&
-        input.estimate.deviation > unsure * goal &&
+    if (noise <= much_noise * goal && surer_ < sure && input.estimate.deviation > unsure * goal &&
         input.estimate.sum - input.estimate.deviation < goal)
       return Next::points;
     if (fits > 0 && is_hidden && can_pass && plan_pass(input, goal, unseen * of_elements, found))
       return Next::pass;
     if (fits > 0) {
       plan.elements.resize(fits);
-      refine(mesh_, plan.elements, plan.twice);
+      refine(mesh_, plan.elements, plan.times);
       points_ = 0;
       return Next::refine;
     }

@@ -16,8 +16,7 @@ namespace {
 ReflectedMesh mesh_of_a_cube() {
   const SoundScene scene = make_sound(test::room({1, 1, 1}, {}));
   ReflectedMesh mesh = make_reflected_mesh(PatchMesh(scene, {}).elements(), 0.2, 2, 100000);
-  for (int round = 0; round < 4; ++round)
-    refine(mesh, std::vector<int>{0, 5, 6}, {true, true, true});
+  for (int round = 0; round < 4; ++round) refine(mesh, std::vector<int>{0, 5, 6}, {2, 2, 2});
   for (const int t : mesh.triangle)
     if (t % 5 == 0) mesh.order[at(t)] = t % 2;
   return mesh;

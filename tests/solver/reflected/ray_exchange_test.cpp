@@ -43,7 +43,7 @@ TEST(RayExchange, TakesFewerRaysFromSmallElementsAmongVeryMany) {
     std::vector<int> near;
     for (int e = 0; e < room.mesh.count(); ++e)
       if (room.mesh.position(e, TrianglePlace::Constant(1. / 3)).norm() < 0.5) near.push_back(e);
-    refine(room.mesh, near, std::vector<bool>(near.size(), false));
+    refine(room.mesh, near, std::vector<int>(near.size(), 1));
   }
   ASSERT_GT(room.mesh.count(), 20000);
   ASSERT_LT(large, 20000);
@@ -84,7 +84,7 @@ TEST(RayExchange, TakesFewerRaysFromSmallElementsAmongVeryMany) {
 
 TEST(RayExchange, TakesAllRaysFromEachOfFewElements) {
   Room room(0.3);
-  refine(room.mesh, std::vector<int>{0, 1, 2}, {true, true, true});
+  refine(room.mesh, std::vector<int>{0, 1, 2}, {2, 2, 2});
   RayExchange exchange(room.reflecting, room.light, strata);
   ASSERT_TRUE(exchange.update(room.mesh, {}));
   for (const double rays : exchange.rays_of_nodes(room.mesh)) EXPECT_EQ(rays, all_rays);

@@ -98,6 +98,25 @@ TEST(ReflectedLight, TheMeanInAClosedRoomIsThatOfTheBalance) {
   }
 }
 
+TEST(ReflectedLight, MayBeOffByWhatOtherErrorsLeave) {
+  const SoundScene scene = make_sound(test::lit_cube({.5, .5, .5, .5, .5, .5}));
+  const DirectLightIndex index(scene);
+  for (const ReflectedVisibility v : both) {
+    ReflectedOptions options = within(0.04, v);
+    const ReflectedReport alone = reflected_light(scene, exact(scene, index), options).report();
+    const double norm = std::sqrt(6 * alone.mean_square_total);
+    options.other_error = 0.9 * options.tolerance * norm;
+    const ReflectedReport beside = reflected_light(scene, exact(scene, index), options).report();
+    EXPECT_EQ(beside.end, ReflectedEnd::accurate);
+    EXPECT_LE(std::hypot(beside.error, 0.9 * options.tolerance), 1.001 * options.tolerance);
+    options.other_error = 2 * options.tolerance * norm;
+    const ReflectedReport rest = reflected_light(scene, exact(scene, index), options).report();
+    EXPECT_EQ(rest.end, ReflectedEnd::accurate);
+    EXPECT_LE(rest.error, 0.2 * options.tolerance);
+    EXPECT_GT(rest.unknowns + rest.rays, alone.unknowns + alone.rays);
+  }
+}
+
 TEST(ReflectedLight, OneBounceIsOneApplication) {
   const SoundScene scene = make_sound(test::lit_cube({.5, .5, .5, .5, .5, .5}));
   const DirectLightIndex index(scene);

@@ -14,7 +14,7 @@ struct ReflectedCost {
 };
 
 /// The way that the options ask for, or exactly visible parts unless rays are expected to take far
-/// less time. `surfaces`: all of the scene, of which those that do not count are no reason.
+/// less time. `surfaces`: of the scene, where options.counted does not say which of them count.
 ReflectedCost reflected_cost(int surfaces, const ReflectedOptions& options);
 
 }  // namespace halfshade

@@ -36,12 +36,15 @@ double first_length(const HugeRoots& huge, bool is_exact, const ReflectedOptions
   constexpr double mean_area = 0.3;  // of elements that are at most 1 long, see make_reflected_mesh
   // Where furniture takes many elements, so much more for the room costs little.
   constexpr double share_of_roots = 0.04;
+  // Other errors leave about so much of the tolerance: fewer elements show on dark surfaces.
+  constexpr double usually_left = 0.8;
   const double fewest = std::max(50., is_exact ? 0 : share_of_roots * huge.others);
   const double wanted =
       options.weight  // most elements do not matter then
           ? 50
-          : std::clamp(usual_elements * std::pow(usual_error / options.tolerance, 2. / 3), fewest,
-                       std::max(fewest, 5000.));
+          : std::clamp(
+                usual_elements * std::pow(usual_error / (usually_left * options.tolerance), 2. / 3),
+                fewest, std::max(fewest, 5000.));
   const double length = std::sqrt(huge.area / (mean_area * wanted));
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
 }

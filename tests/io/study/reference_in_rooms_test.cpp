@@ -101,31 +101,27 @@ void expect_right_scores(const SolvedRoom& solved) {
   EXPECT_LE(static_cast<double>(far), 0.02 * static_cast<double>(scores.size()));
 }
 
-/// Means over elements, some of all sizes, are no farther off than both errors together, weighted
-/// with areas as the error is that is claimed.
+/// Means over elements, some of all sizes, are no farther off than both errors together.
 void expect_right_means(const SolvedRoom& solved) {
   const ElementTable& elements = solved.result.elements;
   std::vector<ReferenceTriangle> triangles;
   std::vector<Rgb> means;
-  std::vector<double> areas;
   const std::size_t step = elements.corners.size() / at(solved.room.elements) + 1;
   for (std::size_t e = 0; e < elements.corners.size(); e += step) {
     const auto& [a, b, c] = elements.corners[e];
     triangles.push_back({elements.points[at(a)], elements.points[at(b)], elements.points[at(c)]});
     means.emplace_back(solved.result.solution.irradiance.row(static_cast<Eigen::Index>(e)));
-    areas.push_back(elements.area[e]);
   }
   const ReferenceLight light =
       reference_means(solved.prepared.scene(), triangles, {.samples = solved.room.samples});
-  double excess = 0, spread = 0, all = 0;
+  double excess = 0, spread = 0;
   for (std::size_t k = 0; k < means.size(); ++k) {
-    const double noise = light.standard_errors[k].total.square().sum(), area = areas[k];
-    excess += area * ((means[k] - light.values[k].total).square().sum() - noise);
-    spread += 2 * area * area * noise * noise;
-    all += area;
+    const double noise = light.standard_errors[k].total.square().sum();
+    excess += (means[k] - light.values[k].total).square().sum() - noise;
+    spread += 2 * noise * noise;
   }
   const double claimed = solved.room.tolerance * solved.walks.scale();
-  EXPECT_LE(excess, 3 * std::sqrt(spread) + claimed * claimed * all);
+  EXPECT_LE(excess, 3 * std::sqrt(spread) + claimed * claimed * static_cast<double>(means.size()));
 }
 
 class ReferenceInRooms : public testing::TestWithParam<Room> {};

@@ -51,8 +51,7 @@ struct Query {
   const TriangleSoup* soup;
   const SoupTriangle* triangles;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
-  Vec3 origin;                        // nearest hit
-  const Vec3* directions = nullptr;   // nearest hit: the packet's
+  const HalfLine* rays = nullptr;     // nearest hit: likewise
   bool front_only = false;
 };
 static_assert(std::is_standard_layout_v<Query>, "a pointer to the context must lead to the query");
@@ -66,12 +65,12 @@ bool is_between(const Query& query, const Segment& segment, std::size_t id) {
   return triangle.contains(segment.from + from / (from - to) * (segment.to - segment.from));
 }
 
-bool is_ahead(const Query& query, const Vec3& direction, std::size_t id) {
+bool is_ahead(const Query& query, const HalfLine& ray, std::size_t id) {
   const SoupTriangle& triangle = query.triangles[id];
-  const double height = triangle.height(query.origin), rise = triangle.normal.dot(direction);
+  const double height = triangle.height(ray.origin), rise = triangle.normal.dot(ray.direction);
   if (query.front_only && rise >= 0) return false;
-  if (!(triangle.side(query.origin) * rise < 0)) return false;
-  return triangle.contains(query.origin - height / rise * direction);
+  if (!(triangle.side(ray.origin) * rise < 0)) return false;
+  return triangle.contains(ray.origin - height / rise * ray.direction);
 }
 
 void filter_occlusion(const RTCFilterFunctionNArguments* args) {
@@ -88,8 +87,8 @@ void filter_hit(const RTCFilterFunctionNArguments* args) {
   const auto& query = *reinterpret_cast<const Query*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
-    const Vec3& direction = query.directions[RTCRayN_id(args->ray, args->N, i)];
-    if (!is_ahead(query, direction, RTCHitN_primID(args->hit, args->N, i))) args->valid[i] = 0;
+    const HalfLine& ray = query.rays[RTCRayN_id(args->ray, args->N, i)];
+    if (!is_ahead(query, ray, RTCHitN_primID(args->hit, args->N, i))) args->valid[i] = 0;
   }
 }
 
@@ -204,12 +203,11 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
     result[i] = valid[i] != 0 && rays.tfar[i] < 0 ? 1 : 0;
 }
 
-int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const {
-  const std::optional<Ray> ray = space_.ray_ahead(origin, direction);
+int EmbreeScene::first_hit(const HalfLine& line, Sides sides) const {
+  const std::optional<Ray> ray = space_.ray_ahead(line.origin, line.direction);
   if (!ray) return -1;
   Query query = query_of(soup_, triangles_, false);
-  query.origin = origin;
-  query.directions = &direction;
+  query.rays = &line;
   query.front_only = sides == Sides::front_only;
   RTCRayHit found{};
   found.ray = to_embree(*ray);
@@ -219,23 +217,22 @@ int EmbreeScene::first_hit(const Vec3& origin, const Vec3& direction, Sides side
   return static_cast<int>(found.hit.primID);
 }
 
-void EmbreeScene::first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+void EmbreeScene::first_hits(std::span<const HalfLine> rays, Sides sides,
                              std::span<int> triangles) const {
   alignas(64) RTCRayHit16 found{};
   alignas(64) int valid[packet_size] = {};
-  for (std::size_t i = 0; i < directions.size(); ++i) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
     found.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    const std::optional<Ray> r = space_.ray_ahead(origin, directions[i]);
+    const std::optional<Ray> r = space_.ray_ahead(rays[i].origin, rays[i].direction);
     if (!r) continue;
     valid[i] = -1;
     put(*r, i, found.ray);
   }
   Query query = query_of(soup_, triangles_, true);
-  query.origin = origin;
-  query.directions = directions.data();
+  query.rays = rays.data();
   query.front_only = sides == Sides::front_only;
   rtcIntersect16(valid, handles_->scene.get(), &query.context, &found);
-  for (std::size_t i = 0; i < directions.size(); ++i)
+  for (std::size_t i = 0; i < rays.size(); ++i)
     triangles[i] =
         found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(found.hit.primID[i]);
 }

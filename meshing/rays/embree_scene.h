@@ -28,13 +28,11 @@ class EmbreeScene {
   /// Of up to packet_size segments: `result[k]` is 1 or 0.
   void blocked(std::span<const Segment> segments, std::span<std::uint8_t> result) const;
 
-  /// The first triangle that a ray meets, −1 if none; `direction` has unit length, `origin` is
-  /// finite.
-  int first_hit(const Vec3& origin, const Vec3& direction, Sides sides) const;
+  /// The first triangle that a ray meets, −1 if none.
+  int first_hit(const HalfLine& ray, Sides sides) const;
 
-  /// The same for up to packet_size directions from one origin.
-  void first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
-                  std::span<int> triangles) const;
+  /// The same for up to packet_size rays.
+  void first_hits(std::span<const HalfLine> rays, Sides sides, std::span<int> triangles) const;
 
  private:
   struct Handles;

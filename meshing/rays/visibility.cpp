@@ -99,26 +99,26 @@ std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& di
   if (!impl_->scene || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
   const Vec3 unit = direction.stableNormalized();
   if (unit.isZero()) return std::nullopt;
-  const int triangle = impl_->scene->first_hit(origin, unit, sides);
+  const int triangle = impl_->scene->first_hit({origin, unit}, sides);
   if (triangle < 0) return std::nullopt;
   return impl_->hit(origin, unit, triangle);
 }
 
-void VisibilityIndex::first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
+void VisibilityIndex::first_hits(std::span<const HalfLine> rays, Sides sides,
                                  std::span<Hit> hits) const {
-  if (directions.size() != hits.size())
+  if (rays.size() != hits.size())
     throw Error(ErrorCode::contract, "VisibilityIndex::first_hits",
-                fmt::format("{} directions and room for {} hits", directions.size(), hits.size()));
+                fmt::format("{} rays and room for {} hits", rays.size(), hits.size()));
   std::array<int, packet_size> triangles;
-  for (std::size_t i = 0; i < directions.size(); i += packet_size) {
-    const std::size_t count = std::min(packet_size, directions.size() - i);
+  for (std::size_t i = 0; i < rays.size(); i += packet_size) {
+    const auto packet = rays.subspan(i, std::min(packet_size, rays.size() - i));
     triangles.fill(-1);
     if (impl_->scene)
-      impl_->scene->first_hits(origin, directions.subspan(i, count), sides,
-                               std::span(triangles).first(count));
-    for (std::size_t k = 0; k < count; ++k)
-      hits[i + k] = triangles[k] < 0 ? Hit{-1, -1, 0, {}}
-                                     : impl_->hit(origin, directions[i + k], triangles[k]);
+      impl_->scene->first_hits(packet, sides, std::span(triangles).first(packet.size()));
+    for (std::size_t k = 0; k < packet.size(); ++k)
+      hits[i + k] = triangles[k] < 0
+                        ? Hit{-1, -1, 0, {}}
+                        : impl_->hit(packet[k].origin, packet[k].direction, triangles[k]);
   }
 }
 

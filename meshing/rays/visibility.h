@@ -26,6 +26,11 @@ struct Hit {
   std::array<double, 3> weights{};  ///< barycentric coordinates at the triangle's corners
 };
 
+/// All that lies ahead of a finite point; `direction` has unit length.
+struct HalfLine {
+  Vec3 origin, direction;
+};
+
 enum class Sides { both, front_only };
 
 /// Answers visibility queries among fixed triangles. Embree finds the triangles near a ray in
@@ -56,11 +61,10 @@ class VisibilityIndex {
   std::optional<Hit> first_hit(const Vec3& origin, const Vec3& direction,
                                Sides sides = Sides::both) const;
 
-  /// The same for directions of unit length from one finite origin; `hits[k].triangle` is −1 where
-  /// nothing is met. Spans must be equally long. On the calling thread, in packets: directions that
-  /// are close together should be close together in the batch.
-  void first_hits(const Vec3& origin, std::span<const Vec3> directions, Sides sides,
-                  std::span<Hit> hits) const;
+  /// The same for many rays; `hits[k].triangle` is −1 where nothing is met. Spans must be equally
+  /// long. On the calling thread, in packets: rays that are close together should be close together
+  /// in the batch.
+  void first_hits(std::span<const HalfLine> rays, Sides sides, std::span<Hit> hits) const;
 
   /// Owners of all triangles that can lie between a point of polygon `a` and a point of polygon
   /// `b`: those that reach into the interior of their convex hull (shaft; Haines and Wallace 1991).

@@ -46,16 +46,16 @@ void add_hemicube(const Hemicube& cube, const HemicubePlace& place, const Visibi
   const Vec3 first = (place.along - place.along.dot(place.normal) * place.normal).normalized();
   Eigen::Matrix3d turn;
   turn << first, place.normal.cross(first), place.normal;
-  std::vector<Vec3> directions;
-  directions.reserve(cube.directions.size());
-  for (const Vec3& d : cube.directions) directions.push_back((turn * d).normalized());
-  std::vector<Hit> hits(directions.size());
-  items.first_hits(place.point, directions, Sides::both, hits);
+  std::vector<HalfLine> rays;
+  rays.reserve(cube.directions.size());
+  for (const Vec3& d : cube.directions) rays.push_back({place.point, (turn * d).normalized()});
+  std::vector<Hit> hits(rays.size());
+  items.first_hits(rays, Sides::both, hits);
   for (std::size_t k = 0; k < hits.size(); ++k) {
     if (hits[k].triangle < 0) continue;
     int owner = hits[k].owner;
-    if (normals[at(owner)].dot(directions[k]) >= 0) {
-      const auto front = items.first_hit(place.point, directions[k], Sides::front_only);
+    if (normals[at(owner)].dot(rays[k].direction) >= 0) {
+      const auto front = items.first_hit(place.point, rays[k].direction, Sides::front_only);
       if (!front || front->distance > hits[k].distance * (1 + same_distance)) continue;
       owner = front->owner;
     }

@@ -23,13 +23,12 @@ struct RayCounts {
 RayCounts count_rays(const FactorScene& scene, const ReflectingScene& reflecting,
                      SurfaceOrigins places, std::size_t origins) {
   RayCounts counts{Eigen::ArrayXd::Zero(scene.rows() + 2)};
-  HemisphereRays caster(reflecting);
-  std::vector<RayEnd> ends;
   for (std::size_t k = 0; k < origins; ++k) {
     const RayOrigin from = places.next();
-    ends.clear();
-    counts.rays += static_cast<std::size_t>(caster.cast(from, strata, places.seed(), ends));
-    for (const RayEnd& end : ends) {
+    const RayHemisphere hemisphere{from, strata, places.seed()};
+    const TracedHemispheres traced = trace_hemispheres(reflecting, {&hemisphere, 1});
+    counts.rays += at(traced.of_each[0].rays);
+    for (const RayEnd& end : traced.ends) {
       const int row = scene.row[at(reflecting.roots.surface[at(end.triangle)])];
       counts.mutual[row >= 0 ? row : row == surroundings ? scene.rows() : scene.rows() + 1] += 1;
     }

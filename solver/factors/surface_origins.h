@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/reflected/reflecting_scene.h"
+#include "solver/reflected/hemisphere_rays.h"
 
 #include <cstdint>
 #include <vector>

@@ -16,33 +16,12 @@ constexpr double share_alike = 0.25;
 /// Fewer more than this share of those that there are already do not pay.
 constexpr double least_more = 0.25;
 
-struct ElementPass {
-  const ReflectingScene& scene;
-  const ReflectedMesh& mesh;
-  const FirstLight& light;
-  const QuickField leaving;
-  int use;
-
-  /// What arrives at the nodes by each half of the rays.
-  ChannelArray operator()(int element, const ElementNodes& nodes, int strata) const {
-    ChannelArray halves(2 * static_cast<Eigen::Index>(nodes.places.size()), 3);
-    for (int i = 0; i < static_cast<int>(halves.rows()); ++i) {
-      const int node = i / 2;
-      const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
-      const std::uint64_t seed = ray_seed(mesh, element, node, 2 * use + i % 2);
-      halves.row(i) =
-          gathered({scene, light, Looks::quick}, mesh, leaving, from, strata, seed).transpose();
-    }
-    return halves;
-  }
-};
-
 }  // namespace
 
 FinalPass final_pass(const ReflectingScene& scene, const ReflectedMesh& mesh,
                      const FirstLight& light, const ElementField& leaving,
                      const std::vector<int>& strata, int use, const Progress& progress) {
-  const ElementPass pass{scene, mesh, light, QuickField(mesh, leaving), use};
+  const LeavingField field(mesh, leaving);
   FinalPass result;
   result.rest = zero_field(mesh);
   result.noise.resize(at(mesh.count()));
@@ -52,13 +31,16 @@ FinalPass final_pass(const ReflectingScene& scene, const ReflectedMesh& mesh,
         const int element = static_cast<int>(e);
         const ElementNodes& nodes = element_nodes_of(result.rest.order[e]);
         if (strata[e] == 0) return;
-        const ChannelArray halves = pass(element, nodes, strata[e]);
+        const ChannelArray halves = gathered(
+            gather_rays(scene, light, Looks::quick,
+                        halves_of_nodes(scene, mesh, element, strata[e], {2 * use, 2 * use + 1})),
+            mesh.forest, field);
         result.rest.of(element) = (nodes.fit * means_of_halves(halves).matrix()).array();
         result.noise[e] = noise_of_halves(nodes, mesh.area(element), halves);
       },
       progress, "final rays of reflected light");
   for (int e = 0; e < mesh.count(); ++e)
-    result.rays += 2 * Gathering{scene, light}.rays(strata[at(e)]) *
+    result.rays += 2 * rays_of_hemisphere(light, strata[at(e)]) *
                    element_nodes_of(result.rest.order[at(e)]).places.size();
   return result;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -67,41 +68,11 @@ Rgb HotCells::look(const Leaving& leaving, Looks looks, int root, int cell, cons
                                                                        : leaving(root, position);
 }
 
-Rgb HotCells::by_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
-                            const RayOrigin& from, int rays, int aimed, std::uint64_t seed) const {
-  std::vector<Segment> segments;
-  std::vector<Rgb> light;
-  std::vector<std::uint8_t> blocked;
-  const std::uint64_t own = mix_bits(seed ^ 0x5bd1e995);
-  for (int k = 0; k < aimed; ++k) {
-    const std::uint64_t n = 3 * static_cast<std::uint64_t>(k);
-    const double share = (k + random_number(own, n)) / aimed;
-    const std::size_t c =
-        std::min(hot_.size() - 1,
-                 static_cast<std::size_t>(std::upper_bound(up_to_.begin(), up_to_.end(), share) -
-                                          up_to_.begin()));
-    const auto& [root, cell, corners] = hot_[c];
-    if (from.cell >= 0 && scene.cells.before(root) != from.cell) continue;
-    const TrianglePlace place =
-        place_in(corners, random_number(own, n + 1), random_number(own, n + 2));
-    const Vec3 to = position(scene.roots.triangle(root), place), d = to - from.position;
-    const double other = expected(scene, from, root, d, cell);
-    if (other < 0) continue;
-    segments.push_back({from.position, to, from.plane, scene.visibility.soup().plane[at(root)]});
-    light.push_back(look(leaving, looks, root, cell, to, d.squaredNorm()) / (rays + aimed * other));
-  }
-  blocked.resize(segments.size());
-  scene.visibility.blocked(segments, blocked);
-  Rgb sum = Rgb::Zero();
-  for (std::size_t i = 0; i < segments.size(); ++i)
-    if (blocked[i] == 0) sum += light[i];
-  return sum;
-}
-
-Rgb HotCells::irradiance(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
-                         const RayOrigin& from, int strata, int rays, std::span<const RayEnd> ends,
-                         std::uint64_t seed) const {
-  const int cast = strata * strata, aimed = count(cast);
+Rgb HotCells::by_all_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                          const RayHemisphere& hemisphere, std::span<const RayEnd> ends,
+                          int rays) const {
+  const RayOrigin& from = hemisphere.from;
+  const int all = hemisphere.strata * hemisphere.strata, aimed = count(all);
   Rgb sum = Rgb::Zero();
   for (const RayEnd& end : ends) {
     const int root = end.triangle;
@@ -114,11 +85,59 @@ Rgb HotCells::irradiance(const ReflectingScene& scene, const Leaving& leaving, L
     const double other = aimed > 0 && density_[at(cell)] > 0
                              ? std::max(expected(scene, from, root, d, cell), 0.)
                              : 0;
-    sum += look(leaving, looks, root, cell, to, d.squaredNorm()) / (1 + aimed * other / cast);
+    sum += look(leaving, looks, root, cell, to, d.squaredNorm()) / (1 + aimed * other / all);
   }
-  sum /= rays;
-  if (aimed > 0) sum += by_aimed_rays(scene, leaving, looks, from, cast, aimed, seed);
-  return sum;
+  return sum / rays;
+}
+
+void HotCells::add_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                              std::span<const RayHemisphere> hemispheres,
+                              ChannelArray& irradiance) const {
+  std::vector<Segment> segments;
+  std::vector<std::pair<Eigen::Index, Rgb>> light;  // what they bring if nothing is in the way
+  using Shares = std::vector<double>::const_iterator;
+  const auto add_segment = [&](std::size_t h, int k, int aimed, Shares first, Shares last) {
+    const auto& [from, strata, seed] = hemispheres[h];
+    const std::uint64_t own = mix_bits(seed ^ 0x5bd1e995), n = 3 * static_cast<std::uint64_t>(k);
+    const Shares up_to = std::upper_bound(first, last, (k + random_number(own, n)) / aimed);
+    const auto& [root, cell, corners] =
+        hot_[std::min(hot_.size() - 1, static_cast<std::size_t>(up_to - up_to_.begin()))];
+    if (from.cell >= 0 && scene.cells.before(root) != from.cell) return;
+    const TrianglePlace place =
+        place_in(corners, random_number(own, n + 1), random_number(own, n + 2));
+    const Vec3 to = position(scene.roots.triangle(root), place), d = to - from.position;
+    const double other = expected(scene, from, root, d, cell);
+    if (other < 0) return;
+    segments.push_back({from.position, to, from.plane, scene.visibility.soup().plane[at(root)]});
+    light.emplace_back(
+        static_cast<Eigen::Index>(h),
+        look(leaving, looks, root, cell, to, d.squaredNorm()) / (strata * strata + aimed * other));
+  };
+  // Those to about the same cells follow each other: they are quicker to trace.
+  const int aimed = count(hemispheres[0].strata * hemispheres[0].strata);
+  Shares first = up_to_.begin();
+  for (int k = 0; k < aimed; ++k) {
+    const Shares last = std::upper_bound(first, up_to_.end(), (k + 1.) / aimed);
+    for (std::size_t h = 0; h < hemispheres.size(); ++h) add_segment(h, k, aimed, first, last);
+    first = last;
+  }
+  std::vector<std::uint8_t> blocked(segments.size());
+  scene.visibility.blocked(segments, blocked);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    if (blocked[i] == 0) irradiance.row(light[i].first) += light[i].second.transpose();
+}
+
+ChannelArray HotCells::irradiance(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                                  std::span<const RayHemisphere> hemispheres,
+                                  const TracedHemispheres& traced) const {
+  ChannelArray result(static_cast<Eigen::Index>(hemispheres.size()), 3);
+  for (std::size_t h = 0; h < hemispheres.size(); ++h)
+    result.row(static_cast<Eigen::Index>(h)) =
+        by_all_rays(scene, leaving, looks, hemispheres[h], traced.ends_of(h),
+                    traced.of_each[h].rays)
+            .transpose();
+  if (!hot_.empty()) add_aimed_rays(scene, leaving, looks, hemispheres, result);
+  return result;
 }
 
 }  // namespace halfshade

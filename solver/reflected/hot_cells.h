@@ -1,5 +1,7 @@
 #pragma once
 
+#include "solver/elements/solution.h"
+#include "solver/reflected/hemisphere_rays.h"
 #include "solver/reflected/leaving_cells.h"
 
 #include <array>
@@ -31,12 +33,13 @@ class HotCells {
   /// Rays to them that go with so many over the hemisphere; 0 if they do not pay.
   int count(int rays) const;
 
-  /// Irradiance from what leaves `ends`, of which `rays` are the whole hemisphere, and from hot
-  /// cells by count(strata²) more rays: each place counts by how many rays of both kinds were to be
-  /// expected there (the balance heuristic; Veach and Guibas 1995).
-  Rgb irradiance(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
-                 const RayOrigin& from, int strata, int rays, std::span<const RayEnd> ends,
-                 std::uint64_t seed) const;
+  /// Irradiance by each hemisphere from what leaves where its rays end, and from hot cells by
+  /// count(strata²) more rays: each place counts by how many rays of both kinds were to be expected
+  /// there (the balance heuristic; Veach and Guibas 1995). One row a hemisphere; all have the same
+  /// strata.
+  ChannelArray irradiance(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                          std::span<const RayHemisphere> hemispheres,
+                          const TracedHemispheres& traced) const;
 
  private:
   struct Cell {
@@ -48,8 +51,12 @@ class HotCells {
   /// was; d from the origin.
   double expected(const ReflectingScene& scene, const RayOrigin& from, int root, const Vec3& d,
                   int cell) const;
-  Rgb by_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
-                    const RayOrigin& from, int rays, int aimed, std::uint64_t seed) const;
+  /// What comes by the rays over the hemisphere.
+  Rgb by_all_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                  const RayHemisphere& hemisphere, std::span<const RayEnd> ends, int rays) const;
+  /// Adds what comes by aimed rays, those of all hemispheres together.
+  void add_aimed_rays(const ReflectingScene& scene, const Leaving& leaving, Looks looks,
+                      std::span<const RayHemisphere> hemispheres, ChannelArray& irradiance) const;
   /// What leaves a place of a cell.
   Rgb look(const Leaving& leaving, Looks looks, int root, int cell, const Vec3& position,
            double square_distance) const;

@@ -7,6 +7,22 @@
 
 namespace halfshade {
 
+/// Σ c · (1, s, t, s², st, t², s³, s²t, st², t³) up to an order ≤ max_reflected_order.
+inline Rgb sum_of_powers(const Rgb* c, int order, const TrianglePlace& place) {
+  const double s = place.x(), t = place.y();
+  switch (order) {
+    case 0:
+      return c[0];
+    case 1:
+      return c[0] + s * c[1] + t * c[2];
+    case 2:
+      return c[0] + s * (c[1] + s * c[3] + t * c[4]) + t * (c[2] + t * c[5]);
+    default:
+      return c[0] + s * (c[1] + s * (c[3] + s * c[6] + t * c[7]) + t * c[4]) +
+             t * (c[2] + t * (c[5] + t * c[9] + s * c[8]));
+  }
+}
+
 /// A field of order ≤ max_reflected_order as sums of powers, for the many places that rays ask for:
 /// what takes the time is to fetch it from memory.
 class QuickField {
@@ -17,23 +33,11 @@ class QuickField {
   QuickField(const ReflectedMesh& mesh, const ElementField& field);
 
   Rgb value(int element, const TrianglePlace& place) const {
-    const double s = place.x(), t = place.y();
     const auto [first, order] = parts_[at(element)];
-    const Rgb* c = powers_.data() + first;
-    switch (order) {
-      case 0:
-        return c[0];
-      case 1:
-        return c[0] + s * c[1] + t * c[2];
-      case 2:
-        return c[0] + s * (c[1] + s * c[3] + t * c[4]) + t * (c[2] + t * c[5]);
-      default:
-        return c[0] + s * (c[1] + s * (c[3] + s * c[6] + t * c[7]) + t * c[4]) +
-               t * (c[2] + t * (c[5] + t * c[9] + s * c[8]));
-    }
+    return sum_of_powers(powers_.data() + first, order, place);
   }
 
-  /// Of an element: the coefficients of 1, s, t, s², st, t², s³, s²t, st², t³, up to its order.
+  /// Of an element, up to its order, see sum_of_powers.
   const Rgb* powers(int element) const { return powers_.data() + parts_[at(element)].first; }
 
  private:

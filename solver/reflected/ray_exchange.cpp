@@ -11,8 +11,8 @@ namespace halfshade {
 namespace {
 
 constexpr int most_uses = 1024;
-/// Uses of seeds, see ray_seed: the first half of the rays that are kept has 0.
-constexpr int second_half = most_uses - 1;
+/// Of seeds, see ray_seed: those of the rays that are kept.
+constexpr std::array<int, 2> uses_of_kept = {0, most_uses - 1};
 
 /// With so many elements, those of less than the mean area have fewer rays. Noise falls with n rays
 /// as n^-1.3: it is least for all of them with n as the area to the power of 1 / 2.3, which leaves
@@ -35,52 +35,6 @@ int strata_for(double area, double area_of_all, int most) {
                     std::min(fewest_kept_strata, most), most);
 }
 
-/// What arrives by each half of the rays of what leaves triangles.
-ChannelArray arriving(const NodeRays& rays, const QuickField& leaving) {
-  ChannelArray values(static_cast<Eigen::Index>(rays.rays.size()), 3);
-  for (std::size_t k = 0; k < rays.rays.size(); ++k) {
-    Rgb sum = Rgb::Zero();
-    for (int i = rays.first[k]; i < rays.first[k + 1]; ++i) {
-      const RayEnd& end = rays.ends[at(i)];
-      sum += leaving.value(end.triangle, end.place());
-    }
-    values.row(static_cast<Eigen::Index>(k)) = (sum / rays.rays[k]).transpose();
-  }
-  return values;
-}
-
-std::unique_ptr<NodeRays> trace(const ReflectingScene& scene, const FirstLight& light,
-                                const ReflectedMesh& mesh, int element, int strata) {
-  std::vector<RayEnd> ends;
-  const Gathering gathering{scene, light, Looks::quick};
-  auto rays = std::make_unique<NodeRays>();
-  const int triangle = mesh.triangle[at(element)];
-  const ElementNodes& nodes = element_nodes_of(mesh.order[at(triangle)]);
-  rays->strata = strata;
-  rays->source = ChannelArray::Zero(2 * static_cast<Eigen::Index>(nodes.places.size()), 3);
-  for (int i = 0; i < static_cast<int>(rays->source.rows()); ++i) {
-    const int node = i / 2;
-    const RayOrigin from = ray_origin(scene, mesh, element, nodes.places[at(node)]);
-    const std::uint64_t seed = ray_seed(mesh, element, node, i % 2 == 0 ? 0 : second_half);
-    const auto [first, count] = gathering(from, strata, seed, ends);
-    rays->first.push_back(static_cast<int>(rays->ends.size()));
-    rays->rays.push_back(count);
-    rays->source.row(i) = first.transpose();
-    rays->ends.insert(rays->ends.end(), ends.begin(), ends.end());
-  }
-  rays->first.push_back(static_cast<int>(rays->ends.size()));
-  rays->ends.shrink_to_fit();
-  return rays;
-}
-
-void settle(const TriangleForest& forest, NodeRays& rays) {
-  for (RayEnd& end : rays.ends) {
-    if (forest.is_leaf(end.triangle)) continue;
-    const ForestPlace leaf = forest.leaf_at({end.triangle, end.place()});
-    end = {leaf.triangle, static_cast<float>(leaf.place.x()), static_cast<float>(leaf.place.y())};
-  }
-}
-
 }  // namespace
 
 std::uint64_t ray_seed(const ReflectedMesh& mesh, int element, int node, int use) {
@@ -95,28 +49,15 @@ RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, in
           static_cast<bool>(scene.cells.closed[at(cell)]), scene.visibility.soup().plane[at(root)]};
 }
 
-Gathering::Result Gathering::operator()(const RayOrigin& from, int strata, std::uint64_t seed,
-                                        std::vector<RayEnd>& ends) const {
-  ends.clear();
-  const int rays = HemisphereRays(scene).cast(from, strata, seed, ends);
-  const auto leaving = [this](int root, const Vec3& p) { return light.leaving(root, p); };
-  return {light.hot.irradiance(scene, leaving, looks, from, strata, rays, ends, seed), rays};
-}
-
-std::size_t Gathering::rays(int strata) const {
-  return at(strata * strata + light.hot.count(strata * strata));
-}
-
-Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
-             const RayOrigin& from, int strata, std::uint64_t seed) {
-  std::vector<RayEnd> ends;
-  const auto [first, rays] = gathering(from, strata, seed, ends);
-  Rgb sum = Rgb::Zero();
-  for (const RayEnd& end : ends) {
-    const ForestPlace leaf = mesh.forest.leaf_at({end.triangle, end.place()});
-    sum += leaving.value(leaf.triangle, leaf.place);
-  }
-  return first + sum / rays;
+std::vector<RayHemisphere> halves_of_nodes(const ReflectingScene& scene, const ReflectedMesh& mesh,
+                                           int element, int strata, std::array<int, 2> uses) {
+  const auto& places = element_nodes_of(mesh.order[at(mesh.triangle[at(element)])]).places;
+  std::vector<RayHemisphere> halves;
+  for (int node = 0; node < static_cast<int>(places.size()); ++node)
+    for (const int use : uses)
+      halves.push_back({ray_origin(scene, mesh, element, places[at(node)]), strata,
+                        ray_seed(mesh, element, node, use)});
+  return halves;
 }
 
 ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
@@ -134,21 +75,27 @@ bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
     auto& rays = of_triangle_[at(t)];
     if (!mesh.forest.is_leaf(t)) rays.reset();
     const std::size_t nodes = element_nodes_of(mesh.order[at(t)]).places.size();
-    if (!mesh.forest.is_leaf(t) || (rays && rays->rays.size() == 2 * nodes)) continue;
+    if (!mesh.forest.is_leaf(t) || (rays && rays->halves.traced.of_each.size() == 2 * nodes))
+      continue;
     missing.push_back(mesh.element[at(t)]);
     strata.push_back(strata_for(mesh.forest.area(t), area_of_all, strata_));
-    traced_ += 2 * nodes * Gathering{scene_, light_}.rays(strata.back());
+    traced_ += 2 * nodes * rays_of_hemisphere(light_, strata.back());
   }
   const bool complete = parallel_for(
       missing.size(),
       [&](std::size_t i) {
         const int e = missing[i];
-        of_triangle_[at(mesh.triangle[at(e)])] = trace(scene_, light_, mesh, e, strata[i]);
+        const auto halves = halves_of_nodes(scene_, mesh, e, strata[i], uses_of_kept);
+        auto& kept = of_triangle_[at(mesh.triangle[at(e)])];
+        kept = std::make_unique<NodeRays>(
+            NodeRays{gather_rays(scene_, light_, Looks::quick, halves), strata[i]});
+        kept->halves.traced.ends.shrink_to_fit();
       },
       progress, "rays of reflected light");
   if (complete)
-    parallel_for(at(mesh.count()),
-                 [&](std::size_t e) { settle(mesh.forest, *of_triangle_[at(mesh.triangle[e])]); });
+    parallel_for(at(mesh.count()), [&](std::size_t e) {
+      settle(mesh.forest, of_triangle_[at(mesh.triangle[e])]->halves.traced);
+    });
   return complete;
 }
 
@@ -157,18 +104,19 @@ ElementField RayExchange::source(const ReflectedMesh& mesh) const {
   for (int e = 0; e < mesh.count(); ++e) {
     const int t = mesh.triangle[at(e)];
     result.of(e) = (element_nodes_of(mesh.order[at(t)]).fit *
-                    means_of_halves(of_triangle_[at(t)]->source).matrix())
+                    means_of_halves(of_triangle_[at(t)]->halves.first).matrix())
                        .array();
   }
   return result;
 }
 
 ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& leaving) const {
-  const QuickField quick(mesh, leaving);
+  const LeavingField field(mesh, leaving);
   ElementField result = zero_field(mesh);
   parallel_for(at(mesh.count()), [&](std::size_t e) {
     const int t = mesh.triangle[e];
-    const ChannelArray values = means_of_halves(arriving(*of_triangle_[at(t)], quick));
+    const ChannelArray values =
+        means_of_halves(irradiance(of_triangle_[at(t)]->halves.traced, field));
     result.of(static_cast<int>(e)) =
         (element_nodes_of(mesh.order[at(t)]).fit * values.matrix()).array();
   });
@@ -176,13 +124,13 @@ ElementField RayExchange::apply(const ReflectedMesh& mesh, const ElementField& l
 }
 
 FieldNoise RayExchange::noise(const ReflectedMesh& mesh, const ElementField& leaving) const {
-  const QuickField quick(mesh, leaving);
+  const LeavingField field(mesh, leaving);
   FieldNoise noise(at(mesh.count()));
   parallel_for(noise.size(), [&](std::size_t e) {
     const int t = mesh.triangle[e];
-    const NodeRays& rays = *of_triangle_[at(t)];
+    const GatheredRays& halves = of_triangle_[at(t)]->halves;
     noise[e] = noise_of_halves(element_nodes_of(mesh.order[at(t)]), mesh.forest.area(t),
-                               rays.source + arriving(rays, quick));
+                               halves.first + irradiance(halves.traced, field));
   });
   return noise;
 }
@@ -201,7 +149,7 @@ std::vector<double> RayExchange::rays_of_nodes(const ReflectedMesh& mesh) const 
 
 std::vector<int> RayExchange::seen_from(const ReflectedMesh& mesh, int element) const {
   std::vector<int> seen;
-  for (const RayEnd& end : of_triangle_[at(mesh.triangle[at(element)])]->ends)
+  for (const RayEnd& end : of_triangle_[at(mesh.triangle[at(element)])]->halves.traced.ends)
     seen.push_back(mesh.element[at(end.triangle)]);
   return seen;
 }

@@ -2,11 +2,11 @@
 
 #include "meshing/core/progress.h"
 #include "solver/reflected/field_noise.h"
-#include "solver/reflected/first_light.h"
+#include "solver/reflected/gathering.h"
 #include "solver/reflected/irradiance_operator.h"
-#include "solver/reflected/quick_field.h"
 #include "solver/reflected/reflected_mesh.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -14,14 +14,11 @@
 
 namespace halfshade {
 
-/// Where the rays from the nodes of an element end, and what comes from there first. Those of each
-/// node are two halves, 2 node and 2 node + 1, that tell their noise.
+/// The rays from the nodes of an element, which end on triangles of the forest. Those of each node
+/// are two halves, 2 node and 2 node + 1, that tell their noise.
 struct NodeRays {
-  std::vector<RayEnd> ends;  ///< on triangles of the forest
-  std::vector<int> first;    ///< half → its first end, and the number of ends
-  std::vector<int> rays;     ///< half → number of rays that its ends are taken from
-  ChannelArray source;       ///< half → irradiance from S
-  int strata = 0;            ///< squared, rays of a half over the hemisphere
+  GatheredRays halves;
+  int strata = 0;  ///< squared, rays of a half over the hemisphere
 };
 
 /// K, irradiance from leaving light, by a few rays from each node that are traced once and kept:
@@ -64,31 +61,12 @@ class RayExchange : public IrradianceOperator {
 RayOrigin ray_origin(const ReflectingScene& scene, const ReflectedMesh& mesh, int element,
                      const TrianglePlace& place);
 
-/// Rays over the hemisphere above a place, as strata² and others aimed at hot cells.
-struct Gathering {
-  const ReflectingScene& scene;
-  const FirstLight& light;
-  Looks looks = Looks::exact;
-
-  /// Irradiance from S. Puts the ends on roots into `ends`, and returns the number of rays that
-  /// each of them is one of.
-  struct Result {
-    Rgb first;
-    int rays;
-  };
-  Result operator()(const RayOrigin& from, int strata, std::uint64_t seed,
-                    std::vector<RayEnd>& ends) const;
-
-  /// How many rays that takes.
-  std::size_t rays(int strata) const;
-};
-
-/// The same from S and from a field on the elements, by triangles.
-Rgb gathered(const Gathering& gathering, const ReflectedMesh& mesh, const QuickField& leaving,
-             const RayOrigin& from, int strata, std::uint64_t seed);
-
 /// A seed for the rays of a node of an element; `use` tells apart what is to be independent.
 std::uint64_t ray_seed(const ReflectedMesh& mesh, int element, int node, int use);
+
+/// Two hemispheres of strata² rays above each node of an element, of two uses.
+std::vector<RayHemisphere> halves_of_nodes(const ReflectingScene& scene, const ReflectedMesh& mesh,
+                                           int element, int strata, std::array<int, 2> uses);
 
 /// ρ times a field.
 ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,

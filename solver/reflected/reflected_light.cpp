@@ -131,9 +131,11 @@ Rgb ReflectedLight::gather(const SurfacePoint& point, int rays) const {
   for (const double x : point.position)
     seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(std::frexp(x, &exponent)));
   const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(rays))));
-  return gathered({state_->reflecting, state_->light}, state_->mesh, *state_->leaving,
-                  {point.position, point.normal}, strata, seed) /
-         state_->scale;
+  const RayHemisphere above{{point.position, point.normal}, strata, seed};
+  const ChannelArray found =
+      gathered(gather_rays(state_->reflecting, state_->light, Looks::exact, {&above, 1}),
+               state_->mesh.forest, *state_->leaving);
+  return found.row(0).transpose() / state_->scale;
 }
 
 const ReflectedReport& ReflectedLight::report() const { return state_->report; }

@@ -3,6 +3,7 @@
 #include "solver/reflected/exact_gather.h"
 #include "solver/reflected/exact_sight.h"
 #include "solver/reflected/irradiance_row.h"
+#include "solver/reflected/leaving_field.h"
 #include "solver/reflected/quick_field.h"
 #include "solver/reflected/reflected_light.h"
 
@@ -28,10 +29,11 @@ struct ReflectedLight::State {
   ReflectedMesh mesh;
   ElementTable elements;
   ElementField field;
-  ElementField leaving_rest;                      ///< what leaves, without S
-  std::optional<QuickField> irradiance, leaving;  ///< by triangles of the mesh
-  std::vector<ElementField> by_bounce;            ///< if asked for, as the next
-  std::vector<QuickField> irradiance_by_bounce;   ///< likewise
+  ElementField leaving_rest;             ///< what leaves, without S
+  std::optional<QuickField> irradiance;  ///< by triangles of the mesh, as the next
+  std::optional<LeavingField> leaving;
+  std::vector<ElementField> by_bounce;           ///< if asked for, as the next
+  std::vector<QuickField> irradiance_by_bounce;  ///< likewise
   ReflectedReport report;
   mutable std::once_flag gather_made;
   mutable std::optional<ExactGather> gather;  ///< made when it is asked for

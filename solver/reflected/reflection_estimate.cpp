@@ -4,6 +4,7 @@
 #include "meshing/geometry/mix_bits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halfshade {
@@ -58,7 +59,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
                                   const SplitIrradiance& irradiance,
                                   const ReflectionProbes& options, const Progress& progress) {
   const auto& [mesh, light, exchange, systems] = system;
-  const QuickField leaving(mesh, options.leaving);
+  const LeavingField leaving(mesh, options.leaving);
   const QuickField rest(irradiance.rest);
   std::vector<ProbePlace> probes =
       spread_probes(mesh, options.weight, options.shares, options.points, options.use);
@@ -71,12 +72,12 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
         const TrianglePlace& place = probe.place;
         const Rgb here = rest.value(e, place);
         const RayOrigin from = ray_origin(scene, mesh, e, place);
-        Rgb product = Rgb::Ones();
-        for (int h = 0; h < 2; ++h) {
-          const std::uint64_t seed = mix_bits(probe.seed + static_cast<std::uint64_t>(h));
-          product *=
-              gathered({scene, light}, mesh, leaving, from, options.strata[at(e)], seed) - here;
-        }
+        std::array<RayHemisphere, 2> halves;
+        for (std::size_t h = 0; h < 2; ++h)
+          halves[h] = {from, options.strata[at(e)], mix_bits(probe.seed + h)};
+        const ChannelArray found =
+            gathered(gather_rays(scene, light, Looks::exact, halves), mesh.forest, leaving);
+        const Rgb product = (found.row(0).transpose() - here) * (found.row(1).transpose() - here);
         probe.square_error = product.sum();
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
         probe.square = (light.direct_at(mesh.root(e), mesh.position(e, place)) + here + constant)
@@ -86,7 +87,7 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
       progress, "error of reflected light");
   estimate.add(mesh, probes);
   for (const ProbePlace& probe : probes)
-    estimate.rays += 2 * Gathering{scene, light}.rays(options.strata[at(probe.element)]);
+    estimate.rays += 2 * rays_of_hemisphere(light, options.strata[at(probe.element)]);
   return estimate;
 }
 

@@ -45,23 +45,41 @@ void count_rays(benchmark::State& state) {
 /// With finding the element's place, cells of space and surfaces back to back.
 void hemisphere_rays(benchmark::State& state) {
   const Room room(static_cast<int>(state.range(0)), 0.5);
-  HemisphereRays rays(room.reflecting);
-  std::vector<RayEnd> ends;
   std::size_t k = 0;
   for (auto _ : state) {
-    ends.clear();
-    benchmark::DoNotOptimize(rays.cast(room.origin(k), strata, k, ends));
+    const RayHemisphere hemisphere{room.origin(k), strata, k};
+    benchmark::DoNotOptimize(trace_hemispheres(room.reflecting, {&hemisphere, 1}).ends.data());
     ++k;
   }
   count_rays(state);
 }
 BENCHMARK(hemisphere_rays)->Arg(100)->Arg(1700)->Arg(5500);
 
+/// Rays from the nodes of one element after another, seven by seven: all of an element's together,
+/// or each hemisphere alone.
+void rays_of_elements(benchmark::State& state) {
+  const Room room(static_cast<int>(state.range(0)), 0.5);
+  const bool together = state.range(1) == 1;
+  std::size_t k = 0, rays = 0;
+  for (auto _ : state) {
+    const int e = static_cast<int>(k++ * 7919 % at(room.mesh.count()));
+    const std::vector<RayHemisphere> all =
+        halves_of_nodes(room.reflecting, room.mesh, e, 7, {0, 1});
+    const std::size_t at_once = together ? all.size() : 1;
+    for (std::size_t h = 0; h < all.size(); h += at_once)
+      benchmark::DoNotOptimize(
+          trace_hemispheres(room.reflecting, std::span(all).subspan(h, at_once)).ends.data());
+    rays += all.size() * 49;
+  }
+  state.SetItemsProcessed(static_cast<std::int64_t>(rays));
+}
+BENCHMARK(rays_of_elements)->ArgsProduct({{100, 1700, 5500}, {0, 1}});
+
 /// The same number of rays from the same points over the same triangles, their hits alone.
 void hemisphere_hits(benchmark::State& state) {
   const Room room(static_cast<int>(state.range(0)), 0.5);
-  std::vector<Vec3> directions(at(strata * strata));
-  std::vector<Hit> hits(directions.size());
+  std::vector<HalfLine> rays(at(strata * strata));
+  std::vector<Hit> hits(rays.size());
   std::size_t k = 0;
   for (auto _ : state) {
     const RayOrigin from = room.origin(k);
@@ -69,10 +87,11 @@ void hemisphere_hits(benchmark::State& state) {
     for (int i = 0; i < strata * strata; ++i) {
       const double square = (i % strata + random_number(k, at(2 * i))) / strata;
       const double angle = 2 * M_PI * (i / strata + random_number(k, at(2 * i + 1))) / strata;
-      directions[at(i)] = turn * Vec3(std::sqrt(square) * std::cos(angle),
-                                      std::sqrt(square) * std::sin(angle), std::sqrt(1 - square));
+      rays[at(i)] = {from.position,
+                     turn * Vec3(std::sqrt(square) * std::cos(angle),
+                                 std::sqrt(square) * std::sin(angle), std::sqrt(1 - square))};
     }
-    room.reflecting.visibility.first_hits(from.position, directions, Sides::both, hits);
+    room.reflecting.visibility.first_hits(rays, Sides::both, hits);
     benchmark::DoNotOptimize(hits.data());
     ++k;
   }

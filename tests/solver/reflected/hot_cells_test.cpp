@@ -31,16 +31,14 @@ Runs gather(const ReflectingScene& scene, const HotCells& hot, const RayOrigin& 
             Looks looks = Looks::exact) {
   constexpr int strata = 7;
   Runs result;
-  std::vector<RayEnd> ends;
-  HemisphereRays caster(scene);
+  std::vector<RayHemisphere> hemispheres;
+  for (int k = 0; k < runs; ++k)
+    hemispheres.push_back({from, strata, static_cast<std::uint64_t>(k)});
+  const ChannelArray light =
+      hot.irradiance(scene, leaving, looks, hemispheres, trace_hemispheres(scene, hemispheres));
   for (int k = 0; k < runs; ++k) {
-    const auto seed = static_cast<std::uint64_t>(k);
-    ends.clear();
-    const int rays = caster.cast(from, strata, seed, ends);
-    const double light =
-        hot.irradiance(scene, leaving, looks, from, strata, rays, ends, seed).mean();
-    result.mean += light / runs;
-    result.square += light * light / runs;
+    result.mean += light.row(k).mean() / runs;
+    result.square += std::pow(light.row(k).mean(), 2) / runs;
   }
   return result;
 }

@@ -1,9 +1,10 @@
-#include "solver/reflected/reflecting_scene.h"
+#include "solver/reflected/hemisphere_rays.h"
 
 #include "meshing/core/plane_frame.h"
 #include "meshing/repair/repair.h"
 #include "solver/elements/element_field.h"
 #include "solver/exchange/form_factor.h"
+#include "tests/support/room_families.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,9 @@ TEST(HemisphereRays, SharesAreFormFactors) {
   const SoundScene sound = make_sound(test::room({1, 1, 1}, {}));
   const ReflectingScene scene = make_reflecting_scene(sound);
   const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ(), scene.cells.before(0), true};
-  std::vector<RayEnd> ends;
-  const int rays = HemisphereRays(scene).cast(from, 64, 1, ends);
+  const RayHemisphere hemisphere{from, 64, 1};
+  const auto [ends, of_each] = trace_hemispheres(scene, {&hemisphere, 1});
+  const int rays = of_each[0].rays;
   EXPECT_EQ(rays, 64 * 64) << "nothing is lost";
   EXPECT_EQ(ends.size(), at(rays));
   const auto faces = test::box_faces(Vec3::Zero(), Vec3::Ones(), true);
@@ -54,8 +56,9 @@ TEST(HemisphereRays, AreAloneInTheirCellsAndInTheirRowsAndColumns) {
   const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
   const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ()};
   const PlaneFrame frame = make_frame(from.position, from.normal);
-  std::vector<RayEnd> ends;
-  ASSERT_EQ(HemisphereRays(scene).cast(from, strata, 5, ends), all);
+  const RayHemisphere hemisphere{from, strata, 5};
+  const auto [ends, of_each] = trace_hemispheres(scene, {&hemisphere, 1});
+  ASSERT_EQ(of_each[0].rays, all);
   std::set<int> cells, rows, columns;
   for (const RayEnd& end : ends) {
     const Vec3 d =
@@ -79,9 +82,9 @@ TEST(HemisphereRays, BacksSwallowAndTwoSidedSheetsDoNot) {
     // Looks away from the floor.
     test::add_polygon(scene, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, sheet);
     const ReflectingScene reflecting = make_reflecting_scene(make_sound(scene));
-    std::vector<RayEnd> ends;
-    const RayOrigin from{{0.5, 0.5, 0}, Vec3::UnitZ()};
-    const int rays = HemisphereRays(reflecting).cast(from, 32, 1, ends);
+    const RayHemisphere hemisphere{{{0.5, 0.5, 0}, Vec3::UnitZ()}, 32, 1};
+    const auto [ends, of_each] = trace_hemispheres(reflecting, {&hemisphere, 1});
+    const int rays = of_each[0].rays;
     EXPECT_EQ(rays, 32 * 32);
     const double expected = two_sided ? 0.2394564 : 0;  // unit squares, from the centre
     EXPECT_NEAR(static_cast<double>(ends.size()) / rays, expected, 4e-3);
@@ -92,13 +95,36 @@ TEST(HemisphereRays, BacksSwallowAndTwoSidedSheetsDoNot) {
 TEST(HemisphereRays, AreTheSameForTheSameSeedOnly) {
   const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
   const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ()};
-  std::vector<RayEnd> ends;
-  HemisphereRays caster(scene);
-  for (const std::uint64_t seed : {1, 1, 2}) caster.cast(from, 4, seed, ends);
+  const std::vector<RayHemisphere> hemispheres = {{from, 4, 1}, {from, 4, 1}, {from, 4, 2}};
+  const std::vector<RayEnd> ends = trace_hemispheres(scene, hemispheres).ends;
   ASSERT_EQ(ends.size(), 48U);
   for (std::size_t k = 0; k < 16; ++k) {
     EXPECT_EQ(ends[k].s, ends[k + 16].s);
     EXPECT_NE(ends[k].s, ends[k + 32].s);
+  }
+}
+
+TEST(HemisphereRays, EndWhereTheyDoOneHemisphereAtATime) {
+  const ReflectingScene scene = make_reflecting_scene(make_sound(test::furnished_room(100)));
+  // More than go together at once, and fewer.
+  for (const int strata : {3, 7, 50}) {
+    std::vector<RayHemisphere> hemispheres;
+    for (int k = 0; k < 9; ++k)
+      hemispheres.push_back({{{0.5 + 0.1 * k, 0.7, 0}, Vec3::UnitZ()}, strata, at(k) + 5});
+    const TracedHemispheres together = trace_hemispheres(scene, hemispheres);
+    ASSERT_EQ(together.of_each.size(), hemispheres.size());
+    for (std::size_t h = 0; h < hemispheres.size(); ++h) {
+      const auto [ends, of_each] = trace_hemispheres(scene, {&hemispheres[h], 1});
+      EXPECT_GT(ends.size(), at(strata * strata / 2));
+      EXPECT_EQ(together.of_each[h].rays, of_each[0].rays);
+      const std::span<const RayEnd> own = together.ends_of(h);
+      ASSERT_EQ(own.size(), ends.size()) << strata << ' ' << h;
+      for (std::size_t k = 0; k < ends.size(); ++k) {
+        EXPECT_EQ(own[k].triangle, ends[k].triangle);
+        EXPECT_EQ(own[k].s, ends[k].s);
+        EXPECT_EQ(own[k].t, ends[k].t);
+      }
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 #include "solver/reflected/field_noise.h"
 
+#include <cmath>
+
 namespace halfshade {
 
 ChannelArray means_of_halves(const ChannelArray& halves) {
@@ -7,6 +9,16 @@ ChannelArray means_of_halves(const ChannelArray& halves) {
   for (Eigen::Index k = 0; k < means.rows(); ++k)
     means.row(k) = 0.5 * (halves.row(2 * k) + halves.row(2 * k + 1));
   return means;
+}
+
+double rays_as_good_as(double a, double b) {
+  return std::pow(std::pow(a, noise_exponent) + std::pow(b, noise_exponent), 1 / noise_exponent);
+}
+
+double rays_missing(double wanted, double sent) {
+  if (wanted <= sent) return 0;
+  return std::pow(std::pow(wanted, noise_exponent) - std::pow(sent, noise_exponent),
+                  1 / noise_exponent);
 }
 
 FieldNoise::value_type noise_of_halves(const ElementNodes& nodes, double area,

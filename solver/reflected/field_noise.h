@@ -13,6 +13,13 @@ using FieldNoise = std::vector<std::array<double, max_reflected_order + 1>>;
 /// Noise of stratified rays falls faster than their number rises.
 inline constexpr double noise_exponent = 1.3;
 
+/// The number of rays sent at once that leave as much noise as the best mean of two independent
+/// results, by `a` and by `b` rays: fewer than a + b.
+double rays_as_good_as(double a, double b);
+
+/// How many have to go with `sent` to be as good as `wanted` at once; 0 if those are as good.
+double rays_missing(double wanted, double sent);
+
 /// Means of two rows that belong together: 2 k and 2 k + 1.
 ChannelArray means_of_halves(const ChannelArray& halves);
 

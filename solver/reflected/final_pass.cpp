@@ -65,20 +65,22 @@ std::vector<int> share_rays(const ReflectedMesh& mesh, const std::vector<double>
   for (double& r : rays) r = mean > 0 ? r / mean : 0;
   constexpr double step = 1.0625;
   double all = fewest;
+  const auto missing = [&](std::size_t e) {
+    const double more = rays_missing(all * rays[e], shares.sent[e]);
+    return more > least_more * shares.sent[e] ? more : 0;
+  };
   const auto is_noisy = [&] {
     double then = 0;
     for (std::size_t e = 0; e < rays.size(); ++e)
       then += expected[e] *
-              std::pow(shares.rays / std::max(shares.sent[e], all * rays[e]), noise_exponent);
+              std::pow(shares.rays / rays_as_good_as(shares.sent[e], missing(e)), noise_exponent);
     return then > shares.wanted;
   };
   while (all < shares.most && is_noisy()) all *= step;
+  all = std::min(all, shares.most);
   std::vector<int> strata;
   for (std::size_t e = 0; e < rays.size(); ++e) {
-    const double more = std::min(all, shares.most) * rays[e] - shares.sent[e];
-    const int wanted = more > least_more * shares.sent[e]
-                           ? static_cast<int>(std::lround(std::sqrt(0.5 * more)))
-                           : 0;
+    const int wanted = static_cast<int>(std::lround(std::sqrt(0.5 * missing(e))));
     strata.push_back(wanted > 0 ? std::max(fewest_strata, wanted) : 0);
   }
   return strata;

@@ -26,9 +26,9 @@ FinalPass final_pass(const ReflectingScene& scene, const ReflectedMesh& mesh,
 /// How rays are shared among elements.
 struct RayShares {
   double rays;               ///< from a node, that the noise was found with
-  std::vector<double> sent;  ///< element → rays from a node so far
+  std::vector<double> sent;  ///< element → what rays from a node so far are as good as at once
   double wanted;             ///< ∫ of noise², weighted
-  double most;               ///< rays from a node, in the mean over the elements
+  double most;               ///< as `sent`, in the mean over the elements
 };
 
 /// Strata of each element, 0 where there are rays enough, so that as few rays as possible bring the

@@ -13,7 +13,8 @@ const RayPasses::OfTriangle* RayPasses::find(const ReflectedMesh& mesh, int elem
 
 std::vector<double> RayPasses::sent(const ReflectedMesh& mesh, std::vector<double> kept) const {
   for (int e = 0; e < mesh.count(); ++e)
-    if (const OfTriangle* found = find(mesh, e)) kept[at(e)] += found->rays;
+    if (const OfTriangle* found = find(mesh, e))
+      kept[at(e)] = rays_as_good_as(kept[at(e)], found->rays);
   return kept;
 }
 
@@ -54,7 +55,7 @@ void RayPasses::add(const ReflectedMesh& mesh, const FinalPass& pass,
     const double share = old > 0 ? old / (old + now[at(found.passes)]) : 1;
     found.more = (1 - share) * found.more + share * (pass.rest.of(e) - kept.of(e));
     found.noise = mean_noise(found.noise, pass.noise[at(e)], share);
-    found.rays += 2 * strata[at(e)] * strata[at(e)];
+    found.rays = rays_as_good_as(found.rays, 2. * strata[at(e)] * strata[at(e)]);
     ++found.passes;
   }
   ++count_;

@@ -12,7 +12,8 @@ class RayPasses {
  public:
   int count() const { return count_; }
 
-  /// Rays from a node of each element so far; `kept` are there anyway.
+  /// What the rays from a node of each element so far are as good as at once, see rays_as_good_as;
+  /// `kept` are there anyway.
   std::vector<double> sent(const ReflectedMesh& mesh, std::vector<double> kept) const;
 
   /// Corrects what the kept rays say, and its noise.
@@ -28,7 +29,7 @@ class RayPasses {
   struct OfTriangle {
     ChannelArray more;  ///< than the kept rays say
     FieldNoise::value_type noise{};
-    double rays = 0;
+    double rays = 0;  ///< likewise, from a node
     int passes = 0;
   };
   /// None if it was not there when the pass was made, or had another order.

@@ -8,8 +8,6 @@
 namespace halfshade {
 namespace {
 
-/// Takes coefficients of the orthonormal polynomials to those of 1, s, t, s², st, t², s³, s²t, st²,
-/// t³.
 Eigen::MatrixXd to_powers(int order) {
   const auto nodes = element_nodes(order);
   Eigen::MatrixXd powers(nodes.size(), basis_size(order));
@@ -25,14 +23,18 @@ Eigen::MatrixXd to_powers(int order) {
 
 }  // namespace
 
-QuickField::QuickField(const ElementField& field) {
+const Eigen::MatrixXd& change_to_powers(int order) {
   static const std::array<Eigen::MatrixXd, max_reflected_order + 1> change = {
       to_powers(0), to_powers(1), to_powers(2), to_powers(3)};
+  return change[at(order)];
+}
+
+QuickField::QuickField(const ElementField& field) {
   powers_.reserve(at(field.first.back()));
   for (int e = 0; e < field.count(); ++e) {
     const int order = field.order[at(e)];
     parts_.push_back({static_cast<int>(powers_.size()), order});
-    const Eigen::MatrixXd powers = change[at(order)] * field.of(e).matrix();
+    const Eigen::MatrixXd powers = change_to_powers(order) * field.of(e).matrix();
     for (Eigen::Index k = 0; k < powers.rows(); ++k)
       powers_.emplace_back(powers.row(k).transpose());
   }

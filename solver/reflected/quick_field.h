@@ -7,6 +7,10 @@
 
 namespace halfshade {
 
+/// Takes coefficients of the orthonormal polynomials of an order ≤ max_reflected_order to those of
+/// 1, s, t, s², st, t², s³, s²t, st², t³.
+const Eigen::MatrixXd& change_to_powers(int order);
+
 /// Σ c · (1, s, t, s², st, t², s³, s²t, st², t³) up to an order ≤ max_reflected_order.
 inline Rgb sum_of_powers(const Rgb* c, int order, const TrianglePlace& place) {
   const double s = place.x(), t = place.y();

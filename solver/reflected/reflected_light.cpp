@@ -70,7 +70,7 @@ void scale_light(ReflectedLight::State& state) {
 
 /// As many as suit the tolerance.
 void find_hot_cells(ReflectedLight::State& state, const HugeRoots& huge, double tolerance) {
-  constexpr double cells = 4000, fewest = 50000, most = 1e6;
+  constexpr double cells = 1000, fewest = 20000, most = 200000;
   const LeavingCells::Leaving leaving = [&](int root, const Vec3& p) {
     return state.light.leaving(root, p);
   };

@@ -15,7 +15,7 @@ namespace {
 TEST(RaysMissing, MakeUpForWhatIsThere) {
   EXPECT_EQ(rays_missing(100, 100), 0);
   EXPECT_EQ(rays_missing(100, 200), 0);
-  EXPECT_EQ(rays_missing(100, 0), 100);
+  EXPECT_DOUBLE_EQ(rays_missing(100, 0), 100);
   for (const double sent : {10., 50., 99.}) {
     const double more = rays_missing(100, sent);
     EXPECT_GT(more, 100 - sent) << "independent results are worth less than their rays at once";

@@ -47,6 +47,9 @@ std::vector<int> shuffled(int count, std::uint64_t seed) {
   return order;
 }
 
+/// Of numbers in [0, 1), one of which rounding may make 1.
+int cell_of(double x) { return std::min(static_cast<int>(side * x), side - 1); }
+
 /// Adds the rays, and the places of their cells.
 void add_rays(const RayHemisphere& hemisphere, std::vector<HalfLine>& rays,
               std::vector<int>& look) {
@@ -62,8 +65,7 @@ void add_rays(const RayHemisphere& hemisphere, std::vector<HalfLine>& rays,
       const Vec2 d = on_disc(u, v);
       const double height = std::sqrt(std::max(0., 1 - d.squaredNorm()));
       rays.push_back({from.position, d.x() * frame.e1 + d.y() * frame.e2 + height * frame.normal});
-      look.push_back(
-          place_of_cell[at(static_cast<int>(side * u) + side * static_cast<int>(side * v))]);
+      look.push_back(place_of_cell[at(cell_of(u) + side * cell_of(v))]);
     }
 }
 
@@ -76,7 +78,8 @@ void sort_by_counting(std::span<const int> numbers, std::vector<int>& order) {
   for (const int n : numbers) order.push_back(next[at(n)]++);
 }
 
-/// A triangle whose front and back are both met looks at the ray with one of them.
+/// Whether a two-sided triangle that was met from behind has its front in the same place; `hit` is
+/// that then.
 bool find_other_side(const ReflectingScene& scene, const HalfLine& ray, Hit& hit) {
   // Rounding of the distance to a plane, for rays that are not too grazing.
   constexpr double same = 1e-9;

@@ -10,8 +10,6 @@ namespace {
 
 /// Of the adjoint light in the L2 norm: errors of weights only misplace effort.
 constexpr double adjoint_tolerance = 0.025;
-/// Up to so many surfaces exactly visible parts are found at once.
-constexpr std::size_t few_surfaces = 100;
 /// What is claimed grows by what weights may be off.
 constexpr double for_the_adjoint = 1.1;
 /// Of the mean that the adjoint light tells, what errors are relative to before it is known better.
@@ -33,6 +31,13 @@ SoundScene lit_by_group(const SoundScene& scene, int group) {
 }
 
 }  // namespace
+
+ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked) {
+  constexpr std::size_t few_surfaces = 100;  // their visible parts are found at once
+  return asked == ReflectedVisibility::automatic && scene.surfaces.size() <= few_surfaces
+             ? ReflectedVisibility::exact
+             : asked;
+}
 
 Rgb GoalAdjoint::rho(int surface, const Vec3& position) const {
   return reflectance_at(scene, scene.surfaces[at(surface)], position);
@@ -74,10 +79,7 @@ Rgb GoalAdjoint::goal() const {
 GoalAdjoint solve_adjoint(const SoundScene& scene, int group, const SolveOptions& options,
                           const Progress& progress) {
   ReflectedOptions how;
-  how.visibility = options.visibility;
-  // What shines is small, and rays that find it are few.
-  if (how.visibility == ReflectedVisibility::automatic && scene.surfaces.size() <= few_surfaces)
-    how.visibility = ReflectedVisibility::exact;
+  how.visibility = visibility_for_goal(scene, options.visibility);
   how.tolerance = adjoint_tolerance;
   how.through_operator = true;
   // What arrives straight from the group arrives by the operator's first application.

@@ -9,6 +9,11 @@ namespace halfshade {
 
 struct SolveOptions;
 
+/// Exact parts among few surfaces, if nothing else is asked for: what shines in adjoint light is
+/// small, and rays that find it are few; and noise of rays does not average out over the few
+/// elements that a goal takes.
+ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked);
+
 /// The light of a scene in which a group alone shines, 1 W/m² in each channel: z × area, see
 /// GoalWeights. The scene it was made for must outlive it.
 struct GoalAdjoint {

@@ -196,6 +196,7 @@ ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
   result.tolerance = std::sqrt(1 - values_share * values_share) * tolerance;
   if (goal) {
     result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
+    result.visibility = visibility_for_goal(scene, options.visibility);
     result.weight = goal->weight;
     result.norm = goal->norm;
   }

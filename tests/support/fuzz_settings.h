@@ -3,6 +3,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <sys/resource.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -14,8 +15,26 @@ inline int fuzz_setting(const char* name, int otherwise) {
   return text != nullptr ? std::atoi(text) : otherwise;
 }
 
-/// HALFSHADE_FUZZ_SECONDS: what a test takes at least; 0 if not given.
-inline int fuzz_seconds() { return fuzz_setting("HALFSHADE_FUZZ_SECONDS", 0); }
+/// HALFSHADE_FUZZ_SECONDS: what a test takes at least; 0 if not given. CPU time of this process and
+/// of those it waited for: a test that is stopped has tried nothing.
+class FuzzTime {
+ public:
+  bool goes_on() const { return cpu_seconds() < end_; }
+
+ private:
+  static double cpu_seconds() {
+    double sum = 0;
+    for (const int whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+      rusage usage{};
+      getrusage(whose, &usage);
+      for (const timeval& t : {usage.ru_utime, usage.ru_stime})
+        sum += static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    }
+    return sum;
+  }
+
+  double end_ = cpu_seconds() + fuzz_setting("HALFSHADE_FUZZ_SECONDS", 0);
+};
 
 /// HALFSHADE_FUZZ_SEED.
 inline int fuzz_seed(int otherwise) { return fuzz_setting("HALFSHADE_FUZZ_SEED", otherwise); }

@@ -19,7 +19,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <string>
 #include <sys/resource.h>
 #include <vector>
@@ -152,11 +151,10 @@ class ReadMutated : public testing::TestWithParam<Seed> {
 
 TEST_P(ReadMutated, GivesWhatItReadsOrAnError) {
   ASSERT_NO_THROW(read()) << "the seed itself";
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::seconds(test::fuzz_seconds());
+  const test::FuzzTime time;
   test::Mutator mutated(static_cast<unsigned>(test::fuzz_seed(7)));
   int runs = 0;
-  for (; runs < GetParam().runs || Clock::now() < end; ++runs)
+  for (; runs < GetParam().runs || time.goes_on(); ++runs)
     read_mutated(mutated(GetParam().content));
   // Both outcomes occur, or the mutations would try too little.
   EXPECT_GT(sound_, runs / 100);

@@ -20,16 +20,20 @@ constexpr double most_scale = 4;
 /// How much the coefficients of the highest degree count beside what was found at points.
 constexpr double share_of_tails = 0.75;
 
+double sum_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
+
 /// ∫ |error|² of each, `all` in all, without noise of rays.
 std::vector<double> errors_of_elements(const RefinementInput& input, double all) {
   std::vector<double> result = tails(input.mesh, input.irradiance, input.weight);
-  const double sum = std::accumulate(result.begin(), result.end(), 0.);
-  const double scale = sum > 0 ? std::clamp(all / sum, 0., most_scale) : 0;
-  for (std::size_t e = 0; e < result.size(); ++e) {
-    const double found = input.estimate.square_error[e];
-    result[e] = share_of_tails * scale * result[e] +
-                (1 - share_of_tails) * (found != 0 ? found - input.noise[e] : 0);
-  }
+  std::vector<double> known(result.size(), 0);
+  for (std::size_t e = 0; e < result.size(); ++e)
+    if (const double found = input.estimate.square_error[e]; found != 0)
+      known[e] = (1 - share_of_tails) * input.estimate.chance[e] * (found - input.noise[e]);
+  const double sum = sum_of(result), rest = all - sum_of(known);
+  const double scale = sum > 0 ? std::clamp(rest / sum, 0., most_scale) : 0;
+  for (std::size_t e = 0; e < result.size(); ++e) result[e] = scale * result[e] + known[e];
   return result;
 }
 

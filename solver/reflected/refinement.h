@@ -35,9 +35,9 @@ std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
                           const std::vector<double>& weight);
 
 /// `goal` is the ∫ |error|² allowed. The estimate knows how large the error of all elements is, but
-/// of each only by a point or two: a quarter of the error is laid where it was found, the rest
-/// where the coefficients of the highest degree are large. Where it is the balance of power that is
-/// not known, those that know least.
+/// of each only by a point or two, if any: a quarter of the error is laid where it was found, as
+/// far as what a point finds is the element's own, the rest where the coefficients of the highest
+/// degree are large. Where it is the balance of power that is not known, those that know least.
 RefinementPlan plan_refinement(const RefinementInput& input, double goal);
 
 }  // namespace halfshade

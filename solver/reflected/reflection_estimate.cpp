@@ -11,10 +11,12 @@ namespace halfshade {
 
 void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes) {
   square_error.resize(at(mesh.count()), 0);
+  chance.resize(at(mesh.count()), 0);
   double variance = deviation * deviation;
   for (const ProbePlace& probe : probes) {
     const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
+    chance[at(probe.element)] = std::min(mesh.area(probe.element) / probe.share, 1.);
     sum += error;
     variance += error * error;
     square_total += probe.share * probe.square;
@@ -24,8 +26,10 @@ void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePla
 
 void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_other) {
   const double a = 1 - weight_of_other, b = weight_of_other;
-  for (std::size_t e = 0; e < square_error.size(); ++e)
+  for (std::size_t e = 0; e < square_error.size(); ++e) {
     square_error[e] = a * square_error[e] + b * other.square_error[e];
+    chance[e] = std::min(chance[e] + other.chance[e], 1.);
+  }
   sum = a * sum + b * other.sum;
   deviation = std::hypot(a * deviation, b * other.deviation);
   square_total = a * square_total + b * other.square_total;

@@ -20,7 +20,7 @@ constexpr double most_scale = 4;
 /// How much the coefficients of the highest degree count beside what was found at points.
 constexpr double share_of_tails = 0.75;
 
-double sum_of(const std::vector<double>& values) {
+double summed(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.);
 }
 
@@ -31,7 +31,7 @@ std::vector<double> errors_of_elements(const RefinementInput& input, double all)
   for (std::size_t e = 0; e < result.size(); ++e)
     if (const double found = input.estimate.square_error[e]; found != 0)
       known[e] = (1 - share_of_tails) * input.estimate.chance[e] * (found - input.noise[e]);
-  const double sum = sum_of(result), rest = all - sum_of(known);
+  const double sum = summed(result), rest = all - summed(known);
   const double scale = sum > 0 ? std::clamp(rest / sum, 0., most_scale) : 0;
   for (std::size_t e = 0; e < result.size(); ++e) result[e] = scale * result[e] + known[e];
   return result;

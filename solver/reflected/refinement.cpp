@@ -85,7 +85,7 @@ std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
 
 RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
   RefinementPlan plan;
-  const double noise = std::accumulate(input.noise.begin(), input.noise.end(), 0.);
+  const double noise = summed(input.noise);
   double left = input.estimate.sum - noise;
   const std::vector<double> coarse = errors_of_elements(input, left);
   std::vector<int> order(coarse.size());

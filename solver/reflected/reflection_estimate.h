@@ -14,13 +14,13 @@ namespace halfshade {
 struct ReflectionEstimate {
   /// Element → ∫ over it of |error|², without bias: of one element it is mostly noise, and may be
   /// negative.
-  std::vector<double> square_error;  ///< weighted, as `sum` and `deviation`
-  /// Element → how likely a point was to fall on it, if one did: the rest of its error stands for
-  /// elements like it that none fell on.
+  std::vector<double> square_error;  ///< weighted, as the next two
+  double sum = 0;                    ///< of it
+  double deviation = 0;              ///< standard deviation of the sum
+  double square_total = 0;           ///< ∫ |H_d + G|²
+  /// Element → how likely a point was to fall on it, where one did: only this share of the error
+  /// found there is its own, the rest stands for elements like it that none fell on.
   std::vector<double> chance;
-  double sum = 0;           ///< of it
-  double deviation = 0;     ///< standard deviation of the sum
-  double square_total = 0;  ///< ∫ |H_d + G|²
   std::size_t rays = 0;
   bool complete = true;
 

@@ -30,7 +30,7 @@ std::vector<double> errors_of_elements(const RefinementInput& input, double all)
   std::vector<double> known(result.size(), 0);
   for (std::size_t e = 0; e < result.size(); ++e)
     if (const double found = input.estimate.square_error[e]; found != 0)
-      known[e] = (1 - share_of_tails) * input.estimate.chance[e] * (found - input.noise[e]);
+      known[e] = (1 - share_of_tails) * (input.estimate.chance[e] * found - input.noise[e]);
   const double sum = summed(result), rest = all - summed(known);
   const double scale = sum > 0 ? std::clamp(rest / sum, 0., most_scale) : 0;
   for (std::size_t e = 0; e < result.size(); ++e) result[e] = scale * result[e] + known[e];

@@ -28,7 +28,8 @@ void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_
   const double a = 1 - weight_of_other, b = weight_of_other;
   for (std::size_t e = 0; e < square_error.size(); ++e) {
     square_error[e] = a * square_error[e] + b * other.square_error[e];
-    chance[e] = std::min(chance[e] + other.chance[e], 1.);
+    // Of points of both: what one says of it, for the other may have missed it.
+    chance[e] = std::min(std::max(chance[e] / a, other.chance[e] / b), 1.);
   }
   sum = a * sum + b * other.sum;
   deviation = std::hypot(a * deviation, b * other.deviation);

@@ -1,25 +1,27 @@
 #include "solver/pipeline/goal_adjoint.h"
 
 #include "solver/elements/painted_triangle.h"
-#include "solver/pipeline/solve_options.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace halfshade {
 namespace {
 
-/// Of the adjoint light in the L2 norm: errors of weights only misplace effort.
-constexpr double adjoint_tolerance = 0.025;
 /// What is claimed grows by what weights may be off.
 constexpr double for_the_adjoint = 1.1;
 /// Of the mean that the adjoint light tells, what errors are relative to before it is known better.
 constexpr double surely = 0.9;
 
-/// The same scene in which the group alone shines.
-SoundScene lit_by_group(const SoundScene& scene, int group) {
+/// Of rays: noise that z has in common with a residual at the same point would not average out.
+constexpr std::uint64_t own_pattern = 1;
+
+/// The same scene in which the group alone shines; black if nothing is reflected.
+SoundScene lit_by_group(const SoundScene& scene, int group, int bounces) {
   SoundScene result = scene;
   const std::size_t count = result.materials.size();
   for (std::size_t m = 0; m < count; ++m) {
+    if (bounces == 0) result.materials[m].rho = Rgb::Zero();
     result.materials[m].exitance = Rgb::Zero();
     Material shining = result.materials[m];
     shining.exitance = Rgb::Ones();
@@ -30,68 +32,82 @@ SoundScene lit_by_group(const SoundScene& scene, int group) {
   return result;
 }
 
+SolveOptions adjoint_options(const SolveOptions& options) {
+  SolveOptions result = options;
+  result.goal.clear();
+  result.tolerance = adjoint_tolerance;
+  result.refine = Refinement::adaptive;
+  result.order = -1;
+  result.secondary = 0;
+  result.regions = result.each_bounce = false;
+  result.force = {};
+  // What arrives leaves after one reflection more.
+  if (result.radiosity.bounces > 0) --result.radiosity.bounces;
+  return result;
+}
+
 }  // namespace
 
-ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked) {
-  constexpr std::size_t few_surfaces = 100;  // their visible parts are found at once
-  return asked == ReflectedVisibility::automatic && scene.surfaces.size() <= few_surfaces
-             ? ReflectedVisibility::exact
-             : asked;
+GoalAdjoint::GoalAdjoint(const SoundScene& scene, int group, const SolveOptions& options,
+                         const Progress& progress)
+    : scene_(scene),
+      group_(group),
+      area_(area_of_group(scene, group)),
+      lit_(lit_by_group(scene, group, options.radiosity.bounces)),
+      light_(solve(lit_, adjoint_options(options), progress)),
+      lookup_(light_.elements) {}
+
+double GoalAdjoint::exitance(int surface) const {
+  return lit_.scene().surfaces[at(surface)].group == group_ ? 1 : 0;
 }
 
 Rgb GoalAdjoint::rho(int surface, const Vec3& position) const {
-  return reflectance_at(scene, scene.surfaces[at(surface)], position);
+  return reflectance_at(lit_.scene(), lit_.scene().surfaces[at(surface)], position);
 }
 
 Rgb GoalAdjoint::leaving(int surface, const Vec3& position) const {
-  const Rgb reflected = rho(surface, position) * light.irradiance(surface, position).max(0);
-  return scene.surfaces[at(surface)].group == group ? Rgb(1 + reflected) : reflected;
+  const ForestPlace here = lookup_.find(surface, position);
+  if (here.triangle < 0) return Rgb::Constant(exitance(surface));
+  return exitance(surface) +
+         rho(surface, position) * value_at(light_.irradiance, here.triangle, here.place).max(0);
 }
 
 Rgb GoalAdjoint::leaving_exactly(int surface, const SurfacePoint& point, int rays) const {
-  const double first = scene.surfaces[at(surface)].group == group ? 1 : 0;
   const Rgb reflected = rho(surface, point.position);
-  if ((reflected == 0).all()) return Rgb::Constant(first);
-  return first + reflected * light.gather(point, rays);
+  if ((reflected == 0).all()) return Rgb::Constant(exitance(surface));
+  const ReflectedLight* more = light_.reflected_light ? &*light_.reflected_light : nullptr;
+  Rgb arriving = Rgb::Zero();
+  if (!more || !more->report().through_operator)
+    arriving = lit_.direct_light().irradiance(point).irradiance;
+  if (more) arriving += more->gather(point, rays, own_pattern);
+  return exitance(surface) + reflected * arriving;
 }
 
 double GoalAdjoint::integral() const {
   double sum = 1;
-  for (int e = 0; e < light.elements().count(); ++e) {
-    const Rgb reflected = mean_reflected(scene, scene.surfaces[at(light.elements().surface[at(e)])],
-                                         light.elements(), light.field(), e);
-    sum += light.elements().area[at(e)] / area * std::max(reflected.maxCoeff(), 0.);
+  for (int e = 0; e < light_.elements.count(); ++e) {
+    const Surface& surface = lit_.scene().surfaces[at(light_.elements.surface[at(e)])];
+    const Rgb reflected =
+        mean_reflected(lit_.scene(), surface, light_.elements, light_.irradiance, e);
+    sum += light_.elements.area[at(e)] / area_ * std::max(reflected.maxCoeff(), 0.);
   }
   return sum;
 }
 
 Rgb GoalAdjoint::goal() const {
   Rgb sum = Rgb::Zero();
-  const ChannelArray mean = means(light.field());
-  for (int e = 0; e < light.elements().count(); ++e) {
-    const Surface& surface = scene.surfaces[at(light.elements().surface[at(e)])];
-    sum += light.elements().area[at(e)] / area * mean.row(e).transpose() *
-           scene.materials[at(surface.material)].exitance;
+  for (int e = 0; e < light_.elements.count(); ++e) {
+    const Surface& surface = scene_.surfaces[at(light_.elements.surface[at(e)])];
+    sum += light_.elements.area[at(e)] / area_ * light_.solution.irradiance.row(e).transpose() *
+           scene_.materials[at(surface.material)].exitance;
   }
   return sum;
 }
 
-GoalAdjoint solve_adjoint(const SoundScene& scene, int group, const SolveOptions& options,
-                          const Progress& progress) {
-  ReflectedOptions how;
-  how.visibility = visibility_for_goal(scene, options.visibility);
-  how.tolerance = adjoint_tolerance;
-  how.through_operator = true;
-  // What arrives straight from the group arrives by the operator's first application.
-  if (options.radiosity.bounces >= 0) how.bounces = options.radiosity.bounces + 1;
-  return {scene, group, area_of_group(scene, group),
-          reflected_light(lit_by_group(scene, group), {}, how, progress)};
-}
-
 GoalWeights weights_of(std::shared_ptr<const GoalAdjoint> adjoint) {
-  GoalWeights result{adjoint->group, {}, surely * adjoint->goal().matrix().norm()};
+  GoalWeights result{adjoint->group(), {}, surely * adjoint->goal().matrix().norm()};
   if (!(result.norm > 0)) return result;
-  const double factor = for_the_adjoint * for_the_adjoint * adjoint->integral() / adjoint->area;
+  const double factor = for_the_adjoint * for_the_adjoint * adjoint->integral() / adjoint->area();
   result.weight = [adjoint = std::move(adjoint), factor](int surface, const Vec3& position) {
     return factor * adjoint->leaving(surface, position).maxCoeff();
   };

@@ -1,34 +1,37 @@
 #pragma once
 
 #include "meshing/core/progress.h"
+#include "solver/elements/element_lookup.h"
 #include "solver/pipeline/goal.h"
+#include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/solve.h"
 
 #include <memory>
 
 namespace halfshade {
 
-struct SolveOptions;
-
-/// Exact parts among few surfaces, if nothing else is asked for: what shines in adjoint light is
-/// small, and rays that find it are few; and noise of rays does not average out over the few
-/// elements that a goal takes.
-ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked);
+/// What adjoint light is solved for to: errors of weights only misplace effort, and what a solution is off
+/// moves its goal by no more than this share of it once that is corrected, see correct_goal.
+inline constexpr double adjoint_tolerance = 0.05;
 
 /// The light of a scene in which a group alone shines, 1 W/m² in each channel: z × area, see
-/// GoalWeights. The scene it was made for must outlive it.
-struct GoalAdjoint {
-  const SoundScene& scene;
-  int group;
-  double area;           ///< of the group, squared scene units
-  ReflectedLight light;  ///< all irradiance there
+/// GoalWeights.
+class GoalAdjoint {
+ public:
+  /// Solves for it like for any light, to adjoint_tolerance, by what `options` allow. The scene
+  /// must outlive it.
+  GoalAdjoint(const SoundScene& scene, int group, const SolveOptions& options,
+              const Progress& progress);
 
-  /// ρ of a surface.
-  Rgb rho(int surface, const Vec3& position) const;
+  int group() const { return group_; }
+  double area() const { return area_; }  ///< of the group, squared scene units
+  int elements() const { return light_.elements.count(); }
 
   /// What leaves, by polynomials.
   Rgb leaving(int surface, const Vec3& position) const;
 
-  /// The same gathered by rays or exactly visible parts, see ReflectedLight::gather.
+  /// The same from exact direct light and what is reflected, gathered once more; see
+  /// ReflectedLight::gather.
   Rgb leaving_exactly(int surface, const SurfacePoint& point, int rays) const;
 
   /// ∫ z of the channel where it is largest.
@@ -36,11 +39,18 @@ struct GoalAdjoint {
 
   /// The goal, W/m²: what emitters send to the group is what it would send to them.
   Rgb goal() const;
-};
 
-/// Solves for it to a fortieth, as `options` say of visibility and bounces.
-GoalAdjoint solve_adjoint(const SoundScene& scene, int group, const SolveOptions& options,
-                          const Progress& progress);
+ private:
+  double exitance(int surface) const;
+  Rgb rho(int surface, const Vec3& position) const;
+
+  const SoundScene& scene_;
+  int group_;
+  double area_;
+  PreparedScene lit_;
+  SolveResult light_;
+  ElementLookup lookup_;  ///< of its elements
+};
 
 /// The adjoint is kept in them. No weight if no light reaches the group.
 GoalWeights weights_of(std::shared_ptr<const GoalAdjoint> adjoint);

@@ -69,8 +69,8 @@ class Sampler {
       residual += solved_.reflected->gather(point, gathering_rays) -
                   solved_.reflected->irradiance(surface, point.position);
     Rgb term = adjoint_.leaving_exactly(surface, point, gathering_rays) * residual;
-    if (elements.group[at(e)] == adjoint_.group) term += clipped;
-    return term / adjoint_.area;
+    if (elements.group[at(e)] == adjoint_.group()) term += clipped;
+    return term / adjoint_.area();
   }
 
   const PreparedScene& prepared_;

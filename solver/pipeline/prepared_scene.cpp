@@ -66,6 +66,9 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
   warnings_ = repair_warnings(scene, scene_);
 }
 
+PreparedScene::PreparedScene(SoundScene scene)
+    : scene_(std::move(scene)), indices_(std::make_unique<Indices>()) {}
+
 PreparedScene::~PreparedScene() = default;
 PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 

@@ -28,6 +28,8 @@ class PreparedScene {
   /// leaves, of an exitance between 1e-200 and 1e200 W/m²; see validate and make_sound.
   explicit PreparedScene(const Scene& scene, const Progress& progress = {},
                          const RepairOptions& options = {});
+  /// Of a scene that is sound already.
+  explicit PreparedScene(SoundScene scene);
   ~PreparedScene();
   PreparedScene(PreparedScene&&) noexcept;
 

@@ -26,11 +26,13 @@ constexpr double direct_share = 0.5, values_share = 0.35;
 /// little less if it has less, and what it adds to all irradiance makes the share of it smaller.
 constexpr double direct_share_of_rays = 0.75;
 /// The same for a goal, of bounds that add errors instead of their squares. The solution may be off
-/// by so much more than the goal, for the residual corrects what that does; values do not enter it.
-constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55, slack_of_goal = 20;
-/// Of these bounds: what the correction may be off, as the adjoint light is, which is solved for to
-/// this and gathered once more. Of the tolerance: standard deviation of the correction.
-constexpr double share_of_bound = 0.025, share_of_deviation = 0.2;
+/// by so much more than the goal, for the residual corrects what that does but for the share of it
+/// that the adjoint light is off; values do not enter it.
+constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55;
+constexpr double slack_of_goal = 0.5 / adjoint_tolerance;
+/// Of the tolerance: standard deviation of the correction, and what light gathered for it may be
+/// off.
+constexpr double share_of_deviation = 0.2, share_of_gathering = 0.2;
 constexpr double deviations_claimed = 2;
 
 std::string reason(FieldLimit limit) {
@@ -75,10 +77,15 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
       first == reasons.end() ? "" : *first);
 }
 
-/// The tolerance of direct or reflected light that a goal takes; slack is for corrected ones.
-double goal_tolerance(double share, double tolerance) {
+/// Whether a goal is: light of a number of reflections does not solve the equation whose residual
+/// would do that.
+bool is_corrected(const SolveOptions& options) { return options.radiosity.bounces <= 0; }
+
+/// The tolerance of direct or reflected light that a goal takes.
+double goal_tolerance(double share, const SolveOptions& options) {
   constexpr double most = 0.5;
-  return std::min(slack_of_goal * share * tolerance, std::max(most, share * tolerance));
+  const double needed = share * options.tolerance;
+  return is_corrected(options) ? std::min(slack_of_goal * needed, std::max(most, needed)) : needed;
 }
 
 AdaptiveFieldOptions values_options(const SoundScene& scene, const Plan& plan,
@@ -141,6 +148,15 @@ double norm_of_error(const AdaptiveField& light) {
   return (areas.sqrt() * light.error).matrix().stableNorm();
 }
 
+/// Exact parts among few surfaces, if nothing else is asked for: noise of rays does not average out
+/// over the few elements that a goal takes.
+ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked) {
+  constexpr std::size_t few_surfaces = 100;  // their visible parts are found at once
+  return asked == ReflectedVisibility::automatic && scene.surfaces.size() <= few_surfaces
+             ? ReflectedVisibility::exact
+             : asked;
+}
+
 /// The goal asked for and what matters to it.
 struct Goal {
   std::shared_ptr<const GoalAdjoint> adjoint;
@@ -153,15 +169,15 @@ std::optional<Goal> find_goal(const SoundScene& scene, const SolveOptions& optio
   Goal goal;
   stages.run("importance for the goal", [&] {
     goal.adjoint = std::make_shared<const GoalAdjoint>(
-        solve_adjoint(scene, halfshade::find_goal(scene, options.goal), options, progress));
-    return static_cast<std::size_t>(goal.adjoint->light.report().elements);
+        scene, halfshade::find_goal(scene, options.goal), options, progress);
+    return at(goal.adjoint->elements());
   });
   goal.weights = weights_of(goal.adjoint);
   return goal;
 }
 
-/// The mean, corrected, and its error.
-void fill_goal(const PreparedScene& prepared, const Goal& goal, double tolerance,
+/// The mean, corrected if it can be, and its error.
+void fill_goal(const PreparedScene& prepared, const Goal& goal, const SolveOptions& options,
                const Progress& progress, Stages& stages, SolveResult& result) {
   const ReflectedLight* reflected = result.reflected_light ? &*result.reflected_light : nullptr;
   GoalResult found = goal_mean(goal.weights.group, result.elements, result.direct, reflected);
@@ -169,15 +185,19 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, double tolerance
   found.unknowns += result.refinement.unknowns - at(result.direct.first.back());
   if (goal.weights.weight) {
     double error = goal.weights.norm * (result.refinement.relative_error + result.reflected.error);
-    stages.run("correction of the goal", [&] {
-      const GoalCorrection more =
-          correct_goal(prepared, *goal.adjoint, {result.elements, result.direct, reflected},
-                       share_of_deviation * tolerance * goal.weights.norm, progress);
-      if (!more.complete) return std::size_t{0};
-      found.mean += more.missing;
-      error = share_of_bound * error + deviations_claimed * more.deviation.matrix().norm();
-      return more.points;
-    });
+    const char* const correction = "correction of the goal";
+    stages.leave_out_if(!is_corrected(options), correction,
+                        "light of a number of bounces leaves no residual to do it by");
+    if (is_corrected(options))
+      stages.run(correction, [&] {
+        const GoalCorrection more =
+            correct_goal(prepared, *goal.adjoint, {result.elements, result.direct, reflected},
+                         share_of_deviation * options.tolerance * goal.weights.norm, progress);
+        if (!more.complete) return std::size_t{0};
+        found.mean += more.missing;
+        error = adjoint_tolerance * error + deviations_claimed * more.deviation.matrix().norm();
+        return more.points;
+      });
     const double mean = found.mean.matrix().norm();
     result.relative_error = mean > 0 ? error / mean : 1;
   }
@@ -195,7 +215,8 @@ ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
   result.visibility = options.visibility;
   result.tolerance = std::sqrt(1 - values_share * values_share) * tolerance;
   if (goal) {
-    result.tolerance = goal_tolerance(reflected_share_of_goal, options.tolerance);
+    result.tolerance = goal_tolerance(reflected_share_of_goal, options);
+    result.gather_tolerance = std::min(result.tolerance, share_of_gathering * options.tolerance);
     result.visibility = visibility_for_goal(scene, options.visibility);
     result.weight = goal->weight;
     result.norm = goal->norm;
@@ -216,7 +237,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   const GoalWeights* goal = asked && asked->weights.weight ? &asked->weights : nullptr;
   SolveOptions direct_options = options;
   if (goal)
-    direct_options.tolerance = goal_tolerance(direct_share_of_goal, options.tolerance);
+    direct_options.tolerance = goal_tolerance(direct_share_of_goal, options);
   else if (reflects)
     direct_options.tolerance *= plan.rays.deviation > 0 ? direct_share_of_rays : direct_share;
   const bool is_exact = plan.no_exact_direct_light.empty();
@@ -271,7 +292,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   if (options.each_bounce)  // where nothing is reflected, too
     result.bounces.resize(at(options.radiosity.bounces),
                           zero_field(std::vector<int>(result.elements.corners.size(), 0)));
-  if (asked) fill_goal(prepared, *asked, options.tolerance, progress, stages, result);
+  if (asked) fill_goal(prepared, *asked, options, progress, stages, result);
   result.not_reached = not_reached(
       result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   fill_solution(prepared.scene(), error, result);

@@ -24,11 +24,12 @@ void check(const ReflectedOptions& options) {
                 fmt::format("order {} must lie in [0, {}]", options.order, max_reflected_order));
   if (options.each_bounce && options.bounces < 0)
     throw Error(ErrorCode::contract, "reflected_light", "each_bounce takes a number of bounces");
-  if (!(options.tolerance > 0) || !(options.other_error >= 0) || !(options.max_length >= 0) ||
-      options.max_rays < 32 || options.max_elements < 1 || options.max_rounds < 1)
+  if (!(options.tolerance > 0) || !(options.other_error >= 0) || !(options.gather_tolerance >= 0) ||
+      !(options.max_length >= 0) || options.max_rays < 32 || options.max_elements < 1 ||
+      options.max_rounds < 1)
     throw Error(ErrorCode::contract, "reflected_light",
-                "the tolerance must be > 0, other errors and max_length ≥ 0, max_rays ≥ 32, and "
-                "elements and rounds at least 1");
+                "the tolerance must be > 0, other errors, gather_tolerance and max_length ≥ 0, "
+                "max_rays ≥ 32, and elements and rounds at least 1");
 }
 
 /// Elements as long as this to begin with.
@@ -117,16 +118,16 @@ Rgb ReflectedLight::irradiance_after(int reflections, int surface, const Vec3& p
                   position);
 }
 
-Rgb ReflectedLight::gather(const SurfacePoint& point, int rays) const {
+Rgb ReflectedLight::gather(const SurfacePoint& point, int rays, std::uint64_t pattern) const {
   if (state_->sight) {
     const State& state = *state_;
     std::call_once(state.gather_made, [&] {
       state.gather.emplace(*state.sight, state.reflecting, state.light, state.mesh,
-                           state.leaving_rest, state.accuracy, points_of_exact_projection);
+                           state.leaving_rest, state.gather_accuracy, points_of_exact_projection);
     });
     return state.gather->irradiance(point) / state.scale;
   }
-  std::uint64_t seed = 0;
+  std::uint64_t seed = pattern;
   int exponent = 0;  // which changes with the unit
   for (const double x : point.position)
     seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(std::frexp(x, &exponent)));
@@ -162,6 +163,9 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
     state->accuracy = row_accuracy(options.tolerance, huge.area);
+    state->gather_accuracy = options.gather_tolerance > 0
+                                 ? row_accuracy(options.gather_tolerance, huge.area)
+                                 : state->accuracy;
   }
   if (!nothing && !is_exact && !options.through_operator)
     find_hot_cells(*state, huge, options.tolerance);

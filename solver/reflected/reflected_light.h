@@ -8,6 +8,7 @@
 #include "solver/elements/error_weight.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <vector>
@@ -33,7 +34,8 @@ struct ReflectedOptions {
   /// L2 norm of what else is off, W/m² times √area, ≥ 0: if not 0, G may be off by what that leaves
   /// of `tolerance`, or a fifth of it where nothing is left. Not with `weight`.
   double other_error = 0;
-  double max_length = 0;  ///< of elements to begin with, scene units; 0: by the tolerance
+  double gather_tolerance = 0;  ///< of what gather() finds by exact parts; 0: `tolerance`
+  double max_length = 0;        ///< of elements to begin with, scene units; 0: by the tolerance
   int max_elements = 20000;
   int max_rays = 4096;       ///< from a node of mean size, ≥ 32
   int max_rounds = 8;        ///< of solving, estimating and refining; 1: no refinement
@@ -106,8 +108,9 @@ class ReflectedLight {
 
   /// G at any point, on a surface or not, by exactly visible parts if the solution is, else by
   /// about `rays` rays to what S and the polynomials say: two or three times as exact as the
-  /// polynomials for 1,000 rays, and noisier for a few.
-  Rgb gather(const SurfacePoint& point, int rays) const;
+  /// polynomials for 1,000 rays, and noisier for a few. Errors are independent at other points and
+  /// with other patterns of rays.
+  Rgb gather(const SurfacePoint& point, int rays, std::uint64_t pattern = 0) const;
 
   const ReflectedReport& report() const;
 

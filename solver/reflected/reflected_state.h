@@ -24,7 +24,7 @@ struct ReflectedLight::State {
   FirstLight light;
   std::unique_ptr<const SoundScene> scene;  ///< for exact parts, as the next two
   std::unique_ptr<const ExactSight> sight;
-  RowAccuracy accuracy;
+  RowAccuracy accuracy, gather_accuracy;
   Rgb scale = Rgb::Ones();  ///< of light while it is solved for: no size of it over- or underflows
   ReflectedMesh mesh;
   ElementTable elements;

@@ -185,6 +185,25 @@ TEST(ReflectedLight, BytesDoNotDependOnThreads) {
   }
 }
 
+// Of two factors gathered at one point: what rays of both miss must not be the same.
+TEST(ReflectedLight, AnotherPatternOfRaysHasErrorsOfItsOwn) {
+  const SoundScene scene = make_sound(test::cornell_box());
+  const DirectLightIndex index(scene);
+  const ReflectedLight light =
+      reflected_light(scene, exact(scene, index), within(0.1, ReflectedVisibility::sampled));
+  constexpr int few = 36, many = 2048;
+  double square = 0, product = 0;
+  test::Random random(7);
+  for (const auto& [surface, point] : test::spread_points(light.elements(), 150, random)) {
+    const Rgb mean = light.gather(point, many), off = light.gather(point, few) - mean;
+    EXPECT_TRUE((light.gather(point, few, 0) - mean == off).all());
+    square += off.square().sum();
+    product += (off * (light.gather(point, few, 1) - mean)).sum();
+  }
+  EXPECT_GT(square, 0);
+  EXPECT_LT(std::abs(product), 0.25 * square);
+}
+
 /// Stopped when a stage begins.
 ReflectedLight stopped_at(const char* stage, ReflectedVisibility visibility) {
   const SoundScene scene = make_sound(test::lit_cube({.5, .5, .5, .5, .5, .5}));

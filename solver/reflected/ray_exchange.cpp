@@ -70,14 +70,15 @@ ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
 bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
   of_triangle_.resize(at(mesh.forest.count()));
   const double area_of_all = area_of_all_rays(mesh);
+  for (int t = 0; t < mesh.forest.count(); ++t)
+    if (!mesh.forest.is_leaf(t)) of_triangle_[at(t)].reset();
   std::vector<int> missing, strata;
-  for (int t = 0; t < mesh.forest.count(); ++t) {
-    auto& rays = of_triangle_[at(t)];
-    if (!mesh.forest.is_leaf(t)) rays.reset();
+  for (int e = 0; e < mesh.count(); ++e) {
+    const int t = mesh.triangle[at(e)];
+    const auto& rays = of_triangle_[at(t)];
     const std::size_t nodes = element_nodes_of(mesh.order[at(t)]).places.size();
-    if (!mesh.forest.is_leaf(t) || (rays && rays->halves.traced.of_each.size() == 2 * nodes))
-      continue;
-    missing.push_back(mesh.element[at(t)]);
+    if (rays && rays->halves.traced.of_each.size() == 2 * nodes) continue;
+    missing.push_back(e);
     strata.push_back(strata_for(mesh.forest.area(t), area_of_all, strata_));
     traced_ += 2 * nodes * rays_of_hemisphere(light_, strata.back());
   }

@@ -42,14 +42,21 @@ bool is_far(const Bounds& box, const FlatTree& others) {
   return !meets;
 }
 
+/// Those of a triangle.
+void number_leaves(ReflectedMesh& mesh, int triangle) {
+  if (mesh.forest.is_leaf(triangle)) {
+    mesh.element[at(triangle)] = mesh.count();
+    mesh.triangle.push_back(triangle);
+    return;
+  }
+  const int half = mesh.forest.first_half(triangle);
+  for (const int t : {half, half + 1}) number_leaves(mesh, t);
+}
+
 void number_elements(ReflectedMesh& mesh) {
   mesh.triangle.clear();
   mesh.element.assign(at(mesh.forest.count()), -1);
-  for (int t = 0; t < mesh.forest.count(); ++t) {
-    if (!mesh.forest.is_leaf(t)) continue;
-    mesh.element[at(t)] = mesh.count();
-    mesh.triangle.push_back(t);
-  }
+  for (int root = 0; root < mesh.forest.root_count(); ++root) number_leaves(mesh, root);
 }
 
 void split(ReflectedMesh& mesh, int triangle, int times) {

@@ -21,7 +21,9 @@ struct ReflectedMesh {
   HugeRoots huge;
   int highest_order = 0;
   std::vector<int> order;     ///< triangle → order of its polynomial
-  std::vector<int> triangle;  ///< element → leaf, in the order of the forest
+  /// Element → leaf: root by root, half by half, so that those which follow each other are close and
+  /// the memory that rays from them read is the same.
+  std::vector<int> triangle;
   std::vector<int> element;   ///< triangle → element, −1 where it is split
 
   int count() const { return static_cast<int>(triangle.size()); }

@@ -39,7 +39,7 @@ constexpr double most_of_solver = 0.03;
 
 // Of the goal, noise may have this share; elements, noise and the estimate's uncertainty have to do
 // with all.
-constexpr double share_of_noise = 0.45, share_of_both = 0.72, uncertain = 1.1;
+constexpr double share_of_noise = 0.45, share_of_both = 0.95, uncertain = 1.1;
 constexpr double least_noise = 0.25;
 /// A pass takes at least so much of the noise away that this share is left.
 constexpr double least_gain = 0.75;
@@ -360,8 +360,9 @@ class Rounds {
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
     const double noise = sum_of(found.noise_left),
                  of_elements = std::max(input.estimate.sum - noise, 0.);
-    const double allowed =
-        std::max(share_of_both * goal - of_elements, least_noise * goal) / uncertain;
+    const double doubt = 2 * input.estimate.deviation / input.estimate.sum;  // judge() adds it
+    const double allowed = std::max(share_of_both / (1 + doubt) * goal - of_elements,
+                                    least_noise * goal) / uncertain;
     const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
     const double more =
         rays_for(mesh_, noisy_forest(mesh_, found.rest, found.noise), found.weight, wanted);

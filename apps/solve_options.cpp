@@ -10,10 +10,11 @@ namespace {
 
 /// They ask for what form factors by face, that were computed before, leave no room for.
 constexpr const char* needless_with_saved_factors[] = {
-    "--tolerance", "--order",     "--refine",       "--method",           "--elements",
-    "--regions",   "--rays",      "--visibility",   "--hemicube",         "--closure",
-    "--force",     "--events",    "--direct-light", "--no-discontinuity", "--progressive",
-    "--goal",      "--subdivide", "--gradient",     "--interpolate",      "--deviation"};
+    "--tolerance",   "--order",     "--refine",       "--method",           "--elements",
+    "--regions",     "--rays",      "--visibility",   "--hemicube",         "--closure",
+    "--force",       "--events",    "--direct-light", "--no-discontinuity", "--progressive",
+    "--goal",        "--subdivide", "--gradient",     "--interpolate",      "--deviation",
+    "--final-gather"};
 
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
@@ -65,6 +66,15 @@ void add_light(CLI::App& app, SolveCommand& command) {
   app.add_flag("--regions", options.regions,
                "Say of each element whether it is lit, in penumbra or umbra of each emitter");
   add_visibility(app, options);
+  add_choice(
+      app, "--final-gather", {"auto", "on", "off"},
+      [&options](std::size_t k) {
+        options.final_gather =
+            std::array{FinalGather::automatic, FinalGather::on, FinalGather::off}.at(k);
+      },
+      "Reflected light in files: the polynomials it was solved for as ('off'), or gathered once\n"
+      "more at points of each element, which is more exact and takes longer ('on'); 'auto' does\n"
+      "so where the tolerance was not reached");
   add_factors_by(app, options.exchange, &command.factors);
   add_choice(
       app, "--solver",

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -44,13 +43,6 @@ PointLight light_at(const SolveResult& result, const ForestPlace& found) {
   return {value_at(result.irradiance, e, found.place), value_at(result.direct, e, found.place)};
 }
 
-/// Rays whose noise is about the tolerance in furnished rooms, as measured: .34 % for 1,024.
-int rays_worth(double tolerance) {
-  constexpr double usual_rays = 1024, usual_noise = 0.0034, fewest = 256, most = 65536;
-  const double ratio = usual_noise / tolerance;
-  return static_cast<int>(std::clamp(usual_rays * ratio * ratio, fewest, most));
-}
-
 }  // namespace
 
 bool add_gathered_light(const SolveResult& result, double tolerance,
@@ -58,7 +50,7 @@ bool add_gathered_light(const SolveResult& result, double tolerance,
                         const Progress& progress) {
   if (!result.reflected_light) return true;
   const ReflectedLight& reflected = *result.reflected_light;
-  const int rays = rays_worth(tolerance);
+  const int rays = gathering_rays(tolerance);
   return parallel_for(
       points.size(),
       [&](std::size_t k) {

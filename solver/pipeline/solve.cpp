@@ -42,6 +42,10 @@ void check(const SolveOptions& options) {
     throw Error(ErrorCode::usage, "--each-bounce",
                 fmt::format("this goes with --bounces N, N from 1 to {}, and not with the matrix",
                             most_told_apart));
+  if (options.final_gather == FinalGather::on &&
+      (options.method == SolveMethod::matrix || options.radiosity.bounces >= 0))
+    throw Error(ErrorCode::usage, "--final-gather",
+                "this goes with --method fields, not with the matrix, and with all bounces");
   if (options.method == SolveMethod::matrix && !options.goal.empty())
     throw Error(ErrorCode::usage, {}, "--goal goes with --method fields, not with the matrix");
   if (!(options.tolerance >= 0 && std::isfinite(options.tolerance)) || options.secondary < 0)

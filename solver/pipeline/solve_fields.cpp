@@ -32,7 +32,7 @@ constexpr double direct_share_of_goal = 0.4, reflected_share_of_goal = 0.55;
 constexpr double slack_of_goal = 0.5 / adjoint_tolerance;
 /// Of the tolerance: standard deviation of the correction, and what light gathered for it may be
 /// off.
-constexpr double share_of_deviation = 0.2, share_of_gathering = 0.2;
+constexpr double share_of_deviation = 0.2, share_of_gathering = 0.1;
 constexpr double deviations_claimed = 2;
 
 std::string reason(FieldLimit limit) {
@@ -216,7 +216,7 @@ ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
   result.tolerance = std::sqrt(1 - values_share * values_share) * tolerance;
   if (goal) {
     result.tolerance = goal_tolerance(reflected_share_of_goal, options);
-    result.gather_tolerance = std::min(result.tolerance, share_of_gathering * options.tolerance);
+    result.gather_tolerance = share_of_gathering * options.tolerance;
     result.visibility = visibility_for_goal(scene, options.visibility);
     result.weight = goal->weight;
     result.norm = goal->norm;
@@ -269,8 +269,9 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
       of_reflected.other_error = norm_of_error(direct.light);
     TotalField total = add_reflected_light(
         prepared.scene(), std::move(direct),
-        {of_reflected, values_options(prepared.scene(), plan, options, tolerance, goal)}, progress,
-        stages);
+        {of_reflected, values_options(prepared.scene(), plan, options, tolerance, goal),
+         options.radiosity.bounces < 0 ? options.final_gather : FinalGather::off},
+        progress, stages);
     result.reflected = total.reflected->report();
     result.reflected_light = std::move(total.reflected);
     of_values = reason(total.values.limit);

@@ -20,6 +20,13 @@ enum class SolveMethod {
   matrix   ///< constant elements and a dense matrix of form factors
 };
 
+/// Where reflected light that files hold comes from.
+enum class FinalGather {
+  automatic,  ///< on only where the polynomials stay short of the tolerance
+  on,         ///< gathered once more at points of each element
+  off         ///< the polynomials it was solved for as
+};
+
 enum class Refinement {
   adaptive,  ///< elements and orders follow the error
   uniform    ///< elements of `elements` or `max_length` are kept
@@ -64,6 +71,7 @@ struct SolveOptions {
   bool each_bounce = false;  ///< tell light apart by how often it was reflected; needs `bounces`
   DirectLightBy direct_light = DirectLightBy::automatic;
   ReflectedVisibility visibility = ReflectedVisibility::automatic;  ///< of reflected light
+  FinalGather final_gather = FinalGather::automatic;  ///< not with the matrix or some bounces
   int direct_points = 6;  ///< points an element at which direct light is exact, 1…12
   ExchangeOptions exchange;
   RadiosityOptions radiosity;

@@ -64,7 +64,7 @@ FieldAt values_of(const ReflectedLight& reflected) {
 /// Order with which direct light is told where it went through the operator.
 constexpr int told_order = 2;
 
-/// A function of surface and position as polynomials on given elements.
+/// A function of element and position as polynomials on given elements.
 template <class Value>
 ElementField fitted(const ElementTable& elements, std::vector<int> orders, const Value& value) {
   ElementField field = zero_field(std::move(orders));
@@ -74,11 +74,27 @@ ElementField fitted(const ElementTable& elements, std::vector<int> orders, const
     ChannelArray samples(rule.weights.size(), 3);
     for (Eigen::Index k = 0; k < samples.rows(); ++k)
       samples.row(k) =
-          value(elements.surface[i],
-                position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
+          value(e, position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
     field.of(e) = fit_element(order, samples).coefficients;
   });
   return field;
+}
+
+bool gathers(FinalGather asked, const ReflectedReport& report) {
+  return asked == FinalGather::on ||
+         (asked == FinalGather::automatic && report.end != ReflectedEnd::accurate &&
+          report.end != ReflectedEnd::interrupted);
+}
+
+/// What arrives of a solution, on elements and of orders that suit its polynomials. Rays whose
+/// noise is half of what these are allowed to be off.
+ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomials,
+                      double tolerance) {
+  const int rays = gathering_rays(tolerance / 2);
+  const ElementTable& elements = polynomials.elements;
+  return fitted(elements, polynomials.field.order, [&](int e, const Vec3& p) {
+    return light.gather({p, elements.normal[at(e)]}, rays);
+  });
 }
 
 /// Direct light that went the way of reflected light, on given elements.
@@ -89,7 +105,7 @@ ElementField direct_by_operator(const SoundScene& scene, const ElementTable& ele
   const ReflectedLight light = reflected_light(scene, {}, options, progress);
   return fitted(elements,
                 std::vector<int>(elements.corners.size(), std::min(told_order, options.order)),
-                [&](int surface, const Vec3& p) { return light.irradiance(surface, p); });
+                [&](int e, const Vec3& p) { return light.irradiance(elements.surface[at(e)], p); });
 }
 
 /// The parts of `field`, all of `light` on given elements, by the number of reflections.
@@ -97,8 +113,8 @@ std::vector<ElementField> told_apart(const ReflectedLight& light, const ElementT
                                      const ElementField& field) {
   std::vector<ElementField> parts = {field};
   for (int n = 2; n <= light.bounces(); ++n) {
-    parts.push_back(fitted(elements, field.order, [&](int surface, const Vec3& p) {
-      return light.irradiance_after(n, surface, p);
+    parts.push_back(fitted(elements, field.order, [&](int e, const Vec3& p) {
+      return light.irradiance_after(n, elements.surface[at(e)], p);
     }));
     parts[0].coefficients -= parts.back().coefficients;
   }
@@ -193,6 +209,11 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
         fit_adaptively(*direct.patches, values_of(*total.reflected), fit, {{}, progress.report});
     return on_elements.elements.corners.size();
   });
+  if (gathers(options.final_gather, report))
+    stages.run("final gather", [&] {
+      on_elements.field = gathered(*total.reflected, on_elements, options.reflected.tolerance);
+      return on_elements.elements.corners.size();
+    });
 
   total.values = on_elements.report;
   total.elements = std::move(on_elements.elements);

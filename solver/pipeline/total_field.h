@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/pipeline/direct_field.h"
+#include "solver/pipeline/solve_options.h"
 #include "solver/reflected/reflected_light.h"
 
 #include <optional>
@@ -13,6 +14,7 @@ struct TotalFieldOptions {
   /// Of reflected light as polynomials on the elements of direct light; its norm is that of all
   /// irradiance.
   AdaptiveFieldOptions values;
+  FinalGather final_gather = FinalGather::off;
 };
 
 /// Direct and reflected light together, on the elements of direct light and parts of them.
@@ -29,7 +31,7 @@ struct TotalField {
 
 /// Solves for the light that direct light makes by reflection, on a mesh of its own, and adds the
 /// two. Where direct light needs few elements, as in the dark, they are divided as reflected light
-/// takes it. Adds its stages to `stages`.
+/// takes it. What a final gather makes better is not claimed. Adds its stages to `stages`.
 TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
                                const TotalFieldOptions& options, const Progress& progress,
                                Stages& stages);

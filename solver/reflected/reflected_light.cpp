@@ -143,6 +143,12 @@ const ReflectedReport& ReflectedLight::report() const { return state_->report; }
 const ElementTable& ReflectedLight::elements() const { return state_->elements; }
 const ElementField& ReflectedLight::field() const { return state_->field; }
 
+int gathering_rays(double noise) {
+  constexpr double usual_rays = 1024, usual_noise = 0.0034, fewest = 256, most = 65536;
+  const double ratio = usual_noise / noise;
+  return static_cast<int>(std::clamp(usual_rays * ratio * ratio, fewest, most));
+}
+
 ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
                                const ReflectedOptions& options, const Progress& progress) {
   check(options);
@@ -163,9 +169,9 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
     state->accuracy = row_accuracy(options.tolerance, huge.area);
-    state->gather_accuracy = options.gather_tolerance > 0
-                                 ? row_accuracy(options.gather_tolerance, huge.area)
-                                 : state->accuracy;
+    state->gather_accuracy = row_accuracy(
+        options.gather_tolerance > 0 ? options.gather_tolerance : 0.1 * options.tolerance,
+        huge.area);
   }
   if (!nothing && !is_exact && !options.through_operator)
     find_hot_cells(*state, huge, options.tolerance);

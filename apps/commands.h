@@ -118,7 +118,10 @@ struct ProbeCommand {
   bool direct_only = false;      ///< no interreflection
   bool reference = false;        ///< by random walks instead
   int samples = 1024;            ///< of them, from each point
-  SolveOptions options;          ///< of the solution that interreflection is gathered from
+  std::filesystem::path
+      solution;                ///< that interreflection is gathered from; empty: it is solved for
+  SolveOptions options;        ///< of that
+  bool has_tolerance = false;  ///< it was given
 };
 
 struct FactorsCommand {

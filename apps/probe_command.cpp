@@ -2,11 +2,14 @@
 #include "apps/console.h"
 #include "apps/run_end.h"
 #include "io/files/same_file.h"
+#include "io/picture/result_file.h"
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
+#include "meshing/core/error.h"
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/limits.h"
 #include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/saved_light.h"
 #include "solver/pipeline/surface_grid.h"
 
 #include <fmt/format.h>
@@ -67,20 +70,62 @@ std::vector<DirectLight> direct_light(const DirectLightIndex& index,
   return light;
 }
 
-/// Adds the light that was reflected to the points that were reached; drops the others. Returns why
-/// the solution is not as accurate as asked for; empty if it is.
-std::string add_reflected(const PreparedScene& prepared, const SolveOptions& options,
-                          std::span<const SurfacePoint> points, const Progress& progress,
-                          std::vector<DirectLight>& light) {
-  const SolveResult solved = solve(prepared, options, progress);
-  if (solved.interrupted) light.clear();
+/// Adds the light that `solved` reflects to the points that were reached; drops the others.
+template <class Solved>
+void add_reflected(const Solved& solved, double tolerance, std::span<const SurfacePoint> points,
+                   const Progress& progress, std::vector<DirectLight>& light) {
   const std::size_t done =
       in_blocks(points.first(light.size()), progress,
                 [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
-                  add_gathered_light(solved, options.tolerance, some,
+                  add_gathered_light(solved, tolerance, some,
                                      std::span(light).subspan(first, some.size()), p);
                 });
   light.resize(done);
+}
+
+/// A solution that was read.
+struct ReadSolution {
+  ReflectedLight light;
+  double tolerance;         ///< that rays suit
+  std::string not_reached;  ///< why it is not as accurate as asked for; empty if it is
+};
+
+std::optional<ReadSolution> get_solution(const ProbeCommand& command, const SoundScene& scene,
+                                         const Progress& progress) {
+  if (command.solution.empty()) return std::nullopt;
+  const ResultFile file = read_result(command.solution);
+  if (file.bounces >= 0)
+    throw Error(ErrorCode::invalid_input, command.solution.string(),
+                fmt::format("the light in it was reflected {} times at most; reflected light is "
+                            "gathered from all light",
+                            file.bounces));
+  const double error = file.achieved_error;
+  const bool suits_file = !command.has_tolerance && error > 0;
+  ReadSolution solution{reflection_of(scene, saved_light(file), progress),
+                        suits_file ? error : command.options.tolerance,
+                        {}};
+  if (error > solution.tolerance)
+    solution.not_reached = fmt::format(
+        "the error of the solution that was given is about {:.2g} of the irradiance "
+        "instead of {:.2g}",
+        error, solution.tolerance);
+  if (file.interrupted) solution.not_reached = "the solution that was given is incomplete";
+  return solution;
+}
+
+/// Adds reflected light of a solution that was read, or is made now. Returns why it is not as
+/// accurate as asked for; empty if it is.
+std::string add_reflected(const ProbeCommand& command, const PreparedScene& prepared,
+                          const std::optional<ReadSolution>& read,
+                          std::span<const SurfacePoint> points, const Progress& progress,
+                          std::vector<DirectLight>& light) {
+  if (read) {
+    add_reflected(read->light, read->tolerance, points, progress, light);
+    return read->not_reached;
+  }
+  const SolveResult solved = solve(prepared, command.options, progress);
+  if (solved.interrupted) light.clear();
+  add_reflected(solved, command.options.tolerance, points, progress, light);
   return solved.not_reached;
 }
 
@@ -109,6 +154,7 @@ ReferenceLight reference_light(const ProbeCommand& command, const SoundScene& sc
 CommandFiles checked_files(const ProbeCommand& command, const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
   files.inputs.push_back({"--points", command.points});
+  files.inputs.push_back({"--solution", command.solution});
   add_outputs(files, "-o", {command.output});
   require_apart(files);
   require_place(common.json);
@@ -163,11 +209,13 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
     end();
     return finish(command, table, light, light.values.size(), {}, context);
   }
+  const std::optional<ReadSolution> read =
+      get_solution(command, prepared.scene(), context.progress);
   std::vector<DirectLight> light =
       direct_light(prepared.direct_light(), table.points, context.progress);
   std::string not_reached;
   if (!command.direct_only)
-    not_reached = add_reflected(prepared, command.options, table.points, context.progress, light);
+    not_reached = add_reflected(command, prepared, read, table.points, context.progress, light);
   end();
   return finish(command, table, light, light.size(), not_reached, context);
 }

@@ -103,6 +103,13 @@ ResultFile to_result(vtkPointSet* grid, const path& file) {
   result.point_arrays = arrays_of(grid->GetPointData(), points, file);
   result.cell_arrays = arrays_of(grid->GetCellData(), cells, file);
   result.cameras = cameras(grid->GetFieldData(), file);
+  const auto number = [&](const char* name, double otherwise) {
+    const std::vector<double> numbers = field_numbers(grid->GetFieldData(), name, 1);
+    return numbers.empty() || !std::isfinite(numbers.front()) ? otherwise : numbers.front();
+  };
+  result.interrupted = number("interrupted", 0) != 0;
+  result.bounces = static_cast<int>(std::clamp(number("bounces", -1), -1., 1e9));
+  result.achieved_error = std::max(number("achieved_error", 0), 0.);
   for (detail::PaintOn& paint : paints(grid->GetFieldData())) {
     result.paints.push_back(std::move(paint.paint));
     result.paint_most.push_back(paint.most);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "io/picture/picture.h"
+#include "solver/pipeline/saved_light.h"
 
 #include <filesystem>
 #include <string>
@@ -26,6 +27,9 @@ struct ResultFile {
   std::vector<Camera> cameras;
   std::vector<Paint> paints;    ///< that the array `paint` of the cells names
   std::vector<Rgb> paint_most;  ///< reflectance where the picture is white
+  bool interrupted = false;     ///< the light is not complete
+  int bounces = -1;             ///< light after at most so many reflections; −1: all
+  double achieved_error = 0;    ///< relative; 0: not known
 };
 
 /// Throws Error(invalid_input) for anything that halfshade has not written, whatever is in the
@@ -35,6 +39,10 @@ ResultFile read_result(const std::filesystem::path& path);
 /// Its light, ready to be drawn. Throws Error(invalid_input) if it has none, as the files of
 /// `mesh`, or if numbers are not finite.
 ShadedMesh shaded(const ResultFile& file);
+
+/// Its irradiance on its cells. Throws Error(invalid_input) if it has none, or if numbers are not
+/// finite.
+SavedLight saved_light(const ResultFile& file);
 
 /// One number of a result.
 struct Quantity {

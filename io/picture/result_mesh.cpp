@@ -91,6 +91,18 @@ void join_cells(const ResultFile& file, std::span<const std::array<Vec3, 3>> tri
   join(connected(triangles, surface, std::move(edge_order)), error, field);
 }
 
+Eigen::MatrixXd at_nodes(const std::vector<int>& nodes, const std::vector<Rgb>& point_value) {
+  Eigen::MatrixXd values(nodes.size(), 3);
+  for (std::size_t k = 0; k < nodes.size(); ++k)
+    values.row(static_cast<Eigen::Index>(k)) = point_value[at(nodes[k])].matrix();
+  return values;
+}
+
+/// The polynomial with these values at a cell's nodes.
+ChannelArray coefficients(int order, const Eigen::MatrixXd& values) {
+  return element_node_basis(order).partialPivLu().solve(values).array();
+}
+
 /// Cells become as many triangles as it takes to look like them.
 void cut_cells(const ResultFile& file, bool joined, ShadedMesh& mesh) {
   ElementField field = zero_field(file.order);
@@ -98,16 +110,13 @@ void cut_cells(const ResultFile& file, bool joined, ShadedMesh& mesh) {
   double largest = 0;
   for (std::size_t e = 0; e < file.cells.size(); ++e) {
     const std::vector<int>& nodes = file.cells[e];
-    Eigen::MatrixXd values(nodes.size(), 3);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      values.row(static_cast<Eigen::Index>(k)) = mesh.point_value[at(nodes[k])].matrix();
+    Eigen::MatrixXd values = at_nodes(nodes, mesh.point_value);
     if (!mesh.painted.empty() && mesh.painted[e].paint >= 0) {
       // Without the mean of the picture, which steps from cell to cell.
       values *= mesh.painted[e].gain.matrix().asDiagonal();
       mesh.painted[e].gain.setOnes();
     }
-    field.of(static_cast<int>(e)) =
-        element_node_basis(file.order[e]).partialPivLu().solve(values).array();
+    field.of(static_cast<int>(e)) = coefficients(file.order[e], values);
     if (mesh.emits[e] == 0) largest = std::max(largest, values.cwiseAbs().maxCoeff());
     triangles.push_back(
         {file.points[at(nodes[0])], file.points[at(nodes[1])], file.points[at(nodes[2])]});
@@ -243,6 +252,28 @@ ShadedMesh shaded(const ResultFile& file) {
 }
 
 ShadedMesh read_shaded(const std::filesystem::path& path) { return shaded(read_result(path)); }
+
+SavedLight saved_light(const ResultFile& file) {
+  const std::vector<Rgb> irradiance = light_values(file, file.point_arrays, "irradiance");
+  const ResultArray* surfaces = find_array(file.cell_arrays, "surface");
+  if (surfaces == nullptr || surfaces->components != 1)
+    throw Error(ErrorCode::invalid_input, file.path.string(),
+                "the file does not say which surfaces its elements are of");
+  SavedLight light;
+  light.source = file.path.string();
+  light.rho = light_values(file, file.cell_arrays, "reflectance");
+  light.exitance = light_values(file, file.cell_arrays, "exitance");
+  light.elements.points = file.points;
+  light.irradiance = zero_field(file.order);
+  for (std::size_t e = 0; e < file.cells.size(); ++e) {
+    const std::vector<int>& nodes = file.cells[e];
+    light.elements.corners.push_back({nodes[0], nodes[1], nodes[2]});
+    light.elements.surface.push_back(static_cast<int>(std::clamp(surfaces->values[e], -1., 1e9)));
+    light.irradiance.of(static_cast<int>(e)) =
+        coefficients(file.order[e], at_nodes(nodes, irradiance));
+  }
+  return light;
+}
 
 ValueMesh quantity_of(const ResultFile& file, const std::string& name, const std::string& channel) {
   const ResultArray* points = find_array(file.point_arrays, name);

@@ -116,6 +116,7 @@ void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* da
 
 void add_field_data(const SolveResult& result, vtkFieldData* data) {
   add_interrupted(data, result.interrupted);
+  if (result.most_bounces >= 0) add_integers(data, "bounces", {result.most_bounces});
   add_cameras(data, result.cameras);
   if (!result.regions.empty()) add_sources(data, result.emitters);
   add_numbers(data, "tolerance", {result.discontinuity_tolerance});

@@ -48,8 +48,13 @@ PointLight light_at(const SolveResult& result, const ForestPlace& found) {
 bool add_gathered_light(const SolveResult& result, double tolerance,
                         std::span<const SurfacePoint> points, std::span<DirectLight> light,
                         const Progress& progress) {
-  if (!result.reflected_light) return true;
-  const ReflectedLight& reflected = *result.reflected_light;
+  return !result.reflected_light ||
+         add_gathered_light(*result.reflected_light, tolerance, points, light, progress);
+}
+
+bool add_gathered_light(const ReflectedLight& reflected, double tolerance,
+                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        const Progress& progress) {
   const int rays = gathering_rays(tolerance);
   return parallel_for(
       points.size(),

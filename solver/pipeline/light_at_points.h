@@ -30,4 +30,9 @@ bool add_gathered_light(const SolveResult& result, double tolerance,
                         std::span<const SurfacePoint> points, std::span<DirectLight> light,
                         const Progress& progress = {});
 
+/// The same with nothing but reflected light given.
+bool add_gathered_light(const ReflectedLight& reflected, double tolerance,
+                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        const Progress& progress = {});
+
 }  // namespace halfshade

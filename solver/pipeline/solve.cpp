@@ -83,6 +83,7 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
   require_few_surfaces(prepared.scene(), options);
   if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);
+  result.most_bounces = options.radiosity.bounces;
   Stages stages(result.stages);
   const Plan plan = make_plan(prepared, options, progress, stages);
   const auto solve_by = options.method == SolveMethod::fields ? solve_fields : solve_matrix;

@@ -55,6 +55,7 @@ struct SolveResult {
   ElementField direct, irradiance;
   /// If asked for: the parts of `irradiance` that were reflected once, twice, …, W/m².
   std::vector<ElementField> bounces;
+  int most_bounces = -1;      ///< light that arrives after at most so many reflections; −1: all
   bool interpolated = false;  ///< they are of constant elements, see interpolated_field
   SubdivisionReport subdivision;
   AdaptiveFieldReport refinement;  ///< of direct light

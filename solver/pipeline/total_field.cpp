@@ -3,8 +3,7 @@
 #include "meshing/core/parallel.h"
 #include "solver/adapt/element_fit.h"
 #include "solver/elements/balancing_scale.h"
-#include "solver/elements/element_lookup.h"
-#include "solver/reflected/quick_field.h"
+#include "solver/pipeline/field_lookup.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,38 +13,13 @@
 namespace halfshade {
 namespace {
 
-/// Direct light at any point of a surface, from its polynomials.
-class DirectLookup {
- public:
-  explicit DirectLookup(AdaptiveField light)
-      : lookup_(light.elements), light_(std::move(light)), low_(low_orders(light_.field)) {}
+/// Direct light, and where it is asked for.
+struct FoundLight {
+  explicit FoundLight(AdaptiveField found)
+      : light(std::move(found)), lookup(light.elements, light.field) {}
 
-  const AdaptiveField& light() const { return light_; }
-
-  auto place(int surface, const Vec3& position) const { return lookup_.find(surface, position); }
-  Rgb operator()(int surface, const Vec3& position) const {
-    const ForestPlace here = place(surface, position);
-    if (here.triangle < 0) return Rgb::Zero();
-    const bool is_low = light_.field.order[at(here.triangle)] <= max_reflected_order;
-    const Rgb value = is_low ? low_.value(here.triangle, here.place)
-                             : value_at(light_.field, here.triangle, here.place);
-    return value.max(0);  // where light breaks polynomials may dip below zero
-  }
-
- private:
-  /// Rays ask at millions of places, which is quick for low orders; 0 where the order is high.
-  static QuickField low_orders(const ElementField& field) {
-    std::vector<int> order = field.order;
-    for (int& p : order) p = p <= max_reflected_order ? p : 0;
-    ElementField low = zero_field(std::move(order));
-    for (int e = 0; e < low.count(); ++e)
-      if (low.order[at(e)] == field.order[at(e)]) low.of(e) = field.of(e);
-    return QuickField(low);
-  }
-
-  ElementLookup lookup_;
-  AdaptiveField light_;
-  QuickField low_;
+  AdaptiveField light;
+  FieldLookup lookup;
 };
 
 FieldAt values_of(const ReflectedLight& reflected) {
@@ -130,13 +104,14 @@ struct Wholes {
   std::vector<std::array<TrianglePlace, 3>> corners;
 };
 
-Wholes find_wholes(const ElementTable& parts, const DirectLookup& lookup) {
+Wholes find_wholes(const ElementTable& parts, const FoundLight& direct) {
   Wholes wholes;
   for (int e = 0; e < parts.count(); ++e) {
     const auto triangle = parts.triangle(e);
     const int whole =
-        lookup.place(parts.surface[at(e)], (triangle[0] + triangle[1] + triangle[2]) / 3).triangle;
-    const auto of_whole = lookup.light().elements.triangle(whole);
+        direct.lookup.place(parts.surface[at(e)], (triangle[0] + triangle[1] + triangle[2]) / 3)
+            .triangle;
+    const auto of_whole = direct.light.elements.triangle(whole);
     wholes.element.push_back(whole);
     auto& corners = wholes.corners.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) corners[k] = place_of(of_whole, triangle[k]);
@@ -187,12 +162,12 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
                                const TotalFieldOptions& options, const Progress& progress,
                                Stages& stages) {
   // Reflected light keeps it.
-  const auto lookup = std::make_shared<const DirectLookup>(std::move(direct.light));
-  const AdaptiveField& light = lookup->light();
+  const auto found = std::make_shared<const FoundLight>(std::move(direct.light));
+  const AdaptiveField& light = found->light;
   TotalField total;
   stages.run("reflected light", [&] {
     total.reflected = reflected_light(
-        scene, [lookup](int surface, const Vec3& p) { return (*lookup)(surface, p); },
+        scene, [found](int surface, const Vec3& p) { return found->lookup(surface, p); },
         options.reflected, progress);
     return static_cast<std::size_t>(total.reflected->report().elements);
   });
@@ -219,7 +194,7 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   total.elements = std::move(on_elements.elements);
   if (options.reflected.each_bounce)
     total.bounces = told_apart(*total.reflected, total.elements, on_elements.field);
-  add_fields(light, direct.region, on_elements, find_wholes(total.elements, *lookup), total);
+  add_fields(light, direct.region, on_elements, find_wholes(total.elements, *found), total);
   if (options.reflected.through_operator) {
     if (total.bounces.empty()) {
       total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);

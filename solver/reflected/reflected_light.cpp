@@ -173,7 +173,7 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
         options.gather_tolerance > 0 ? options.gather_tolerance : 0.1 * options.tolerance,
         huge.area);
   }
-  if (!nothing && !is_exact && !options.through_operator)
+  if (!reflects_nothing(state->light) && !is_exact && !options.through_operator)
     find_hot_cells(*state, huge, options.tolerance);
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round

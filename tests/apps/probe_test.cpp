@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -220,6 +221,80 @@ TEST_F(Probe, RefusesContradictoryUsage) {
     EXPECT_EQ(probe(arguments).exit_code, 2);
     EXPECT_FALSE(exists("o.csv"));
   }
+}
+
+// What is gathered from a file is what is gathered from a solution made on the way, but for their
+// errors: of both, and of the rays.
+TEST_F(Probe, GathersFromAResultOfSolve) {
+  const std::string box = (data / "cornell_box.obj").string();
+  for (const char* name : {"box.vtu", "box.vtp"}) {
+    const test::Outcome solved = test::run_program(
+        {test::program, "solve", box, "--tolerance", "0.02", "-o", name, "-q"}, folder());
+    ASSERT_EQ(solved.exit_code, 0) << solved.err;
+    const std::vector<std::string> at = {box,  "--grid",      "floor", "--spacing",
+                                         "60", "--tolerance", "0.02"};
+    std::vector<std::string> read = at, made = at;
+    read.insert(read.end(), {"--solution", name, "-o", "read.csv"});
+    made.insert(made.end(), {"-o", "made.csv"});
+    ASSERT_EQ(probe(read).exit_code, 0);
+    ASSERT_EQ(probe(made).exit_code, 0);
+    const auto of_file = numbers("read.csv"), of_solution = numbers("made.csv");
+    ASSERT_EQ(of_file.size(), of_solution.size());
+    ASSERT_GT(of_file.size(), 50u);
+    double off = 0, all = 0;
+    for (std::size_t k = 0; k < of_file.size(); ++k)
+      for (std::size_t c = 6; c < 9; ++c) {  // x, y, z, nx, ny, nz, H
+        off += std::pow(of_file[k][c] - of_solution[k][c], 2);
+        all += std::pow(of_solution[k][c], 2);
+      }
+    EXPECT_LT(std::sqrt(off / all), 0.02) << name;
+    EXPECT_GT(off, 0) << "it is not solved for again";
+  }
+}
+
+// What a file says of itself is not lost.
+TEST_F(Probe, ASolutionThatIsLessThanAskedForIsNotTakenForMore) {
+  const std::string box = (data / "cornell_box.obj").string();
+  const auto solve = [&](std::vector<std::string> more) {
+    more.insert(more.begin(),
+                {test::program, "solve", box, "--tolerance", "0.05", "-q", "-o", "box.vtu"});
+    return test::run_program(more, folder()).exit_code;
+  };
+  const auto gather = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {box, "--grid", "floor", "--spacing", "200", "--solution", "box.vtu",
+                               "-o", "o.csv"});
+    return probe(more);
+  };
+  ASSERT_EQ(solve({}), 0);
+  EXPECT_EQ(gather({}).exit_code, 0);
+  const test::Outcome finer = gather({"--tolerance", "0.001"});
+  EXPECT_EQ(finer.exit_code, 4);
+  EXPECT_NE(finer.err.find("instead of 0.001"), std::string::npos) << finer.err;
+  ASSERT_EQ(solve({"--bounces", "1"}), 0);
+  const test::Outcome once = gather({});
+  EXPECT_EQ(once.exit_code, 3);
+  EXPECT_NE(once.err.find("reflected 1 times at most"), std::string::npos) << once.err;
+}
+
+TEST_F(Probe, ASolutionOfAnotherSceneIsRefused) {
+  const test::Outcome solved =
+      test::run_program({test::program, "solve", (data / "l_room.obj").string(), "--tolerance",
+                         "0.1", "-o", "l.vtu", "-q"},
+                        folder());
+  ASSERT_EQ(solved.exit_code, 0) << solved.err;
+  const test::Outcome outcome =
+      probe({s1, "--points", s1_points, "--solution", "l.vtu", "-o", "o.csv"});
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("l.vtu: this is no solution of the scene"), std::string::npos)
+      << outcome.err;
+  EXPECT_FALSE(exists("o.csv"));
+  EXPECT_EQ(probe({s1, "--points", s1_points, "--solution", s1, "-o", "o.csv"}).exit_code, 3);
+  EXPECT_EQ(probe({s1, "--points", s1_points, "--solution", "none.vtu", "-o", "o.csv"}).exit_code,
+            3);
+  EXPECT_EQ(probe({s1, "--points", s1_points, "--solution", "l.vtu", "--direct", "-o", "o.csv"})
+                .exit_code,
+            2);
+  EXPECT_EQ(probe({s1, "--points", s1_points, "--solution", "l.vtu", "-o", "l.vtu"}).exit_code, 2);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 
 namespace halfshade {
 
-/// What adjoint light is solved for to: errors of weights only misplace effort, and what a solution is off
-/// moves its goal by no more than this share of it once that is corrected, see correct_goal.
+/// What adjoint light is solved for to: errors of weights only misplace effort, and what a solution
+/// is off moves its goal by no more than this share of it once that is corrected, see correct_goal.
 inline constexpr double adjoint_tolerance = 0.05;
 
 /// The light of a scene in which a group alone shines, 1 W/m² in each channel: z × area, see

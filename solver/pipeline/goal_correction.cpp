@@ -13,7 +13,7 @@ namespace {
 
 /// Points to begin with, and the most of all. Rays from each, where light is gathered by rays.
 constexpr std::size_t first_points = 1000, most_points = 64000;
-constexpr int gathering_rays = 256;
+constexpr int rays_from_point = 256;
 /// Where the polynomials' z is below this share of its mean, as many points as if it were that.
 constexpr double least_share = 0.1;
 
@@ -66,9 +66,9 @@ class Sampler {
       clipped = fitted.max(0) - fitted;
     }
     if (solved_.reflected)
-      residual += solved_.reflected->gather(point, gathering_rays) -
+      residual += solved_.reflected->gather(point, rays_from_point) -
                   solved_.reflected->irradiance(surface, point.position);
-    Rgb term = adjoint_.leaving_exactly(surface, point, gathering_rays) * residual;
+    Rgb term = adjoint_.leaving_exactly(surface, point, rays_from_point) * residual;
     if (elements.group[at(e)] == adjoint_.group()) term += clipped;
     return term / adjoint_.area();
   }

@@ -15,7 +15,7 @@ namespace {
 
 /// How far elements may be off their surface, as a share of its size, and their areas' sum of its
 /// area: files of scenes have six digits.
-constexpr double off_surface = 1e-5;
+constexpr double off_by_rounding = 1e-5;
 
 /// Numbers that went through a file.
 bool are_same(const Rgb& a, const Rgb& b) {
@@ -40,7 +40,7 @@ std::vector<Vec3> normals_in(const SoundScene& scene, const SavedLight& light) {
     const Surface& surface = scene.surfaces[at(s)];
     const auto [a, b, c] = elements.triangle(e);
     for (const Vec3& p : {a, b, c})
-      if (std::abs(surface.frame.height(p)) > off_surface * size_of(surface))
+      if (std::abs(surface.frame.height(p)) > off_by_rounding * size_of(surface))
         refuse(fmt::format("element {} is not in the plane of surface {}", e, s));
     const Material& material = scene.materials[at(surface.material)];
     // What painted ones reflect differs from element to element.
@@ -53,7 +53,7 @@ std::vector<Vec3> normals_in(const SoundScene& scene, const SavedLight& light) {
   }
   for (int s = 0; s < count; ++s)
     if (const double all = area(scene.surfaces[at(s)]);
-        std::abs(covered[at(s)] - all) > off_surface * all)
+        std::abs(covered[at(s)] - all) > off_by_rounding * all)
       refuse(fmt::format("elements of surface {} have an area of {} instead of {}", s,
                          covered[at(s)], all));
   return normals;

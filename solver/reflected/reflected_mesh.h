@@ -20,11 +20,11 @@ struct ReflectedMesh {
   TriangleForest forest;
   HugeRoots huge;
   int highest_order = 0;
-  std::vector<int> order;     ///< triangle → order of its polynomial
-  /// Element → leaf: root by root, half by half, so that those which follow each other are close and
-  /// the memory that rays from them read is the same.
+  std::vector<int> order;  ///< triangle → order of its polynomial
+  /// Element → leaf: root by root, half by half, so that those which follow each other are close
+  /// and the memory that rays from them read is the same.
   std::vector<int> triangle;
-  std::vector<int> element;   ///< triangle → element, −1 where it is split
+  std::vector<int> element;  ///< triangle → element, −1 where it is split
 
   int count() const { return static_cast<int>(triangle.size()); }
   int root(int e) const { return forest.root(triangle[at(e)]); }

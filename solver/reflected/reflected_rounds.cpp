@@ -37,9 +37,9 @@ constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
 /// What is left of the residual may do this share of the tolerance.
 constexpr double most_of_solver = 0.03;
 
-// Of the goal, noise may have this share; elements, noise and the estimate's uncertainty have to do
-// with all.
-constexpr double share_of_noise = 0.45, share_of_both = 0.95, uncertain = 1.1;
+// Of the goal, noise may have this share; after a pass elements, noise and twice the estimate's
+// deviation are to have a little less than all.
+constexpr double share_of_noise = 0.45, share_of_all = 0.95, uncertain = 1.1;
 constexpr double least_noise = 0.25;
 /// A pass takes at least so much of the noise away that this share is left.
 constexpr double least_gain = 0.75;
@@ -360,9 +360,10 @@ class Rounds {
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
     const double noise = sum_of(found.noise_left),
                  of_elements = std::max(input.estimate.sum - noise, 0.);
-    const double doubt = 2 * input.estimate.deviation / input.estimate.sum;  // judge() adds it
-    const double allowed = std::max(share_of_both / (1 + doubt) * goal - of_elements,
-                                    least_noise * goal) / uncertain;
+    // Which judge() adds.
+    const double doubt = 2 * input.estimate.deviation / std::max(input.estimate.sum, noise);
+    const double allowed =
+        std::max(share_of_all / (1 + doubt) * goal - of_elements, least_noise * goal) / uncertain;
     const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
     const double more =
         rays_for(mesh_, noisy_forest(mesh_, found.rest, found.noise), found.weight, wanted);

@@ -6,6 +6,7 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve.h"
 
+#include <algorithm>
 #include <memory>
 
 namespace halfshade {
@@ -26,6 +27,8 @@ class GoalAdjoint {
   int group() const { return group_; }
   double area() const { return area_; }  ///< of the group, squared scene units
   int elements() const { return light_.elements.count(); }
+  /// adjoint_tolerance, or what else was reached.
+  double error() const { return std::max(light_.relative_error, adjoint_tolerance); }
 
   /// What leaves, by polynomials.
   Rgb leaving(int surface, const Vec3& position) const;

@@ -195,7 +195,7 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, const SolveOptio
                          share_of_deviation * options.tolerance * goal.weights.norm, progress);
         if (!more.complete) return std::size_t{0};
         found.mean += more.missing;
-        error = adjoint_tolerance * error + deviations_claimed * more.deviation.matrix().norm();
+        error = goal.adjoint->error() * error + deviations_claimed * more.deviation.matrix().norm();
         return more.points;
       });
     const double mean = found.mean.matrix().norm();

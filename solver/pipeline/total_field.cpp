@@ -38,19 +38,23 @@ FieldAt values_of(const ReflectedLight& reflected) {
 /// Order with which direct light is told where it went through the operator.
 constexpr int told_order = 2;
 
-/// A function of element and position as polynomials on given elements.
+/// A function of element and position as polynomials on given elements; zero where it was stopped.
 template <class Value>
-ElementField fitted(const ElementTable& elements, std::vector<int> orders, const Value& value) {
+ElementField fitted(const ElementTable& elements, std::vector<int> orders, const Value& value,
+                    const Progress& progress = {}) {
   ElementField field = zero_field(std::move(orders));
-  parallel_for(elements.corners.size(), [&](std::size_t i) {
-    const int e = static_cast<int>(i), order = field.order[i];
-    const TriangleRule& rule = sampling_rule(order);
-    ChannelArray samples(rule.weights.size(), 3);
-    for (Eigen::Index k = 0; k < samples.rows(); ++k)
-      samples.row(k) =
-          value(e, position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
-    field.of(e) = fit_element(order, samples).coefficients;
-  });
+  parallel_for(
+      elements.corners.size(),
+      [&](std::size_t i) {
+        const int e = static_cast<int>(i), order = field.order[i];
+        const TriangleRule& rule = sampling_rule(order);
+        ChannelArray samples(rule.weights.size(), 3);
+        for (Eigen::Index k = 0; k < samples.rows(); ++k)
+          samples.row(k) =
+              value(e, position(elements.triangle(e), rule.places[static_cast<std::size_t>(k)]));
+        field.of(e) = fit_element(order, samples).coefficients;
+      },
+      progress, "final gather");
   return field;
 }
 
@@ -63,12 +67,15 @@ bool gathers(FinalGather asked, const ReflectedReport& report) {
 /// What arrives of a solution, on elements and of orders that suit its polynomials. Rays whose
 /// noise is half of what these are allowed to be off.
 ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomials,
-                      double tolerance) {
+                      double tolerance, const Progress& progress) {
   const int rays = gathering_rays(tolerance / 2);
   const ElementTable& elements = polynomials.elements;
-  return fitted(elements, polynomials.field.order, [&](int e, const Vec3& p) {
-    return light.gather({p, elements.normal[at(e)]}, rays);
-  });
+  return fitted(
+      elements, polynomials.field.order,
+      [&](int e, const Vec3& p) {
+        return light.gather({p, elements.normal[at(e)]}, rays);
+      },
+      progress);
 }
 
 /// Direct light that went the way of reflected light, on given elements.
@@ -186,7 +193,9 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   });
   if (gathers(options.final_gather, report))
     stages.run("final gather", [&] {
-      on_elements.field = gathered(*total.reflected, on_elements, options.reflected.tolerance);
+      ElementField field =
+          gathered(*total.reflected, on_elements, options.reflected.tolerance, progress);
+      if (!progress.stopped()) on_elements.field = std::move(field);
       return on_elements.elements.corners.size();
     });
 

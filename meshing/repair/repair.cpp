@@ -72,15 +72,23 @@ void report_overlap(const CoveredPair& pair, std::vector<Repair>& repairs) {
     repairs.push_back({Repair::Kind::overlap_removed, {pair.keeper, pair.loser}, pair.area});
 }
 
-/// Whether anything of it is left once its corners are rounded in its frame.
-bool has_area(const SurfaceDraft& draft, const std::vector<Vec3>& points) {
-  const std::vector<int>& outline = draft.rings.front();
+/// The signed area of a ring once its corners are rounded in its frame.
+double area_of_ring(const SurfaceDraft& draft, const std::vector<int>& ring,
+                    const std::vector<Vec3>& points) {
   const auto place = [&](int p) { return draft.frame.to_plane(points[at(p)]); };
-  const Vec2 first = place(outline.front());
+  const Vec2 first = place(ring.front());
   double twice = 0;
-  for (std::size_t k = 1; k < outline.size(); ++k)
-    twice += cross_2d(place(outline[k - 1]) - first, place(outline[k]) - first);
-  return twice > 0;
+  for (std::size_t k = 1; k < ring.size(); ++k)
+    twice += cross_2d(place(ring[k - 1]) - first, place(ring[k]) - first);
+  return twice / 2;
+}
+
+/// Those that snapping has shut.
+void drop_shut_holes(SurfaceDraft& draft, const std::vector<Vec3>& points) {
+  const auto shut = std::remove_if(
+      draft.rings.begin() + 1, draft.rings.end(),
+      [&](const std::vector<int>& ring) { return !(area_of_ring(draft, ring, points) < 0); });
+  draft.rings.erase(shut, draft.rings.end());
 }
 
 // Faces that snapping left nothing of, though nothing covers them.
@@ -169,14 +177,16 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
                 fmt::format("there are {} surfaces, and {} are allowed", drafts.size(),
                             options.most_surfaces));
   if (options.contacts) find_contacts(drafts, vertices.points, options.most_contacts);
-  for (SurfaceDraft& draft : drafts)
+  for (SurfaceDraft& draft : drafts) {
     // What snaps in one plane may have corners in others.
-    if (has_area(draft, vertices.points))
+    drop_shut_holes(draft, vertices.points);
+    if (area_of_ring(draft, draft.rings.front(), vertices.points) > 0)
       sound.surfaces.push_back(finish(std::move(draft), vertices.points));
     else if (!draft.back)
       sound.repairs.push_back({Repair::Kind::degenerate_dropped,
                                {draft.faces.front()},
                                tolerance_of(draft.scale).planarity});
+  }
   if (sound.surfaces.empty())
     throw Error(ErrorCode::invalid_input, scene.source,
                 fmt::format("none of its {} faces has an area", scene.faces.size()));

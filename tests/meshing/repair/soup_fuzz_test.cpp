@@ -227,6 +227,11 @@ TEST(SoupFuzz, TheRepairGivesASoundSceneOrAnError) {
   RecordProperty("refused", refused);
 }
 
+// One that long runs have found: every edge of a hole is there twice.
+TEST(SoupFuzz, HolesThatSnapShutAreLeftOut) {
+  EXPECT_EQ(expect_sound_or_refused(messy_scene(seed_of(20261126, 1843718))), Fate::sound);
+}
+
 TEST(SoupFuzz, SidesOfNeedlesBentToContactsDoNotCross) {
   for (const int run : {47013, 57755}) {
     SCOPED_TRACE(run);

@@ -48,7 +48,7 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   CLI::Option* solution = add_file(
       app, "--solution", command.solution,
       "Result of 'solve' for this scene (.vtu, .vtp): reflected light is gathered from it by\n"
-      "rays, and nothing is solved for");
+      "rays, and nothing is solved for; --tolerance is what it has to be, if given");
   solution->excludes(direct);
   CLI::Option* method = add_choice(
       app, "--method", {"solution", "reference"},

@@ -83,7 +83,7 @@ double area_of_ring(const SurfaceDraft& draft, const std::vector<int>& ring,
   return twice / 2;
 }
 
-/// Those that snapping has shut.
+/// Holes that snapping has shut.
 void drop_shut_holes(SurfaceDraft& draft, const std::vector<Vec3>& points) {
   const auto shut = std::remove_if(
       draft.rings.begin() + 1, draft.rings.end(),

@@ -55,7 +55,7 @@ GoalAdjoint::GoalAdjoint(const SoundScene& scene, int group, const SolveOptions&
       area_(area_of_group(scene, group)),
       lit_(lit_by_group(scene, group, options.radiosity.bounces)),
       light_(solve(lit_, adjoint_options(options), progress)),
-      lookup_(light_.elements) {}
+      irradiance_(light_.elements, light_.irradiance) {}
 
 double GoalAdjoint::exitance(int surface) const {
   return lit_.scene().surfaces[at(surface)].group == group_ ? 1 : 0;
@@ -66,10 +66,7 @@ Rgb GoalAdjoint::rho(int surface, const Vec3& position) const {
 }
 
 Rgb GoalAdjoint::leaving(int surface, const Vec3& position) const {
-  const ForestPlace here = lookup_.find(surface, position);
-  if (here.triangle < 0) return Rgb::Constant(exitance(surface));
-  return exitance(surface) +
-         rho(surface, position) * value_at(light_.irradiance, here.triangle, here.place).max(0);
+  return exitance(surface) + rho(surface, position) * irradiance_(surface, position);
 }
 
 Rgb GoalAdjoint::leaving_exactly(int surface, const SurfacePoint& point, int rays) const {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "meshing/core/progress.h"
-#include "solver/elements/element_lookup.h"
+#include "solver/pipeline/field_lookup.h"
 #include "solver/pipeline/goal.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve.h"
@@ -23,6 +23,7 @@ class GoalAdjoint {
   /// must outlive it.
   GoalAdjoint(const SoundScene& scene, int group, const SolveOptions& options,
               const Progress& progress);
+  GoalAdjoint(const GoalAdjoint&) = delete;  // the lookup keeps the light's address
 
   int group() const { return group_; }
   double area() const { return area_; }  ///< of the group, squared scene units
@@ -52,7 +53,7 @@ class GoalAdjoint {
   double area_;
   PreparedScene lit_;
   SolveResult light_;
-  ElementLookup lookup_;  ///< of its elements
+  FieldLookup irradiance_;  ///< by its polynomials
 };
 
 /// The adjoint is kept in them. No weight if no light reaches the group.

@@ -48,7 +48,6 @@ void throw_on_error(RTCDevice device) {
 /// What the filters need to know of a query; Embree hands the context through to them.
 struct Query {
   RTCIntersectContext context;
-  const TriangleSoup* soup;
   const SoupTriangle* triangles;
   const Segment* segments = nullptr;  // occlusion: the packet's; a ray's id is its place in it
   const HalfLine* rays = nullptr;     // nearest hit: likewise
@@ -57,9 +56,9 @@ struct Query {
 static_assert(std::is_standard_layout_v<Query>, "a pointer to the context must lead to the query");
 
 bool is_between(const Query& query, const Segment& segment, std::size_t id) {
-  const int plane = query.soup->plane[id];
-  if (plane >= 0 && (plane == segment.from_plane || plane == segment.to_plane)) return false;
   const SoupTriangle& triangle = query.triangles[id];
+  const int plane = triangle.plane;
+  if (plane >= 0 && (plane == segment.from_plane || plane == segment.to_plane)) return false;
   if (triangle.side(segment.from) * triangle.side(segment.to) >= 0) return false;
   const double from = triangle.height(segment.from), to = triangle.height(segment.to);
   return triangle.contains(segment.from + from / (from - to) * (segment.to - segment.from));
@@ -119,12 +118,10 @@ void put(const Ray& ray, std::size_t i, RTCRay16& packet) {
   packet.id[i] = static_cast<unsigned>(i);
 }
 
-Query query_of(const TriangleSoup& soup, const std::vector<SoupTriangle>& triangles,
-               bool coherent) {
+Query query_of(const std::vector<SoupTriangle>& triangles, bool coherent) {
   Query query{};
   rtcInitIntersectContext(&query.context);
   if (coherent) query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  query.soup = &soup;
   query.triangles = triangles.data();
   return query;
 }
@@ -136,10 +133,10 @@ struct EmbreeScene::Handles {
   SceneHandle scene;
 };
 
-EmbreeScene::EmbreeScene(const TriangleSoup& soup, const RaySpace& space)
-    : soup_(soup), space_(space), handles_(std::make_unique<Handles>()) {
-  triangles_.reserve(soup.triangles.size());
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) triangles_.emplace_back(soup, t);
+EmbreeScene::EmbreeScene(const TriangleSoup& soup, std::span<const int> triangles)
+    : space_(make_ray_space(soup, triangles)), handles_(std::make_unique<Handles>()) {
+  triangles_.reserve(triangles.size());
+  for (const int t : triangles) triangles_.emplace_back(soup, t);
   auto& [device, scene] = *handles_;
   device.reset(rtcNewDevice(nullptr));
   throw_on_error(device.get());
@@ -149,16 +146,16 @@ EmbreeScene::EmbreeScene(const TriangleSoup& soup, const RaySpace& space)
   const RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                              RTC_FORMAT_FLOAT3, 3 * sizeof(float),
-                                                             3 * soup.triangles.size()));
+                                                             3 * triangles_.size()));
   auto* corners = static_cast<unsigned*>(
       rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(unsigned), soup.triangles.size()));
+                              3 * sizeof(unsigned), triangles_.size()));
   throw_on_error(device.get());
-  std::iota(corners, corners + 3 * soup.triangles.size(), 0u);
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t)
-    for (const Vec3& p : enlarged(triangles_[t], space.enlargement, miter_limit))
+  std::iota(corners, corners + 3 * triangles_.size(), 0u);
+  for (const SoupTriangle& triangle : triangles_)
+    for (const Vec3& p : enlarged(triangle, space_.enlargement, miter_limit))
       for (int axis = 0; axis < 3; ++axis)
-        *points++ = narrow((p[axis] - space.centre[axis]) * space.scale);
+        *points++ = narrow((p[axis] - space_.centre[axis]) * space_.scale);
   rtcSetGeometryOccludedFilterFunction(geometry, filter_occlusion);
   rtcSetGeometryIntersectFilterFunction(geometry, filter_hit);
   rtcCommitGeometry(geometry);
@@ -170,12 +167,13 @@ EmbreeScene::EmbreeScene(const TriangleSoup& soup, const RaySpace& space)
   throw_on_error(device.get());
 }
 
+EmbreeScene::EmbreeScene(EmbreeScene&&) noexcept = default;
 EmbreeScene::~EmbreeScene() = default;
 
 bool EmbreeScene::blocked(const Segment& segment) const {
   const std::optional<Ray> ray = space_.ray(segment.from, segment.to);
   if (!ray) return false;
-  Query query = query_of(soup_, triangles_, false);
+  Query query = query_of(triangles_, false);
   query.segments = &segment;
   RTCRay embree_ray = to_embree(*ray);
   rtcOccluded1(handles_->scene.get(), &query.context, &embree_ray);
@@ -196,29 +194,28 @@ void EmbreeScene::blocked(std::span<const Segment> segments, std::span<std::uint
     valid[i] = -1;
     put(*r, i, rays);
   }
-  Query query = query_of(soup_, triangles_, bundle);
+  Query query = query_of(triangles_, bundle);
   query.segments = segments.data();
   rtcOccluded16(valid, handles_->scene.get(), &query.context, &rays);
   for (std::size_t i = 0; i < segments.size(); ++i)
-    result[i] = valid[i] != 0 && rays.tfar[i] < 0 ? 1 : 0;
+    if (valid[i] != 0 && rays.tfar[i] < 0) result[i] = 1;
 }
 
-int EmbreeScene::first_hit(const HalfLine& line, Sides sides) const {
+const SoupTriangle* EmbreeScene::first_hit(const HalfLine& line, Sides sides) const {
   const std::optional<Ray> ray = space_.ray_ahead(line.origin, line.direction);
-  if (!ray) return -1;
-  Query query = query_of(soup_, triangles_, false);
+  if (!ray) return nullptr;
+  Query query = query_of(triangles_, false);
   query.rays = &line;
   query.front_only = sides == Sides::front_only;
   RTCRayHit found{};
   found.ray = to_embree(*ray);
   found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(handles_->scene.get(), &query.context, &found);
-  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return -1;
-  return static_cast<int>(found.hit.primID);
+  return found.hit.geomID == RTC_INVALID_GEOMETRY_ID ? nullptr : &triangles_[found.hit.primID];
 }
 
 void EmbreeScene::first_hits(std::span<const HalfLine> rays, Sides sides,
-                             std::span<int> triangles) const {
+                             std::span<const SoupTriangle*> triangles) const {
   alignas(64) RTCRayHit16 found{};
   alignas(64) int valid[packet_size] = {};
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -228,13 +225,13 @@ void EmbreeScene::first_hits(std::span<const HalfLine> rays, Sides sides,
     valid[i] = -1;
     put(*r, i, found.ray);
   }
-  Query query = query_of(soup_, triangles_, true);
+  Query query = query_of(triangles_, true);
   query.rays = rays.data();
   query.front_only = sides == Sides::front_only;
   rtcIntersect16(valid, handles_->scene.get(), &query.context, &found);
   for (std::size_t i = 0; i < rays.size(); ++i)
     triangles[i] =
-        found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? -1 : static_cast<int>(found.hit.primID[i]);
+        found.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID ? nullptr : &triangles_[found.hit.primID[i]];
 }
 
 }  // namespace halfshade

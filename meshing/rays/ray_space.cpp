@@ -1,9 +1,6 @@
 #include "meshing/rays/ray_space.h"
 
-#include "meshing/core/error.h"
 #include "meshing/geometry/flat_tree.h"
-
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +16,6 @@ constexpr double relative_enlargement = 0x1p-18;
 constexpr double lengthening = 0x1p-12;
 
 constexpr double largest_coordinate = 0.75;  // clear of the cube
-constexpr double largest_extent = 1e50;      // sixth powers of lengths occur
 
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
@@ -64,20 +60,17 @@ std::optional<Ray> RaySpace::ray_ahead(const Vec3& origin, const Vec3& direction
   return ray;
 }
 
-RaySpace make_ray_space(const TriangleSoup& soup) {
+RaySpace make_ray_space(const TriangleSoup& soup, std::span<const int> triangles) {
   RaySpace space;
-  if (soup.triangles.empty()) return space;
   Bounds box;
-  for (const auto& corners : soup.triangles)
-    for (const int v : corners) box.include(soup.points[at(v)]);
-  const double half = (box.high / 2 - box.low / 2).maxCoeff();
-  if (!(half < largest_extent) || (half > 0 && half < 1 / largest_extent))
-    throw Error(ErrorCode::contract, "VisibilityIndex",
-                fmt::format("the triangles extend over {}, out of range", 2 * half));
-  space.centre = box.low / 2 + box.high / 2;
+  for (const int t : triangles)
+    for (const int v : soup.triangles[at(t)]) box.include(soup.points[at(v)]);
+  if (triangles.empty()) return space;
+  space.centre = box.centre();
   // The same in all units of length, so that rays meet the same edges: a power of two would let
   // single precision round coordinates by the unit.
-  if (half > 0) space.scale = largest_coordinate / half;
+  if (const double half = box.half_size().maxCoeff(); half > 0)
+    space.scale = largest_coordinate / half;
   space.enlargement = relative_enlargement / space.scale;
   return space;
 }

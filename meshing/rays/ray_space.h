@@ -3,6 +3,7 @@
 #include "meshing/rays/occluders.h"
 
 #include <optional>
+#include <span>
 
 namespace halfshade {
 
@@ -29,8 +30,7 @@ struct RaySpace {
   std::optional<Ray> ray_ahead(const Vec3& origin, const Vec3& direction) const;
 };
 
-/// The space of triangles, none of which may have corners that are not finite. Throws
-/// Error(contract) if they extend over so much or so little that powers of lengths overflow.
-RaySpace make_ray_space(const TriangleSoup& soup);
+/// The space of some triangles of a soup, given by their indices.
+RaySpace make_ray_space(const TriangleSoup& soup, std::span<const int> triangles);
 
 }  // namespace halfshade

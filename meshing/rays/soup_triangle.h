@@ -15,10 +15,13 @@ struct SoupTriangle {
   Vec3 normal;       // unit length; zero for a triangle without area
   double size;       // its longest extent along an axis
   double magnitude;  // the largest coordinate
+  int index;         // in the soup
+  int plane;
 
-  SoupTriangle(const TriangleSoup& soup, std::size_t triangle) {
+  SoupTriangle(const TriangleSoup& soup, int triangle)
+      : index(triangle), plane(soup.plane[at(triangle)]) {
     for (std::size_t k = 0; k < 3; ++k)
-      corner[k] = soup.points[static_cast<std::size_t>(soup.triangles[triangle][k])];
+      corner[k] = soup.points[at(soup.triangles[at(triangle)][k])];
     normal = edge(0).cross(edge(1));
     const double twice_area = normal.norm();
     if (twice_area > 0) normal /= twice_area;

@@ -2,7 +2,9 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/flat_tree.h"
 #include "meshing/rays/embree_scene.h"
+#include "meshing/rays/scale_clusters.h"
 #include "meshing/rays/shaft_index.h"
 
 #include <fmt/core.h>
@@ -16,6 +18,7 @@ namespace {
 constexpr std::size_t packet_size = EmbreeScene::packet_size;
 constexpr std::size_t chunk_size = 1024;    // segments of one task; a multiple of packet_size
 constexpr std::size_t serial_limit = 4096;  // batches up to this size are not worth a task
+constexpr double largest_extent = 1e50;     // sixth powers of lengths occur
 
 void check(const TriangleSoup& soup) {
   const std::size_t n = soup.triangles.size();
@@ -32,32 +35,41 @@ void check(const TriangleSoup& soup) {
         throw Error(ErrorCode::contract, "VisibilityIndex",
                     fmt::format("point {} is not finite", v));
     }
+  if (n == 0) return;
+  Bounds box;
+  for (const auto& corners : soup.triangles)
+    for (const int v : corners) box.include(soup.points[at(v)]);
+  const double half = (box.high / 2 - box.low / 2).maxCoeff();
+  if (!(half < largest_extent) || (half > 0 && half < 1 / largest_extent))
+    throw Error(ErrorCode::contract, "VisibilityIndex",
+                fmt::format("the triangles extend over {}, out of range", 2 * half));
+}
+
+/// Where a ray that meets a triangle does so.
+Hit hit_on(const SoupTriangle& triangle, int owner, const HalfLine& ray) {
+  Hit hit;
+  hit.owner = owner;
+  hit.triangle = triangle.index;
+  hit.distance = -triangle.height(ray.origin) / triangle.normal.dot(ray.direction);
+  hit.weights = triangle.weights(ray.origin + hit.distance * ray.direction);
+  return hit;
 }
 
 }  // namespace
 
 struct VisibilityIndex::Impl {
   TriangleSoup soup;
-  RaySpace space;
-  std::optional<EmbreeScene> scene;  // if there are triangles
+  std::vector<EmbreeScene> scenes;  // of its clusters
   mutable std::once_flag planted;
   mutable std::optional<ShaftIndex> shafts;  // made by the first shaft query
 
   explicit Impl(TriangleSoup triangles) : soup(std::move(triangles)) {
     check(soup);
-    space = make_ray_space(soup);
-    if (!soup.triangles.empty()) scene.emplace(soup, space);
+    for (const std::vector<int>& cluster : scale_clusters(soup)) scenes.emplace_back(soup, cluster);
   }
 
-  /// Where a ray that meets a triangle does so.
-  Hit hit(const Vec3& origin, const Vec3& direction, int triangle) const {
-    const SoupTriangle& corners = scene->triangle(triangle);
-    Hit hit;
-    hit.owner = soup.owner[at(triangle)];
-    hit.triangle = triangle;
-    hit.distance = -corners.height(origin) / corners.normal.dot(direction);
-    hit.weights = corners.weights(origin + hit.distance * direction);
-    return hit;
+  Hit hit(const SoupTriangle& triangle, const HalfLine& ray) const {
+    return hit_on(triangle, soup.owner[at(triangle.index)], ray);
   }
 };
 
@@ -70,7 +82,8 @@ VisibilityIndex& VisibilityIndex::operator=(VisibilityIndex&&) noexcept = defaul
 const TriangleSoup& VisibilityIndex::soup() const { return impl_->soup; }
 
 bool VisibilityIndex::blocked(const Segment& segment) const {
-  return impl_->scene && impl_->scene->blocked(segment);
+  return std::any_of(impl_->scenes.begin(), impl_->scenes.end(),
+                     [&](const EmbreeScene& scene) { return scene.blocked(segment); });
 }
 
 void VisibilityIndex::blocked(std::span<const Segment> segments,
@@ -78,14 +91,12 @@ void VisibilityIndex::blocked(std::span<const Segment> segments,
   if (segments.size() != result.size())
     throw Error(ErrorCode::contract, "VisibilityIndex::blocked",
                 fmt::format("{} segments and room for {} results", segments.size(), result.size()));
-  if (!impl_->scene) {
-    std::fill(result.begin(), result.end(), std::uint8_t{0});
-    return;
-  }
+  std::fill(result.begin(), result.end(), std::uint8_t{0});
   const auto run = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i += packet_size) {
       const std::size_t count = std::min(packet_size, end - i);
-      impl_->scene->blocked(segments.subspan(i, count), result.subspan(i, count));
+      for (const EmbreeScene& scene : impl_->scenes)
+        scene.blocked(segments.subspan(i, count), result.subspan(i, count));
     }
   };
   if (segments.size() <= serial_limit) return run(0, segments.size());
@@ -96,12 +107,18 @@ void VisibilityIndex::blocked(std::span<const Segment> segments,
 
 std::optional<Hit> VisibilityIndex::first_hit(const Vec3& origin, const Vec3& direction,
                                               Sides sides) const {
-  if (!impl_->scene || !origin.allFinite() || !direction.allFinite()) return std::nullopt;
+  if (!origin.allFinite() || !direction.allFinite()) return std::nullopt;
   const Vec3 unit = direction.stableNormalized();
   if (unit.isZero()) return std::nullopt;
-  const int triangle = impl_->scene->first_hit({origin, unit}, sides);
-  if (triangle < 0) return std::nullopt;
-  return impl_->hit(origin, unit, triangle);
+  const HalfLine ray{origin, unit};
+  std::optional<Hit> nearest;
+  for (const EmbreeScene& scene : impl_->scenes) {
+    const SoupTriangle* triangle = scene.first_hit(ray, sides);
+    if (triangle == nullptr) continue;
+    const Hit hit = impl_->hit(*triangle, ray);
+    if (!nearest || hit.distance < nearest->distance) nearest = hit;
+  }
+  return nearest;
 }
 
 void VisibilityIndex::first_hits(std::span<const HalfLine> rays, Sides sides,
@@ -109,16 +126,19 @@ void VisibilityIndex::first_hits(std::span<const HalfLine> rays, Sides sides,
   if (rays.size() != hits.size())
     throw Error(ErrorCode::contract, "VisibilityIndex::first_hits",
                 fmt::format("{} rays and room for {} hits", rays.size(), hits.size()));
-  std::array<int, packet_size> triangles;
+  std::fill(hits.begin(), hits.end(), Hit{-1, -1, 0, {}});
+  std::array<const SoupTriangle*, packet_size> triangles;
   for (std::size_t i = 0; i < rays.size(); i += packet_size) {
     const auto packet = rays.subspan(i, std::min(packet_size, rays.size() - i));
-    triangles.fill(-1);
-    if (impl_->scene)
-      impl_->scene->first_hits(packet, sides, std::span(triangles).first(packet.size()));
-    for (std::size_t k = 0; k < packet.size(); ++k)
-      hits[i + k] = triangles[k] < 0
-                        ? Hit{-1, -1, 0, {}}
-                        : impl_->hit(packet[k].origin, packet[k].direction, triangles[k]);
+    for (const EmbreeScene& scene : impl_->scenes) {
+      scene.first_hits(packet, sides, std::span(triangles).first(packet.size()));
+      for (std::size_t k = 0; k < packet.size(); ++k) {
+        if (triangles[k] == nullptr) continue;
+        const Hit hit = impl_->hit(*triangles[k], packet[k]);
+        Hit& nearest = hits[i + k];
+        if (nearest.triangle < 0 || hit.distance < nearest.distance) nearest = hit;
+      }
+    }
   }
 }
 
@@ -127,7 +147,7 @@ std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,
   const Impl& impl = *impl_;
   if (a.empty() || b.empty())
     throw Error(ErrorCode::contract, "VisibilityIndex::candidates", "a polygon has no vertices");
-  if (!impl.scene) return {};
+  if (impl.soup.triangles.empty()) return {};
   std::call_once(impl.planted, [&] { impl.shafts.emplace(impl.soup); });
   return impl.shafts->candidates(a, b);
 }

@@ -34,10 +34,11 @@ struct HalfLine {
 enum class Sides { both, front_only };
 
 /// Answers visibility queries among fixed triangles. Embree finds the triangles near a ray in
-/// single precision, on coordinates relative to the soup's centre and size; whether one is met is
-/// decided in double precision. What can go wrong is that a triangle met within about 1e-6 of the
-/// scene's size from its border, at a grazing angle, goes unseen: good for sampling and for clear
-/// cases, not for near-tangent decisions. All queries may run concurrently.
+/// single precision, on coordinates relative to the soup's centre and size, or those of small parts
+/// of it that lie apart: a room and a far sun lose nothing to each other (scale_clusters()).
+/// Whether a triangle is met is decided in double precision. What can go wrong is that one met
+/// within about 1e-6 of the soup's size from its border, at a grazing angle, goes unseen: good for
+/// sampling and for clear cases, not for near-tangent decisions. All queries may run concurrently.
 class VisibilityIndex {
  public:
   explicit VisibilityIndex(TriangleSoup soup);

@@ -15,7 +15,7 @@
 
 // The laws for all light, as `solve` finds it. Another order of faces and vertices changes no bit,
 // nor do powers of two; another unit of length, and what is far away or tiny, change nothing but
-// for rounding. Where reflected light is found by rays the latter moves it within the tolerance.
+// for rounding. Rays meet the same edges only where what is far away is very far.
 
 namespace halfshade {
 namespace {
@@ -99,6 +99,19 @@ std::vector<int> by_place(const SolveResult& result) {
   return elements;
 }
 
+/// Between elements of the same places, but for those of the triangle elsewhere.
+double largest_difference(const SolveResult& expected, const SolveResult& got) {
+  const std::vector<int> before = by_place(expected), after = by_place(got);
+  EXPECT_EQ(after.size(), before.size());
+  double worst = 0;
+  for (std::size_t k = 0; k < std::min(before.size(), after.size()); ++k)
+    worst = std::max(
+        worst, (got.solution.irradiance.row(after[k]) - expected.solution.irradiance.row(before[k]))
+                   .abs()
+                   .maxCoeff());
+  return worst;
+}
+
 class ReflectedLaws : public testing::TestWithParam<std::string> {
  protected:
   const Scene scene_ = load(GetParam());
@@ -158,20 +171,29 @@ TEST_P(AllLightLaws, WhatIsFarAwayOrTinyChangesNothing) {
        {std::pair(1e3, 1e2), std::pair(1e6, 1e5), std::pair(10., 1e-9)}) {
     const std::string what = "a triangle " + std::to_string(distance) + " away";
     const SolveResult result = solved(test::with_black_triangle(scene_, distance, extent));
-    if (expected_.reflected.elements > 0 && !expected_.reflected.is_exact) {
-      // Rays: equations are solved to a share of the tolerance.
+    if (distance == 1e3 && expected_.reflected.elements > 0 && !expected_.reflected.is_exact)
+      // Rays that pass an edge may meet others in single precision of the larger scene.
       expect_near(powers(expected_, scene_), powers(result, scene_), what);
-      continue;
+    else
+      EXPECT_LE(largest_difference(expected_, result), 1e-12 * exitance) << what;
+  }
+}
+
+/// Few scenes are large enough for rays of their own accord.
+TEST(LawsOfRays, WhatIsFarAwayOrTinyChangesNothing) {
+  SolveOptions options;
+  options.tolerance = 0.03;
+  options.visibility = ReflectedVisibility::sampled;
+  for (const char* name : {"cornell_box", "l_room", "table_and_chairs"}) {
+    const Scene scene = load(name);
+    const SolveResult expected = solve(scene, options);
+    EXPECT_GT(expected.reflected.rays, 0) << name;
+    for (const auto& [distance, extent] :
+         {std::pair(1e4, 1e3), std::pair(1e9, 1e8), std::pair(10., 1e-9)}) {
+      const SolveResult result = solve(test::with_black_triangle(scene, distance, extent), options);
+      EXPECT_LE(largest_difference(expected, result), 1e-12)
+          << name << ", a triangle " << distance << " away";
     }
-    const std::vector<int> before = by_place(expected_), after = by_place(result);
-    ASSERT_EQ(after.size(), before.size()) << what;
-    double off = 0;
-    for (std::size_t k = 0; k < before.size(); ++k)
-      off = std::max(off, (result.solution.irradiance.row(after[k]) -
-                           expected_.solution.irradiance.row(before[k]))
-                              .abs()
-                              .maxCoeff());
-    EXPECT_LE(off, 1e-12 * exitance) << what;
   }
 }
 

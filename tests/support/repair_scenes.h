@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,11 @@ inline void expect_surfaces_sound(const SoundScene& scene) {
     EXPECT_EQ(surface.faces.size(), surface.face_rings.size());
     EXPECT_FALSE(surface.faces.empty());
     EXPECT_NEAR(surface.frame.e1.cross(surface.frame.e2).dot(surface.frame.normal), 1, 1e-14);
-    EXPECT_NEAR(area(surface), test::area_of(surface.rings), 1e-12 * area(surface));
+    // All that is left of a surface may be a thin rim around a hole: a small difference.
+    double of_rings = 0;
+    for (const Ring& ring : surface.rings) of_rings += std::abs(test::signed_area(ring));
+    EXPECT_NEAR(area(surface), test::area_of(surface.rings),
+                1e-12 * area(surface) + 1e-15 * of_rings);
   }
 }
 

@@ -8,29 +8,51 @@ namespace halfshade {
 
 /// What is not known of the light that an element loses.
 struct UnsureLoss {
-  double factor = 0;  ///< its form factors to all others may be off by this in the mean
-  double parts = 0;   ///< into which its length had to be cut to know; 0: unknown
+  Rgb factor = Rgb::Zero();  ///< its form factors to all others may be off by this in the mean
+  double parts = 0;          ///< into which its length had to be cut to know; 0: unknown
 };
 
-/// What the whole of a system is off because it is not known exactly how much light it loses.
+/// What light is off because it is not known exactly how much of it gets lost.
 struct BalanceEstimate {
   double square = 0;  ///< ∫ |error|², weighted
-  /// Element → its part in what is not known, relative; 0 if that is little.
+  /// Element → its part in that, about; 0 if that is little.
   std::vector<double> of_element;
   double elements = 0;  ///< about as many had to be added to know
 };
 
-/// In open systems where light is reflected some thousand times nothing else matters: the light of
-/// the whole system is off by the power that is not known, relative to the power put in. `unsure`
-/// is that of each element, `weight` how much the square of its error counts.
+/// Where light is reflected some thousand times, in gaps or in the whole of an open system, nothing
+/// else matters: what gets lost unseen would have been reflected as often. Solves for light that is
+/// put in where it gets lost, unless that is sure to matter less than `negligible`, by what
+/// `amplification` a residual may have; as light gets lost, less is there to get lost. `unsure` is
+/// that of each element, `weight` how much the square of its error counts.
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
                                  const ElementField& irradiance,
                                  const std::vector<UnsureLoss>& unsure,
-                                 const std::vector<double>& weight);
+                                 const std::vector<double>& weight, double amplification,
+                                 double negligible);
 
-/// What `rays`, as many from each node of each element, cannot tell of open systems: of N rays that
-/// all arrive, up to three in N may get lost (the rule of three, at 95 %).
-std::vector<UnsureLoss> unsure_by_rays(const ReflectedSystem& system,
-                                       const std::vector<double>& rays);
+/// Of noisy looks at the same elements: the first that is little would end them.
+class MeanOfLooks {
+ public:
+  void add(double value) {
+    sum_ += value;
+    ++count_;
+  }
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
+
+ private:
+  double sum_ = 0;
+  int count_ = 0;
+};
+
+/// ∫ |error|², weighted, that comes of what is `missing` (its integral over each element) in the
+/// mean over each surface, as it is reflected on.
+double square_reflected_on(const ReflectedSystem& system, const ElementField& irradiance,
+                           const std::vector<Rgb>& missing, const std::vector<double>& weight);
+
+/// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays
+/// that all arrive, up to three in N may get lost (the rule of three, at 95 %).
+void add_unsure_by_rays(const ReflectedSystem& system, const std::vector<double>& rays,
+                        std::vector<UnsureLoss>& unsure);
 
 }  // namespace halfshade

@@ -20,7 +20,8 @@ ReflectionEstimate estimate_exactly(const ExactSight& sight, const ExactGather& 
         const std::vector<Sighted> targets =
             sight.may_see(mesh.forest.corners(mesh.triangle[at(e)]), root);
         const Rgb here = rest.value(e, probe.place);
-        probe.square_error = (gather.irradiance(root, position, targets) - here).square().sum();
+        probe.missing = gather.irradiance(root, position, targets) - here;
+        probe.square_error = probe.missing.square().sum();
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
         probe.square = (light.direct_at(root, position) + here + constant).square().sum();
       },

@@ -2,7 +2,6 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/reflected/forest_field.h"
-#include "solver/reflected/near_factors.h"
 #include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
@@ -10,11 +9,6 @@
 
 namespace halfshade {
 namespace {
-
-/// Of what gets lost unseen: where it does, less leaves than in the mean over an element. Measured:
-/// by random walks between plates 1e-3 and 1e-4 apart, what is claimed is 2 to 16 times the error
-/// of the mean.
-constexpr double share_unsure = 0.15;
 
 void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& elements) {
   if (mesh.forest.is_leaf(triangle)) {
@@ -49,7 +43,6 @@ bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) 
   if (fits(mesh)) return true;
   const RowMaker maker(sight_, mesh, accuracy_);
   rows_.assign(at(mesh.count()), {});
-  unsure_.assign(at(mesh.count()), {});
   return parallel_for(
       at(mesh.count()), [&](std::size_t e) { make_rows(maker, mesh, static_cast<int>(e)); },
       progress, "exact parts of reflected light");
@@ -61,14 +54,6 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
   const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
   for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
     rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
-  if (scene_.cells.closed[at(scene_.cells.before(root))]) return;
-  UnsureLoss& unsure = unsure_[at(element)];
-  for (const NearFactor& factor : near_factors(sight_, mesh, element, targets)) {
-    const double missed =
-        factor.mean - mean_factor(factor.surface, mesh, scene_.roots, element, rows);
-    unsure.factor += share_unsure * std::abs(missed);
-    unsure.parts = std::max(unsure.parts, factor.parts);
-  }
 }
 
 ElementField ExactExchange::source(const ReflectedMesh& mesh) const {

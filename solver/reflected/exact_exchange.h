@@ -1,6 +1,5 @@
 #pragma once
 
-#include "solver/reflected/balance_estimate.h"
 #include "solver/reflected/direct_projection.h"
 #include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/irradiance_row.h"
@@ -27,8 +26,6 @@ class ExactExchange : public IrradianceOperator {
   double row_error() const;
   /// Memory that rows take, in numbers.
   std::size_t moments() const;
-  /// Element → what narrow gaps leave open.
-  const std::vector<UnsureLoss>& unsure() const { return unsure_; }
 
  private:
   /// Whether the rows are those of this mesh, which may have been refined since.
@@ -41,7 +38,6 @@ class ExactExchange : public IrradianceOperator {
   const DirectProjection& direct_;
   RowAccuracy accuracy_;
   std::vector<std::vector<IrradianceRow>> rows_;  ///< of each element's nodes
-  std::vector<UnsureLoss> unsure_;
 };
 
 /// A row for a point of a part of a root; in a closed cell it is scaled to sum to one, and `off`

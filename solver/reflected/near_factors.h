@@ -1,29 +1,17 @@
 #pragma once
 
-#include "solver/reflected/exact_sight.h"
-#include "solver/reflected/irradiance_row.h"
-#include "solver/reflected/reflected_mesh.h"
+#include "solver/reflected/balance_estimate.h"
+#include "solver/reflected/reflected_system.h"
+#include "solver/reflected/reflecting_scene.h"
 
-#include <span>
 #include <vector>
 
 namespace halfshade {
 
-/// The mean form factor of an element to a surface that lies close before it.
-struct NearFactor {
-  int surface;
-  double mean;   ///< to about 1e-7
-  double parts;  ///< into which the element's length had to be cut to see how light gets lost
-};
-
-/// Those to surfaces that face an element nearer than it is long, with nothing between. Light gets
-/// out of a gap within a few times its width of the border: nodes hardly ever lie there, and see
-/// none of it get lost. In closed form (mutual_area). `targets` are what may_see() found for it.
-std::vector<NearFactor> near_factors(const ExactSight& sight, const ReflectedMesh& mesh,
-                                     int element, std::span<const Sighted> targets);
-
-/// The same mean by the rows of an element's nodes.
-double mean_factor(int surface, const ReflectedMesh& mesh, const ElementTable& roots, int element,
-                   std::span<const IrradianceRow> rows);
+/// What is not known of the light that elements lose through gaps narrower than half of what they
+/// are long: it gets out within a few times the gap's width of the border, where nodes hardly ever
+/// lie, and what these see is taken for the mean. The mean form factor to the surface opposite is
+/// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen.
+std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene);
 
 }  // namespace halfshade

@@ -15,6 +15,7 @@ struct ProbePlace {
   std::uint64_t seed;                   ///< for more random numbers
   double weight = 1;                    ///< of |error|²
   double square_error = 0, square = 0;  ///< found there: |error|² and |H_d + G|²
+  Rgb missing = Rgb::Zero();            ///< what arrives and is not in the solution
 };
 
 /// The share of probes that each element is to have: the largest errors are those of small elements

@@ -20,10 +20,6 @@ constexpr double most_scale = 4;
 /// How much the coefficients of the highest degree count beside what was found at points.
 constexpr double share_of_tails = 0.75;
 
-double summed(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.);
-}
-
 /// ∫ |error|² of each, `all` in all, without noise of rays.
 std::vector<double> errors_of_elements(const RefinementInput& input, double all) {
   std::vector<double> result = tails(input.mesh, input.irradiance, input.weight);
@@ -56,6 +52,10 @@ int bisections(double too_much) {
 }
 
 }  // namespace
+
+double summed(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.);
+}
 
 std::vector<double> element_weights(const ReflectedMesh& mesh, const FirstLight& light,
                                     const ErrorWeight& weight) {

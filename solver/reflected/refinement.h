@@ -40,4 +40,7 @@ std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
 /// degree are large. Where it is the balance of power that is not known, those that know least.
 RefinementPlan plan_refinement(const RefinementInput& input, double goal);
 
+/// Of all elements.
+double summed(const std::vector<double>& values);
+
 }  // namespace halfshade

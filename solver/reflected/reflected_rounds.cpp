@@ -4,13 +4,13 @@
 #include "solver/reflected/allowed_error.h"
 #include "solver/reflected/exact_estimate.h"
 #include "solver/reflected/exact_exchange.h"
+#include "solver/reflected/near_factors.h"
 #include "solver/reflected/quiet_field.h"
 #include "solver/reflected/ray_passes.h"
 #include "solver/reflected/refinement.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -22,7 +22,8 @@ constexpr double much_off = 0.025;
 constexpr int many_to_solve = 20000;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
-constexpr double comes_back = 1.2;
+/// Where the solver amplifies by more, that is solved for.
+constexpr double comes_back = 1.2, much_comes_back = 10;
 
 /// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
 constexpr double most_for_gaps = 2000;
@@ -31,6 +32,9 @@ constexpr int points_of_projection = 20000;
 
 /// So many take hundreds of megabytes in each round that the next does not need.
 constexpr int many_to_free = 100000;
+
+/// Light of which not more than this share of the goal may get lost unseen is not looked into.
+constexpr double negligible = 0.01;
 
 /// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
 constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
@@ -52,10 +56,6 @@ constexpr double hides = 2.5, unseen = 0.6;
 
 /// As many points that noise of the rays from each may be this share of the goal in their mean.
 constexpr double noise_of_estimate = 0.1, fewest_in_mean = 25;
-
-double sum_of(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.);
-}
 
 class Rounds {
  public:
@@ -93,7 +93,9 @@ class Rounds {
     std::vector<double> noise_left;  ///< weighted, as the next
     std::vector<double> noise_kept;  ///< of RayExchange::most_rays from each node alone
     std::vector<double> weight;
+    std::vector<UnsureLoss> unsure;
     int passes = 0;  ///< on these elements
+    MeanOfLooks on;  ///< square of what is reflected on
     ElementField ambient;
   };
   enum class Next { end, refine, points, pass };
@@ -115,6 +117,8 @@ class Rounds {
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
+    found.unsure = unsure_by_gaps(system, state_.reflecting);
+    if (kept_rays_) add_unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_), found.unsure);
     solve(system, found);
     ++report.rounds;
     return improve(system, found);
@@ -225,18 +229,6 @@ class Rounds {
     return true;
   }
 
-  /// About the square of all irradiance, from means over elements.
-  double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradiance) const {
-    const ElementField whole = irradiance.whole(system.mesh, system.systems);
-    double sum = 0;
-    for (int e = 0; e < whole.count(); ++e) {
-      Rgb mean = whole.of(e).row(0).transpose();
-      if (!options_.through_operator) mean += direct_.mean(mesh_, e);
-      sum += mesh_.area(e) * mean.square().sum();
-    }
-    return sum;
-  }
-
   double goal_square(double all) const {
     return allowed_square(options_, state_.scale, all) / std::pow(comes_back, 2);
   }
@@ -245,10 +237,11 @@ class Rounds {
   /// noise of the estimate low, more where there is more noise.
   std::vector<int> strata_of_estimate(const ReflectedSystem& system, const Found& found,
                                       const std::vector<double>& shares, int points) const {
-    const double goal =
-        goal_square(norm_square(options_, state_.scale, rough_square(system, found.irradiance)));
+    const double all =
+        rough_square(system, found.irradiance, options_.through_operator ? nullptr : &direct_);
+    const double goal = goal_square(norm_square(options_, state_.scale, all));
     const double allowed = noise_of_estimate * goal * std::sqrt(points);
-    const double share = allowed > 0 ? sum_of(found.noise_kept) / allowed : 0;
+    const double share = allowed > 0 ? summed(found.noise_kept) / allowed : 0;
     const double rays =
         std::max(kept_rays_->most_rays() * std::pow(share, 1 / noise_exponent), fewest_in_mean);
     return share_probe_rays(mesh_, found.noise_kept, shares, rays);
@@ -289,31 +282,34 @@ class Rounds {
     return true;
   }
 
-  Next judge(const ReflectedSystem& system, const Found& found,
-             const ReflectionEstimate& estimate) {
+  Next judge(const ReflectedSystem& system, Found& found, const ReflectionEstimate& estimate) {
     const SplitIrradiance& irradiance = found.irradiance;
     keep(system, irradiance);
     ReflectedReport& report = state_.report;
     const double square = std::max(estimate.sum, 0.) + 2 * estimate.deviation;
     const double scale = state_.scale.minCoeff();  // of the channels that count
     const double all = norm_square(options_, state_.scale, estimate.square_total);
+    const double goal = goal_square(all);
     const auto share = [&](double x) { return all > 0 ? std::sqrt(x / all) : 0; };
-    const BalanceEstimate unbalanced = estimate_balance(
-        system, direct_.leaving(mesh_, state_.light), irradiance.rest,
-        parts_ ? parts_->unsure() : unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_)),
-        found.weight);
-    report.error = std::hypot(comes_back * share(square), share(unbalanced.square),
+    const BalanceEstimate unbalanced =
+        estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance.rest,
+                         found.unsure, found.weight, report.amplification, negligible * goal);
+    if (report.amplification >= much_comes_back)
+      found.on.add(square_reflected_on(system, irradiance.rest, estimate.missing, found.weight));
+    const double on = found.on.mean();
+    report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),
                               report.residual * report.amplification);
-    report.noise = share(sum_of(found.noise_left));
+    report.noise = share(summed(found.noise_left));
     report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
     report.end = ReflectedEnd::accurate;
     if (std::pow(report.error, 2) * all <= allowed_square(options_, state_.scale, all))
       return Next::end;
-    const double goal = goal_square(all);
-    if (unbalanced.square > goal && (kept_rays_ || unbalanced.elements > most_for_gaps)) {
-      report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
-      return Next::end;
-    }
+    // More elements do not show what so many rays do not find.
+    const bool cannot_show = unbalanced.elements == 0 || unbalanced.elements > most_for_gaps;
+    report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
+    if (unbalanced.square > goal && cannot_show) return Next::end;
+    // Nor does more of anything help where all noise comes back.
+    if (on > goal && square <= goal && unbalanced.square <= goal) return Next::end;
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
                   goal, found);
   }
@@ -329,7 +325,7 @@ class Rounds {
       if ((made += (1 << plan.times[fits]) - 1) > room) break;
     const ReflectedEnd end = is_coarse && !is_last ? ReflectedEnd::elements : ReflectedEnd::rounds;
     report.end = ReflectedEnd::interrupted;
-    const double noise = sum_of(found.noise_left);
+    const double noise = summed(found.noise_left);
     const double of_elements = std::max(input.estimate.sum - noise, 0.);
     const bool is_hidden = noise > std::max(hides * of_elements, share_of_noise * goal);
     const bool can_pass = kept_rays_ && found.passes < most_passes && noise > 0;
@@ -358,7 +354,7 @@ class Rounds {
   /// Rays that bring the noise down to what suits the goal, or to `enough`. False if there may be
   /// no more.
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
-    const double noise = sum_of(found.noise_left),
+    const double noise = summed(found.noise_left),
                  of_elements = std::max(input.estimate.sum - noise, 0.);
     // Which judge() adds.
     const double doubt = 2 * input.estimate.deviation / std::max(input.estimate.sum, noise);
@@ -367,7 +363,7 @@ class Rounds {
     const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
     const double more =
         rays_for(mesh_, noisy_forest(mesh_, found.rest, found.noise), found.weight, wanted);
-    const double all = sum_of(noise_of_elements(found.noise, found.weight));
+    const double all = summed(noise_of_elements(found.noise, found.weight));
     strata_ =
         share_rays(mesh_, found.noise_kept, found.weight,
                    {kept_rays_->most_rays(), passes_.sent(mesh_, kept_rays_->rays_of_nodes(mesh_)),

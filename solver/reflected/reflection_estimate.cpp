@@ -12,10 +12,12 @@ namespace halfshade {
 void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes) {
   square_error.resize(at(mesh.count()), 0);
   chance.resize(at(mesh.count()), 0);
+  missing.resize(at(mesh.count()), Rgb::Zero());
   double variance = deviation * deviation;
   for (const ProbePlace& probe : probes) {
     const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
+    missing[at(probe.element)] += probe.share * probe.missing;
     chance[at(probe.element)] = std::min(mesh.area(probe.element) / probe.share, 1.);
     sum += error;
     variance += error * error;
@@ -28,6 +30,7 @@ void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_
   const double a = 1 - weight_of_other, b = weight_of_other;
   for (std::size_t e = 0; e < square_error.size(); ++e) {
     square_error[e] = a * square_error[e] + b * other.square_error[e];
+    missing[e] = a * missing[e] + b * other.missing[e];
     // Of points of both: what one says of it, for the other may have missed it.
     chance[e] = std::min(std::max(chance[e] / a, other.chance[e] / b), 1.);
   }
@@ -36,6 +39,19 @@ void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_
   square_total = a * square_total + b * other.square_total;
   rays += other.rays;
   complete = complete && other.complete;
+}
+
+double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradiance,
+                    const DirectProjection* direct) {
+  const ReflectedMesh& mesh = system.mesh;
+  const ElementField whole = irradiance.whole(mesh, system.systems);
+  double sum = 0;
+  for (int e = 0; e < whole.count(); ++e) {
+    Rgb mean = whole.of(e).row(0).transpose();
+    if (direct != nullptr) mean += direct->mean(mesh, e);
+    sum += mesh.area(e) * mean.square().sum();
+  }
+  return sum;
 }
 
 std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
@@ -82,8 +98,9 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
           halves[h] = {from, options.strata[at(e)], mix_bits(probe.seed + h)};
         const ChannelArray found =
             gathered(gather_rays(scene, light, Looks::exact, halves), mesh.forest, leaving);
-        const Rgb product = (found.row(0).transpose() - here) * (found.row(1).transpose() - here);
-        probe.square_error = product.sum();
+        const Rgb first = found.row(0).transpose() - here, second = found.row(1).transpose() - here;
+        probe.square_error = (first * second).sum();
+        probe.missing = (first + second) / 2;
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
         probe.square = (light.direct_at(mesh.root(e), mesh.position(e, place)) + here + constant)
                            .square()

@@ -21,6 +21,7 @@ struct ReflectionEstimate {
   /// Element → how likely a point was to fall on it, where one did: only this share of the error
   /// found there is its own, the rest stands for elements like it that none fell on.
   std::vector<double> chance;
+  std::vector<Rgb> missing;  ///< element → ∫ over it of what arrives and is not in the solution
   std::size_t rays = 0;
   bool complete = true;
 
@@ -39,6 +40,10 @@ struct ReflectionProbes {
   int points = 1000;                  ///< over all surfaces
   int use = 0;                        ///< see ray_seed
 };
+
+/// About ∫ |H_d + G|², from means over elements; without `direct` of G alone.
+double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradiance,
+                    const DirectProjection* direct);
 
 /// Strata of either half of the rays from points of each element, for so many rays in the mean:
 /// more where there is more `noise` of other rays. The noise of the estimate is then the least.

@@ -1,11 +1,14 @@
 #include "meshing/repair/repair.h"
 #include "solver/pipeline/solve.h"
+#include "solver/reference/reference_light.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+#include <vector>
 
 // Two plates of nearly white material close to each other: light is reflected some hundred times
 // before it gets out, within a few times the gap of the border.
@@ -75,6 +78,70 @@ TEST(NarrowGap, TooNarrowToSeeWhatGetsLostIsTold) {
   EXPECT_GT(result.relative_error, 0.01);
   EXPECT_NEAR(mean_irradiance(result), mean.value,
               3 * mean.deviation + result.relative_error * mean.value);
+}
+
+/// Such plates, a tenth as large, in a closed room with a lamp.
+Scene plates_in_a_room(double gap, double rho) {
+  Scene scene;
+  const int wall = test::add_material(scene, 0.5, 0), lamp = test::add_material(scene, 0, 10);
+  const int light = test::add_material(scene, rho, 1), dark = test::add_material(scene, rho, 0);
+  for (const auto& face : test::box_faces({-2, -2, -1}, {2, 2, 2}, true))
+    test::add_polygon(scene, face, wall);
+  test::add_polygon(scene, {{-1, -1, 1.9}, {-1, -0.5, 1.9}, {-0.5, -0.5, 1.9}, {-0.5, -1, 1.9}},
+                    lamp);
+  test::add_polygon(scene, {{0, 0, 0}, {0.3, 0, 0}, {0.3, 0.3, 0}, {0, 0.3, 0}}, light);
+  test::add_polygon(scene, {{0, 0.3, gap}, {0.3, 0.3, gap}, {0.3, 0, gap}, {0, 0, gap}}, dark);
+  return scene;
+}
+
+/// What all light is off, at least, as a share of it: what the plates' means are off.
+Mean error_of_plates(const SolveResult& result, int samples) {
+  double error = 0, variance = 0, all = 0;
+  std::vector<ReferenceTriangle> triangles;
+  std::vector<int> elements;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const double area = result.elements.area[at(e)];
+    all += area * result.solution.irradiance.row(e).square().sum();
+    if (area == 0 || result.scene.materials[at(result.elements.material[at(e)])].rho[0] < 0.6)
+      continue;
+    triangles.push_back(result.elements.triangle(e));
+    elements.push_back(e);
+  }
+  ReferenceOptions options;
+  options.samples = samples / static_cast<int>(triangles.size());
+  const ReferenceLight reference = reference_means(result.scene, triangles, options);
+  for (const double low : {-1., 1.}) {  // the side that they look to
+    Rgb missing = Rgb::Zero(), deviations = missing;
+    double area = 0;
+    for (std::size_t k = 0; k < elements.size(); ++k) {
+      const int e = elements[k];
+      const int surface = result.elements.surface[at(e)];
+      if (result.scene.surfaces[at(surface)].frame.normal.z() * low < 0) continue;
+      const double part = result.elements.area[at(e)];
+      area += part;
+      missing += part * (reference.values[k].total - result.solution.irradiance.row(e).transpose());
+      deviations += (part * reference.standard_errors[k].total).square();
+    }
+    error += missing.square().sum() / area;
+    variance += deviations.sum() / area;
+  }
+  return {std::sqrt(error / all), std::sqrt(variance / all)};
+}
+
+TEST(NarrowGap, LosesInARoomWhatIsClaimed) {
+  for (const auto& [gap, rho] : {std::pair(1e-3, 0.99), {3e-4, 0.99}})
+    for (const ReflectedVisibility visibility :
+         {ReflectedVisibility::exact, ReflectedVisibility::sampled}) {
+      SolveOptions options;
+      options.tolerance = 0.05;
+      options.visibility = visibility;
+      const SolveResult result = solve(plates_in_a_room(gap, rho), options);
+      const Mean error = error_of_plates(result, 60000);
+      EXPECT_LE(error.value, result.relative_error + 3 * error.deviation) << gap << ", " << rho;
+      if (visibility == ReflectedVisibility::exact) {
+        EXPECT_LT(result.relative_error, 0.1) << gap << ", " << rho;
+      }
+    }
 }
 
 TEST(NarrowGap, ElementsOfTheMatrixThatAreTooLongTellSo) {

@@ -45,16 +45,6 @@ void check(const TriangleSoup& soup) {
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
 }
 
-/// Where a ray that meets a triangle does so.
-Hit hit_on(const SoupTriangle& triangle, int owner, const HalfLine& ray) {
-  Hit hit;
-  hit.owner = owner;
-  hit.triangle = triangle.index;
-  hit.distance = -triangle.height(ray.origin) / triangle.normal.dot(ray.direction);
-  hit.weights = triangle.weights(ray.origin + hit.distance * ray.direction);
-  return hit;
-}
-
 }  // namespace
 
 struct VisibilityIndex::Impl {
@@ -68,8 +58,14 @@ struct VisibilityIndex::Impl {
     for (const std::vector<int>& cluster : scale_clusters(soup)) scenes.emplace_back(soup, cluster);
   }
 
+  /// Where a ray that meets a triangle does so.
   Hit hit(const SoupTriangle& triangle, const HalfLine& ray) const {
-    return hit_on(triangle, soup.owner[at(triangle.index)], ray);
+    Hit hit;
+    hit.owner = soup.owner[at(triangle.index)];
+    hit.triangle = triangle.index;
+    hit.distance = -triangle.height(ray.origin) / triangle.normal.dot(ray.direction);
+    hit.weights = triangle.weights(ray.origin + hit.distance * ray.direction);
+    return hit;
   }
 };
 

@@ -27,7 +27,7 @@ Rgb at_most(const Rgb& lost, const Rgb& there) {
 }  // namespace
 
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
-                                 const ElementField& irradiance,
+                                 const SplitIrradiance& irradiance,
                                  const std::vector<UnsureLoss>& unsure,
                                  const std::vector<double>& weight, double amplification,
                                  double negligible) {
@@ -37,7 +37,7 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   ElementField lost = zero_field(mesh);
   double heaviest = 0;
   for (int e = 0; e < mesh.count(); ++e) {
-    const Rgb arriving = irradiance.of(e).row(0).transpose();
+    const Rgb arriving = irradiance.rest.of(e).row(0).transpose();
     const Rgb leaving = first_leaving.of(e).row(0).transpose() + light.mean_rho(mesh, e) * arriving;
     lost.of(e).row(0) = (unsure[at(e)].factor * leaving.abs()).transpose();
     estimate.square += mesh.area(e) * lost.of(e).row(0).square().sum();
@@ -46,11 +46,11 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   estimate.square *= heaviest * std::pow(surely * amplification, 2);
   if (estimate.square <= negligible) return estimate;
   const ElementField missing = missing_light(system, lost);
+  const ElementField there = irradiance.whole(mesh, systems);
   estimate.square = 0;
   double most = 0;
   for (int e = 0; e < mesh.count(); ++e) {
-    const Rgb error =
-        at_most(missing.of(e).row(0).transpose(), irradiance.of(e).row(0).transpose());
+    const Rgb error = at_most(missing.of(e).row(0).transpose(), there.of(e).row(0).transpose());
     const double share = mesh.area(e) * weight[at(e)];
     estimate.square += share * error.square().sum();
     estimate.of_element[at(e)] = share * (error * lost.of(e).row(0).transpose()).sum();
@@ -66,7 +66,7 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   return estimate;
 }
 
-double square_reflected_on(const ReflectedSystem& system, const ElementField& irradiance,
+double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
                            const std::vector<Rgb>& missing, const std::vector<double>& weight) {
   const ReflectedMesh& mesh = system.mesh;
   const auto surface_of = [&](int e) { return at(system.light.surface[at(mesh.root(e))]); };
@@ -80,11 +80,12 @@ double square_reflected_on(const ReflectedSystem& system, const ElementField& ir
   for (int e = 0; e < mesh.count(); ++e)
     source.of(e).row(0) = (mean[surface_of(e)] / area[surface_of(e)]).transpose();
   const ElementField all = missing_light(system, source);
+  const ElementField there = irradiance.whole(mesh, system.systems);
   double square = 0;
   for (int e = 0; e < mesh.count(); ++e)
     square += mesh.area(e) * weight[at(e)] *
               at_most((all.of(e).row(0) - source.of(e).row(0)).transpose(),
-                      irradiance.of(e).row(0).transpose())
+                      there.of(e).row(0).transpose())
                   .square()
                   .sum();
   return square;

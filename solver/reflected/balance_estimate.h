@@ -23,10 +23,11 @@ struct BalanceEstimate {
 /// Where light is reflected some thousand times, in gaps or in the whole of an open system, nothing
 /// else matters: what gets lost unseen would have been reflected as often. Solves for light that is
 /// put in where it gets lost, unless that is sure to matter less than `negligible`, by what
-/// `amplification` a residual may have; as light gets lost, less is there to get lost. `unsure` is
-/// that of each element, `weight` how much the square of its error counts.
+/// `amplification` a residual may have; as light gets lost, less is there to get lost. Of the
+/// constant that a closed system holds as much comes in as gets out. `unsure` is that of each
+/// element, `weight` how much the square of its error counts.
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
-                                 const ElementField& irradiance,
+                                 const SplitIrradiance& irradiance,
                                  const std::vector<UnsureLoss>& unsure,
                                  const std::vector<double>& weight, double amplification,
                                  double negligible);
@@ -47,7 +48,7 @@ class MeanOfLooks {
 
 /// ∫ |error|², weighted, that comes of what is `missing` (its integral over each element) in the
 /// mean over each surface, as it is reflected on.
-double square_reflected_on(const ReflectedSystem& system, const ElementField& irradiance,
+double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
                            const std::vector<Rgb>& missing, const std::vector<double>& weight);
 
 /// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays

@@ -292,10 +292,10 @@ class Rounds {
     const double goal = goal_square(all);
     const auto share = [&](double x) { return all > 0 ? std::sqrt(x / all) : 0; };
     const BalanceEstimate unbalanced =
-        estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance.rest,
-                         found.unsure, found.weight, report.amplification, negligible * goal);
+        estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
+                         found.weight, report.amplification, negligible * goal);
     if (report.amplification >= much_comes_back)
-      found.on.add(square_reflected_on(system, irradiance.rest, estimate.missing, found.weight));
+      found.on.add(square_reflected_on(system, irradiance, estimate.missing, found.weight));
     const double on = found.on.mean();
     report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),
                               report.residual * report.amplification);

@@ -15,7 +15,7 @@
 
 // The laws for all light, as `solve` finds it. Another order of faces and vertices changes no bit,
 // nor do powers of two; another unit of length, and what is far away or tiny, change nothing but
-// for rounding. Rays meet the same edges only where what is far away is very far.
+// for rounding. What is about a thousand sizes away may move rays, within the tolerance.
 
 namespace halfshade {
 namespace {

@@ -8,8 +8,10 @@
 namespace halfshade {
 namespace {
 
-constexpr std::size_t most_shades = 100;
-constexpr std::size_t most_parts = 48;
+constexpr std::size_t most_shades = 400;
+constexpr std::size_t most_parts = 128;
+/// Parts for which it pays to know where a shadow lies before it is cut off.
+constexpr std::size_t worth_a_reach = 8;
 /// What is nearer to a line lies on it: relative to the target.
 constexpr double nearness_of_target = 1e-11;
 /// A point this near to a blocker's plane sees its edge: relative to the blocker.
@@ -41,13 +43,12 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
   for (const Polygon3& piece : target_.pieces) {
     const Polygon3 other = clip_to_front(piece, own.frame.origin, own.frame.normal);
     if (other.empty()) continue;
-    const std::size_t first = target_corners_.size();
+    Ring flat;
     for (const Vec3& p : other) {
-      const std::size_t number = target_corners_.size() - first;
-      target_corners_.push_back({target_.frame.to_plane(p), static_cast<std::uint32_t>(number)});
+      flat.push_back(target_.frame.to_plane(p));
       size = std::max(size, (p - other.front()).norm());
     }
-    target_parts_.push_back({first, target_corners_.size()});
+    parts_.add(flat);
     if (is_known) continue;
     for (const Polygon3& own_piece : own.pieces) {
       const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
@@ -57,7 +58,8 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     }
   }
   std::vector<Vec3> corners;
-  for (const Corner& corner : target_corners_) corners.push_back(target_.frame.to_space(corner.at));
+  for (const Corner& corner : parts_.corners_of_all())
+    corners.push_back(target_.frame.to_space(corner.at));
   target_ball_ = ball_round(corners);
   if (!is_known) {
     std::sort(blockers.begin(), blockers.end());
@@ -93,7 +95,7 @@ void FewBlockers::add(const Blocker& blocker) {
   shade.a = {frame.e1.dot(blocker.normal), frame.e2.dot(blocker.normal)};
   shade.b = blocker.normal.dot(frame.origin - blocker.corners.front());
   shade.steepness = shade.a.norm();
-  for (const Corner& corner : target_corners_) {
+  for (const Corner& corner : parts_.corners_of_all()) {
     const double height = shade.a.dot(corner.at) + shade.b;
     shade.least = std::min(shade.least, height);
     shade.most = std::max(shade.most, height);
@@ -108,9 +110,9 @@ bool FewBlockers::add_plane(const Vec3& normal, std::uint32_t border) {
   const double b = -normal.dot(from_frame_), steepness = length_about(a);
   // Parallel to the target.
   if (!(steepness > edge_on * length_about(normal))) return b <= 0;
-  const HalfPlane plane{a, b, nearness_ * steepness, border};
+  const FlatParts::HalfPlane plane{a, b, nearness_ * steepness, border};
   double least = HUGE_VAL, most = -HUGE_VAL;
-  for (const Corner& corner : target_corners_) {
+  for (const Corner& corner : parts_.corners_of_all()) {
     const double height = a.dot(corner.at) + b;
     least = std::min(least, height);
     most = std::max(most, height);
@@ -146,15 +148,15 @@ bool FewBlockers::make_shadow(const Silhouette& silhouette, std::uint32_t border
   return !silhouette.edges.empty();
 }
 
-double FewBlockers::sum_over(const Corner* first, const Corner* last) const {
+double FewBlockers::sum_over(std::span<const Corner> part) const {
   FlatSum sum(in_frame_, normal_);
-  sum.start((last - 1)->at);
-  for (; first != last; ++first) sum.add(first->at);
+  sum.start(part.back().at);
+  for (const Corner& corner : part) sum.add(corner.at);
   return sum.form_factor();
 }
 
-void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
-  factor.hidden += sum_over(part.data(), part.data() + part.size());
+void FewBlockers::add_hidden(std::span<const Corner> part, HiddenFactor& factor) const {
+  factor.hidden += sum_over(part);
   if (!needs_signature_) return;
   std::uint32_t before = part[part.size() - 2].border, from = part.back().border;
   for (const Corner& to : part) {
@@ -165,103 +167,22 @@ void FewBlockers::add_hidden(const Part& part, HiddenFactor& factor) const {
   }
 }
 
-/// Of a convex part: what lies beyond the plane is appended to `corners_` as a part of its own; the
-/// rest stays.
-void FewBlockers::split(const HalfPlane& plane) {
-  const std::size_t count = rest_.size(), start = corners_.size();
-  inside_.resize(count + 2);
-  corners_.resize(start + count + 2);
-  Corner* in = inside_.data();
-  Corner* out = corners_.data() + start;
-  const Corner* from = &rest_.back();
-  double at_from = heights_[count - 1];
-  for (std::size_t k = 0; k < count; ++k) {
-    const Corner& to = rest_[k];
-    const double at_to = heights_[k];
-    if (at_from <= 0) *in++ = *from;
-    if (at_from >= 0) *out++ = *from;
-    // Where the border passes over the line, the line takes it up.
-    if ((at_from < 0 && at_to > 0) || (at_from > 0 && at_to < 0)) {
-      const Vec2 crossing = from->at + at_from / (at_from - at_to) * (to.at - from->at);
-      const bool leaves = at_to > 0;
-      *in++ = {crossing, leaves ? plane.border : from->border};
-      *out++ = {crossing, leaves ? from->border : plane.border};
-    } else if (at_from == 0) {
-      if (at_to > 0) in[-1].border = plane.border;
-      if (at_to < 0) out[-1].border = plane.border;
-    }
-    from = &to;
-    at_from = at_to;
+/// Where the shadow of some corners' hull lies: everywhere, if that tells little or takes too long.
+FlatParts::Box FewBlockers::reach_of_shadow(std::span<const Vec3> corners) const {
+  FlatParts::Box everywhere(Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL));
+  if (parts_.count() < worth_a_reach) return everywhere;
+  FlatParts::Box reach;
+  for (const Vec3& corner : corners) {
+    const Vec3 to = turned(target_.frame, corner - point_);
+    if (!(to.z() < -nearness_)) return everywhere;
+    reach.extend(in_frame_.head<2>() - in_frame_.z() / to.z() * to.head<2>());
   }
-  inside_.resize(static_cast<std::size_t>(in - inside_.data()));
-  const auto end = static_cast<std::size_t>(out - corners_.data());
-  if (end > start + 2) {
-    corners_.resize(end);
-    parts_.push_back({start, end});
-  } else
-    corners_.resize(start);
-  rest_.swap(inside_);
-}
-
-/// Heights of a part's corners over a plane.
-FewBlockers::Heights FewBlockers::heights_over(const HalfPlane& plane, const Corner* corners,
-                                               std::size_t count) {
-  Heights range{HUGE_VAL, -HUGE_VAL};
-  heights_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) {
-    heights_[k] = plane.height(corners[k].at);
-    range.least = std::min(range.least, heights_[k]);
-    range.most = std::max(range.most, heights_[k]);
-  }
-  return range;
-}
-
-/// Of one part: what lies outside of the shadow is added to the parts, what is left is hidden.
-/// False if all lies outside.
-bool FewBlockers::cut_off_shadow(const Range& part, HiddenFactor& factor) {
-  const std::size_t count = part.last - part.first;
-  crossing_.clear();
-  // Planes of a shadow all cross the target as a whole.
-  const bool is_whole = part.first == 0 && part.last == target_corners_.size();
-  for (const HalfPlane& plane : shadow_) {
-    if (!is_whole) {
-      const Heights range = heights_over(plane, corners_.data() + part.first, count);
-      if (range.least >= 0) return false;
-      if (range.most <= 0) continue;
-    }
-    crossing_.push_back(&plane);
-  }
-  const std::size_t corners_before = corners_.size(), parts_before = parts_.size();
-  rest_.assign(corners_.data() + part.first, corners_.data() + part.last);
-  for (const HalfPlane* plane : crossing_) {
-    const Heights range = heights_over(*plane, rest_.data(), rest_.size());
-    if (range.most <= 0) continue;
-    if (range.least >= 0) {
-      corners_.resize(corners_before);
-      parts_.resize(parts_before);
-      return false;
-    }
-    split(*plane);
-  }
-  if (rest_.size() > 2) add_hidden(rest_, factor);
-  return true;
-}
-
-void FewBlockers::cut_off_shadow(HiddenFactor& factor) {
-  const std::size_t count = parts_.size();
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Range part = parts_[k];
-    if (!cut_off_shadow(part, factor)) parts_[kept++] = part;
-  }
-  parts_.erase(parts_.begin() + static_cast<std::ptrdiff_t>(kept),
-               parts_.begin() + static_cast<std::ptrdiff_t>(count));
+  return {reach.min().array() - nearness_, reach.max().array() + nearness_};
 }
 
 double FewBlockers::sum_over_parts() const {
   double sum = 0;
-  for (const auto& [first, last] : parts_)
-    sum += sum_over(corners_.data() + first, corners_.data() + last);
+  for (std::size_t k = 0; k < parts_.count(); ++k) sum += sum_over(parts_.part(k));
   return sum;
 }
 
@@ -295,14 +216,18 @@ bool FewBlockers::is_beside(const Ball& ball) const {
 /// Leaves the parts that are seen. False if there are too many.
 template <class SilhouetteOf>
 bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) {
-  const auto can_go_on = [&] { return !parts_.empty() && parts_.size() <= most_parts; };
+  const auto can_go_on = [&] { return parts_.count() > 0 && parts_.count() <= most_parts; };
+  const auto cut_off = [&](std::span<const Vec3> corners) {
+    parts_.cut_off(shadow_, reach_of_shadow(corners),
+                   [&](std::span<const Corner> part) { add_hidden(part, factor); });
+  };
   std::uint32_t border = 0;
   for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
     const Solid& solid = solids_[k];
     border += borders_of_shade;
     if (is_beside(solid.shape->ball)) continue;
     shadow_.clear();
-    if (make_shadow(silhouette_of(solid), border)) cut_off_shadow(factor);
+    if (make_shadow(silhouette_of(solid), border)) cut_off(solid.shape->vertices);
   }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
@@ -314,17 +239,17 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
         continue;
       const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
       shadow_.clear();
-      if (make_shadow(shade, height, number * borders_of_shade)) cut_off_shadow(factor);
+      if (make_shadow(shade, height, number * borders_of_shade)) cut_off(shade.blocker->corners);
     }
-  factor.is_dark = parts_.empty();
-  return parts_.size() <= most_parts;
+  factor.is_dark = parts_.count() == 0;
+  return parts_.count() <= most_parts;
 }
 
 bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   factor = {};
-  if (!(target_.frame.height(point) > 0) || target_parts_.empty()) return true;
+  if (!(target_.frame.height(point) > 0) || parts_.is_nothing()) return true;
   look_from(point);
-  take_all();
+  parts_.take_all();
   factor.unobstructed = sum_over_parts();
   if (!(factor.unobstructed > 0)) {
     factor.unobstructed = 0;
@@ -348,9 +273,9 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
 
 bool FewBlockers::hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor) {
   factor = {};
-  if (!(target_.frame.height(silhouettes.point()) > 0) || target_parts_.empty()) return true;
+  if (!(target_.frame.height(silhouettes.point()) > 0) || parts_.is_nothing()) return true;
   look_from(silhouettes.point());
-  take_all();
+  parts_.take_all();
   needs_signature_ = false;
   if (!cut_off_all(
           [&](const Solid& solid) -> const Silhouette& { return silhouettes.of(solid.body); },
@@ -361,17 +286,17 @@ bool FewBlockers::hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor) 
 }
 
 double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
-  take_all();
-  HiddenFactor unused;
+  parts_.take_all();
+  const FlatParts::Box everywhere(Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL));
   // What lies in the shadows from all three corners.
   const auto cut_off_common = [&](auto make) {
-    if (parts_.empty() || parts_.size() > most_parts) return;
+    if (parts_.count() == 0 || parts_.count() > most_parts) return;
     shadow_.clear();
     for (const Vec3& corner : cell) {
       stand_at(corner);
       if (!make()) return;
     }
-    cut_off_shadow(unused);
+    parts_.cut_off(shadow_, everywhere, [](std::span<const Corner>) {});
   };
   for (const Solid& solid : solids_)
     cut_off_common([&] {

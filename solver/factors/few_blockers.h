@@ -1,11 +1,13 @@
 #pragma once
 
 #include "solver/direct/direct_light.h"
+#include "solver/factors/flat_parts.h"
 #include "solver/factors/flat_sum.h"
 #include "solver/factors/sight_scene.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -82,30 +84,7 @@ class FewBlockers {
   double seen_at_most(const std::array<Vec3, 3>& cell);
 
  private:
-  /// A corner of a convex part of the target, and what its edge from there lies on.
-  struct Corner {
-    Vec2 at;
-    std::uint32_t border;
-  };
-  using Part = std::vector<Corner>;
-  /// Of a part's corners in `corners_`.
-  struct Range {
-    std::size_t first, last;
-  };
-  /// Where a·x + b ≤ 0, in the target's plane; what is nearer than `near` to 0 lies on its border.
-  struct HalfPlane {
-    Vec2 a;
-    double b, near;
-    std::uint32_t border;
-
-    double height(const Vec2& p) const {
-      const double h = a.dot(p) + b;
-      return std::abs(h) < near ? 0 : h;
-    }
-  };
-  struct Heights {
-    double least, most;
-  };
+  using Corner = FlatParts::Corner;
   /// A convex polygon in between.
   struct Shade {
     const Blocker* blocker;
@@ -126,26 +105,18 @@ class FewBlockers {
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
   bool is_beside(const Ball& ball) const;
-  void take_all() {
-    corners_ = target_corners_;
-    parts_ = target_parts_;
-  }
   template <class SilhouetteOf>
   bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);
-  void cut_off_shadow(HiddenFactor& factor);
-  bool cut_off_shadow(const Range& part, HiddenFactor& factor);
-  Heights heights_over(const HalfPlane& plane, const Corner* corners, std::size_t count);
-  void split(const HalfPlane& plane);
-  void add_hidden(const Part& part, HiddenFactor& factor) const;
-  double sum_over(const Corner* first, const Corner* last) const;
+  FlatParts::Box reach_of_shadow(std::span<const Vec3> corners) const;
+  void add_hidden(std::span<const Corner> part, HiddenFactor& factor) const;
+  double sum_over(std::span<const Corner> part) const;
   double sum_over_parts() const;
 
   const SightSurface& target_;
   bool is_applicable_ = false;
   double nearness_ = 0;
-  Vec3 normal_;  ///< of the surface that looks, in the target's frame
-  Part target_corners_;
-  std::vector<Range> target_parts_;
+  Vec3 normal_;      ///< of the surface that looks, in the target's frame
+  FlatParts parts_;  ///< of the target that are not hidden
   Ball target_ball_;
   std::vector<Solid> solids_;
   std::vector<Shade> shades_;
@@ -157,11 +128,7 @@ class FewBlockers {
   double tangent_ = 0, secant_ = 0;
   bool needs_signature_ = true;
   Silhouette silhouette_;
-  std::vector<HalfPlane> shadow_;           ///< of one shade
-  std::vector<const HalfPlane*> crossing_;  ///< of its sides, those that cross a part
-  std::vector<double> heights_;
-  Part corners_, inside_, rest_;
-  std::vector<Range> parts_;
+  std::vector<FlatParts::HalfPlane> shadow_;  ///< of one thing in between
 };
 
 }  // namespace halfshade

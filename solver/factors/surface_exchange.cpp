@@ -18,7 +18,7 @@ namespace {
 /// estimates of lattices are at least this many times as much. Where there are few, they count as
 /// more.
 double parts_of_row(double entries) {
-  constexpr double few = 0.25, many = 0.5, overestimated = 3.75;
+  constexpr double few = 0.25, many = 0.5, overestimated = 5.5;
   return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
 

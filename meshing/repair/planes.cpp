@@ -1,12 +1,15 @@
 #include "meshing/repair/planes.h"
 
 #include "meshing/geometry/flat_tree.h"
+#include "meshing/repair/common_area.h"
+#include "meshing/repair/written_digits.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -21,6 +24,8 @@ struct Polygon {
   PlaneFrame frame;
   LocalScale scale;
   Bounds box;
+  double area = 0;
+  bool two_sided = false;
 };
 
 Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop,
@@ -29,6 +34,7 @@ Polygon polygon_of(std::span<const Vec3> points, const std::vector<int>& loop,
   polygon.scale = scale;
   for (const int p : loop) polygon.corners.push_back(points[at(p)]);
   polygon.frame = fit_plane(polygon.corners);
+  polygon.area = area_vector(polygon.corners).norm();
   for (const Vec3& p : polygon.corners) polygon.box.include(p);
   // Of the polygon's own; a neighbour that is larger comes to it.
   polygon.box = polygon.box.grown(tolerance_of(polygon.scale).planarity);
@@ -47,10 +53,40 @@ double greatest_distance(const Vec3& centre, const std::vector<Vec3>& corners) {
   return farthest;
 }
 
-/// How far a polygon's corners may be off a plane that it is to be in.
-double planarity_limit(const Polygon& polygon, const LocalScale& plane, const Vec3& normal) {
-  const LocalTolerance tolerance = tolerance_of(joint_scale(polygon.scale, plane));
-  return polygon.frame.normal.dot(normal) > 0 ? tolerance.planarity : tolerance.length;
+bool look_the_same_way(const Polygon& a, const Polygon& b) {
+  return a.frame.normal.dot(b.frame.normal) > 0;
+}
+
+bool are_parallel(const Polygon& a, const Polygon& b) {
+  return a.frame.normal.cross(b.frame.normal).norm() <= normal_tolerance;
+}
+
+/// Heights between two polygons that the digits of their coordinates cannot tell from none.
+double least_gap(const Polygon& a, const Polygon& b) {
+  const LocalTolerance tolerance = tolerance_of(joint_scale(a.scale, b.scale));
+  return std::clamp(rounding_between(a.corners, b.corners, b.frame.normal), tolerance.length,
+                    tolerance.planarity);
+}
+
+/// How far a polygon's corners may be off a plane that it is to be in, which another one defines.
+double planarity_limit(const Polygon& polygon, const Polygon& plane) {
+  if (look_the_same_way(polygon, plane))
+    return tolerance_of(joint_scale(polygon.scale, plane.scale)).planarity;
+  // One side of a two-sided one looks the same way.
+  if (polygon.two_sided || plane.two_sided) return least_gap(polygon, plane);
+  return tolerance_of(joint_scale(polygon.scale, plane.scale)).length;
+}
+
+/// Whether two parallel polygons, which might come into one plane, lie over each other with a gap
+/// between them that was meant.
+bool lie_apart(const Polygon& a, const Polygon& b) {
+  const Polygon &larger = a.area < b.area ? b : a, &smaller = a.area < b.area ? a : b;
+  const double gap = std::abs(larger.frame.height(smaller.frame.origin));
+  const LocalTolerance tolerance = tolerance_of(joint_scale(a.scale, b.scale));
+  // Those of one class are off its plane by at most the planarity.
+  return gap > tolerance.length && gap <= 2 * tolerance.planarity &&
+         gap > least_gap(smaller, larger) &&
+         have_common_area(smaller.corners, larger.corners, larger.frame, tolerance);
 }
 
 /// Finds polygons that are near another one and parallel to it. Sorted by their normals first: of
@@ -112,7 +148,12 @@ class ParallelNeighbours {
 class PlaneGrower {
  public:
   explicit PlaneGrower(const std::vector<Polygon>& polygons)
-      : polygons_(polygons), neighbours_(polygons), is_free_(polygons.size(), false) {}
+      : polygons_(polygons),
+        neighbours_(polygons),
+        is_free_(polygons.size(), false),
+        any_two_sided_(std::any_of(polygons.begin(), polygons.end(),
+                                   [](const Polygon& polygon) { return polygon.two_sided; })),
+        has_gap_(polygons.size()) {}
 
   void release(std::size_t polygon) { is_free_[polygon] = true; }
   bool is_free(std::size_t polygon) const { return is_free_[polygon]; }
@@ -143,14 +184,14 @@ class PlaneGrower {
  private:
   const Vec3& origin(std::size_t i) const { return polygons_[i].frame.origin; }
 
-  bool fits(std::size_t seed, std::size_t i, double extent) const {
+  bool fits(std::size_t seed, std::size_t i, double extent) {
     const PlaneFrame& plane = polygons_[seed].frame;
     const Polygon& polygon = polygons_[i];
-    if (polygon.frame.normal.cross(plane.normal).norm() > normal_tolerance) return false;
-    const double farther = greatest_distance(origin(seed), polygon.corners) / extent;
+    if (!are_parallel(polygons_[seed], polygon)) return false;
+    const double stretch = 1 + greatest_distance(origin(seed), polygon.corners) / extent;
     return greatest_height(plane, polygon.corners) <=
-               (1 + farther) * planarity_limit(polygon, polygons_[seed].scale, plane.normal) &&
-           !has_back_between(seed, i);
+               stretch * planarity_limit(polygon, polygons_[seed]) &&
+           !has_back_between(seed, i) && !has_gap_between(seed, i, stretch);
   }
 
   /// Whether something that looks the other way lies between two that look the same way, or on the
@@ -160,21 +201,60 @@ class PlaneGrower {
     const double height = plane.height(origin(i));
     const double slack =
         tolerance_of(joint_scale(polygons_[seed].scale, polygons_[i].scale)).length;
-    if (!(plane.normal.dot(polygons_[i].frame.normal) > 0) || std::abs(height) <= slack)
+    if (!look_the_same_way(polygons_[seed], polygons_[i]) || std::abs(height) <= slack)
       return false;
     const double low = std::min(height, 0.) + slack, high = std::max(height, 0.) + slack;
     bool is_between = false;
     neighbours_.visit(static_cast<int>(i), [&](int k) {
       const Polygon& other = polygons_[at(k)];
       const double h = plane.height(other.frame.origin);
-      is_between = is_between || (plane.normal.dot(other.frame.normal) < 0 && h > low && h <= high);
+      is_between = is_between || (!other.two_sided && plane.normal.dot(other.frame.normal) < 0 &&
+                                  h > low && h <= high);
     });
     return is_between;
+  }
+
+  /// Whether a two-sided polygon with a gap over or under it is one of the two or between them:
+  /// that gap is not to be shut. `stretch`: how much more the plane may miss what lies far away.
+  bool has_gap_between(std::size_t seed, std::size_t i, double stretch) {
+    if (!any_two_sided_) return false;
+    const PlaneFrame& plane = polygons_[seed].frame;
+    const double height = plane.height(origin(i));
+    const double length =
+        tolerance_of(joint_scale(polygons_[seed].scale, polygons_[i].scale)).length;
+    if (std::abs(height) <= length) return false;
+    const double slack = stretch * least_gap(polygons_[i], polygons_[seed]);
+    if (std::abs(height) <= slack) return false;
+    if (has_gap(seed) || has_gap(i)) return true;
+    bool is_between = false;
+    neighbours_.visit(static_cast<int>(i), [&](int k) {
+      const double h = plane.height(origin(at(k)));
+      is_between = is_between || (h > std::min(height, 0.) - slack &&
+                                  h < std::max(height, 0.) + slack && has_gap(at(k)));
+    });
+    return is_between;
+  }
+
+  /// Whether a polygon is two-sided and has another one over or under it. Neighbours in a sheet of
+  /// many, which are off each other's planes by more than their digits tell, have nothing there.
+  bool has_gap(std::size_t i) {
+    if (!has_gap_[i]) {
+      bool found = false;
+      if (polygons_[i].two_sided)
+        neighbours_.visit(static_cast<int>(i), [&](int k) {
+          found = found || (at(k) != i && are_parallel(polygons_[i], polygons_[at(k)]) &&
+                            lie_apart(polygons_[i], polygons_[at(k)]));
+        });
+      has_gap_[i] = found;
+    }
+    return *has_gap_[i];
   }
 
   const std::vector<Polygon>& polygons_;
   ParallelNeighbours neighbours_;
   std::vector<bool> is_free_;
+  bool any_two_sided_ = false;
+  std::vector<std::optional<bool>> has_gap_;  // as far as it was asked for
 };
 
 /// The plane of several polygons: the mean of their corners, the sum of their area vectors. Errors
@@ -206,20 +286,21 @@ PlaneFrame plane_of(const std::vector<Polygon>& polygons, const std::vector<std:
 }  // namespace
 
 PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
-                             std::span<const LocalScale> scales) {
+                             std::span<const LocalScale> scales,
+                             const std::vector<bool>& two_sided) {
   PlaneClasses result;
   result.of_polygon.assign(loops.size(), -1);
   std::vector<Polygon> polygons;
-  std::vector<double> area;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     polygons.push_back(polygon_of(points, loops[i], scales[i]));
-    area.push_back(area_vector(polygons.back().corners).norm());
+    polygons.back().two_sided = !two_sided.empty() && two_sided[i];
   }
   // The largest polygon defines its plane best.
   std::vector<std::size_t> order(loops.size());
   std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return area[a] > area[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return polygons[a].area > polygons[b].area;
+  });
   PlaneGrower grower(polygons);
   for (const std::size_t i : order) grower.release(i);
   // First by extrapolation, so that the small pieces of a tessellated wall come together; the
@@ -232,7 +313,7 @@ PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::
       const PlaneFrame frame =
           extrapolate ? plane_of(polygons, members) : polygons[members[0]].frame;
       for (const std::size_t m : members) {
-        const double limit = planarity_limit(polygons[m], polygons[seed].scale, frame.normal);
+        const double limit = planarity_limit(polygons[m], polygons[seed]);
         if (!extrapolate || greatest_height(frame, polygons[m].corners) <= limit)
           result.of_polygon[m] = static_cast<int>(result.frames.size());
         else

@@ -19,9 +19,12 @@ struct PlaneClasses {
 /// rounding of a file can have moved their corners (see tolerance_of); if they look opposite ways,
 /// only if arithmetic cannot tell their planes apart, for light passes through the narrowest gap.
 /// What looks the other way between two, as the back of a thin sheet does, keeps them apart.
+/// A two-sided polygon looks both ways, whichever way round its corners go: what lies over or under
+/// it shares its plane only if the digits that were written cannot tell them apart.
 /// Deterministic; each polygon is compared with those near it only.
-/// `scales` has one entry a loop.
+/// `scales` has one entry a loop, and so has `two_sided` unless it is empty: none is.
 PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
-                             std::span<const LocalScale> scales);
+                             std::span<const LocalScale> scales,
+                             const std::vector<bool>& two_sided = {});
 
 }  // namespace halfshade

@@ -109,11 +109,13 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
                                       std::vector<Vec3>& points, std::vector<Repair>& repairs) {
   std::vector<std::vector<int>> loops;
   std::vector<LocalScale> scales;
+  std::vector<bool> two_sided;
   for (const FacePiece& piece : pieces) {
     loops.push_back(piece.loop);
     scales.push_back(piece.scale);
+    two_sided.push_back(scene.materials[at(scene.faces[at(piece.face)].material)].two_sided);
   }
-  const PlaneClasses classes = classify_planes(points, loops, scales);
+  const PlaneClasses classes = classify_planes(points, loops, scales, two_sided);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
   for (std::size_t plane = 0; plane < sides.size(); ++plane)

@@ -82,6 +82,24 @@ void gaps(std::vector<Extreme>& all) {
   }
 }
 
+/// A lamp that shines to both sides, close above a floor: its underside lights the floor with all
+/// it has, whichever way round it goes and however large the floor is.
+void lamps_above_floors(std::vector<Extreme>& all) {
+  for (const double floor : {4., 100., 1000.})
+    for (const double gap : {1e-6, 5e-5, 1e-4})
+      for (const bool up : {true, false}) {
+        SceneText scene = SceneText().floor(floor / 2);
+        up ? scene.square("light", "lamp", 0.5, gap) : scene.lamp(0.5, gap);
+        const std::string name =
+            fmt::format("lamp_{:g}_above_{:g}_{}", gap, floor, up ? "up" : "down");
+        all.push_back(probe(name + "_probe", scene, "0.1,0.1,0,0,0,1",
+                            test::point_parallel_rectangle(-0.6, 0.4, -0.6, 0.4, gap), 1e-12));
+        all.back().options.insert(all.back().options.end(), {"--materials", "two_sided.json"});
+        all.push_back(solve_floor(name + "_solve", scene, 1 / (floor * floor)));
+        all.back().options = {"--materials", "two_sided.json", "--tolerance", "0.1"};
+      }
+}
+
 void far_triangles(std::vector<Extreme>& all) {
   for (const int k : {3, 6, 9, 12}) {
     const double far = std::pow(10, k);
@@ -155,11 +173,17 @@ void furnaces(std::vector<Extreme>& all) {
         fmt::format("furnace_triangle_at_{:g}", far),
         furnace(0.5).polygon("dark", "elsewhere", {{far, 0, 0}, {1.1 * far, 0, 0}, {far, far, 1}}),
         "walls", 2, 1e-6, {"--elements", "150"}));
-  // A sheet that is seen from both sides, close above the floor of a furnace.
+  // A sheet that is seen from both sides, close above the floor of a furnace, as two faces and as
+  // one.
   for (const double height : {1e-3, 1e-5, 1e-7}) {
     std::vector<Vec3> sheet = {
         {0.3, 0.3, height}, {0.7, 0.3, height}, {0.7, 0.7, height}, {0.3, 0.7, height}};
     SceneText scene = furnace(0.7).polygon("wall", "sheet", sheet);
+    const SceneText both =
+        furnace(0.7).reflectance("light", 0.7, 1).polygon("light", "sheet", sheet);
+    all.push_back(solve_group(fmt::format("two_sided_sheet_{:g}_above_a_floor", height), both,
+                              "sheet", 1 / 0.3, 1e-3,
+                              {"--elements", "600", "--materials", "two_sided.json"}));
     std::reverse(sheet.begin(), sheet.end());
     scene.polygon("wall", "sheet", sheet);
     for (const char* group : {"sheet", "walls"})
@@ -193,7 +217,8 @@ void doubled(std::vector<Extreme>& all) {
 
 std::vector<Extreme> extremes() {
   std::vector<Extreme> all;
-  for (const auto& family : {gaps, far_triangles, suns, lights, units, furnaces, rooms, doubled})
+  for (const auto& family :
+       {gaps, lamps_above_floors, far_triangles, suns, lights, units, furnaces, rooms, doubled})
     family(all);
   return all;
 }
@@ -235,6 +260,7 @@ class Extremes : public testing::TestWithParam<Extreme> {
 TEST_P(Extremes, GiveTheKnownAnswer) {
   const Extreme& extreme = GetParam();
   folder_.write("scene.mtl", extreme.scene.mtl());
+  folder_.write("two_sided.json", R"({"light": {"two_sided": true}})");
   folder_.write("scene.obj", "mtllib scene.mtl\n" + extreme.scene.obj());
   const double got = extreme.point.empty() ? solved() : probed();
   EXPECT_EQ(outcome_.exit_code, 0) << outcome_.err;

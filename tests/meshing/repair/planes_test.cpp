@@ -40,18 +40,21 @@ struct Sheets {
   std::vector<Vec3> points;
   std::vector<std::vector<int>> loops;
 
+  std::vector<bool> two_sided;
+
   void add(double z, bool up, double x = 0, double size = 1) {
     const int first = static_cast<int>(points.size());
     for (const Vec2& p : {Vec2(0, 0), Vec2(size, 0), Vec2(0, size)})
       points.emplace_back(x + p.x(), p.y(), z);
     loops.push_back(up ? std::vector<int>{first, first + 1, first + 2}
                        : std::vector<int>{first, first + 2, first + 1});
+    two_sided.push_back(false);
   }
   PlaneClasses classes() const {
     std::vector<LocalScale> scales;
     for (const std::vector<int>& loop : loops)
       scales.push_back(scale_of(std::span(points).subspan(at(loop[0]), 3)));
-    return classify_planes(points, loops, scales);
+    return classify_planes(points, loops, scales, two_sided);
   }
 };
 
@@ -82,6 +85,31 @@ TEST(ClassifyPlanes, OfASheetAboveAFloorAreTwoHoweverNarrowTheGap) {
   slab.add(0, true), slab.add(0, false), slab.add(3e-7, true);
   const PlaneClasses classes = slab.classes();
   EXPECT_EQ(classes.of_polygon[0], classes.of_polygon[2]);
+}
+
+TEST(ClassifyPlanes, OfATwoSidedSheetOverOrUnderAFloorAreTwoWhicheverWayItLooks) {
+  for (const double gap : {1e-3, 1e-6, 3e-7, 1e-8, -1e-8, -3e-7})
+    for (const bool up : {true, false}) {
+      Sheets sheets;
+      sheets.add(0, true), sheets.add(gap, up);
+      sheets.two_sided[1] = true;
+      EXPECT_EQ(sheets.classes().frames.size(), 2u) << gap << up;
+    }
+  for (const bool up : {true, false}) {
+    Sheets flush;
+    flush.add(1, true), flush.add(1, up);
+    flush.two_sided[1] = true;
+    EXPECT_EQ(flush.classes().frames.size(), 1u) << up;
+  }
+}
+
+TEST(ClassifyPlanes, OnBothSidesOfATwoSidedSheetAreTwo) {
+  Sheets sheets;
+  sheets.add(0, true), sheets.add(3e-7, true), sheets.add(6e-7, true);
+  sheets.two_sided[1] = true;
+  const PlaneClasses classes = sheets.classes();
+  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[1]);
+  EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
 }
 
 TEST(ClassifyPlanes, ThatFaceEachOtherAreTwoHoweverNarrowTheGap) {

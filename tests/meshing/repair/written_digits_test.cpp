@@ -1,0 +1,42 @@
+#include "meshing/repair/written_digits.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace halfshade {
+namespace {
+
+WrittenDigits of(double x, double y) { return digits_of(std::vector<Vec3>{{x, y, 0}}); }
+
+TEST(WrittenDigits, AreThoseOfTheLongestNumberAndTheFinestPlace) {
+  EXPECT_EQ(of(12.3456, -0.5).most, 6);
+  EXPECT_EQ(of(12.3456, -0.5).last_place, -4);
+  EXPECT_EQ(of(1200, 0).last_place, 2);
+  EXPECT_EQ(of(1e-6, 3).last_place, -6);
+  EXPECT_EQ(of(1. / 3, 1).most, 16);
+  EXPECT_TRUE(of(0.5, 3).is_single);
+  EXPECT_TRUE(of(static_cast<double>(0.1F), 3).is_single);
+  EXPECT_FALSE(of(0.1, 3).is_single);
+}
+
+TEST(WrittenDigits, TellWhatRoundingCanDo) {
+  // As many decimals, or as many digits: what is coarser.
+  EXPECT_DOUBLE_EQ(rounding_of(100, of(100.123456, 0.5)), 0.5e-6);
+  EXPECT_DOUBLE_EQ(rounding_of(0.5, of(100.123456, 0.5)), 0.5e-6);
+  EXPECT_DOUBLE_EQ(rounding_of(12, of(12.3456, 0.00123456)), 0.5e-4);
+  EXPECT_LT(rounding_of(1, of(1. / 3, 1)), 1e-15);
+  EXPECT_GT(rounding_of(1, of(static_cast<double>(0.1F), 1)), 1e-7);
+  EXPECT_EQ(rounding_of(0, digits_of(std::vector<Vec3>{Vec3::Zero()})), 0);
+}
+
+TEST(WrittenDigits, PartNoPlanesAcrossAnAxis) {
+  const std::vector<Vec3> floor = {{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
+  const std::vector<Vec3> sheet = {{0, 0, 1e-6}, {1, 0, 1e-6}, {0, 1, 1e-6}};
+  const std::vector<Vec3> slanted = {{0, 0, 1e-6}, {1, 0, 0}, {0, 1, 1e-6}};
+  EXPECT_EQ(rounding_between(floor, sheet, Vec3::UnitZ()), 0);
+  EXPECT_DOUBLE_EQ(rounding_between(floor, slanted, Vec3::UnitZ()), 1e-6);
+}
+
+}  // namespace
+}  // namespace halfshade

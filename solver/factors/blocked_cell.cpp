@@ -14,6 +14,14 @@ constexpr int highest_symmetric = 6;  // triangle_rule
 /// Of what could hide something from points between those looked at, this share is the error where
 /// none of them found anything.
 constexpr double share_of_unseen = 0.5;
+/// What less than this of the most that a thing may hide was found of has been missed.
+constexpr double hardly_found = 0.03;
+/// Things wider than this, in radii of the cell, do not pass between its points; and what is
+/// farther away than this looks alike from all of them.
+constexpr double wide = 2;
+constexpr double far_off = 1;
+/// Things that hide no more than this share of what is allowed are not asked.
+constexpr double negligible_share = 0.05;
 /// The same of what might be seen through gaps, where nothing is seen; by how often it was looked.
 constexpr std::array<double, 6> share_of_gaps = {0.1, 0.01, 1e-3, 1e-4, 1e-5, 0};
 constexpr int surely_dark = 100;  ///< instead of such a number: nothing can be seen
@@ -28,6 +36,10 @@ constexpr double share_of_rim = 0.1;
 constexpr double inset = 1e-4;
 
 double area_of(const Triangle3& t) { return 0.5 * (t[1] - t[0]).cross(t[2] - t[0]).norm(); }
+
+Vec3 place_in(const Triangle3& t, double u, double v) {
+  return t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+}
 
 Vec3 inset_corner(const Triangle3& cell, const Vec3& corner) {
   return corner + inset * ((cell[0] + cell[1] + cell[2]) / 3 - corner);
@@ -84,11 +96,11 @@ HiddenFactor BlockedCells::factor_at(const Vec3& position) {
 }
 
 BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
-  const Vec3 along = corners[1] - corners[0], across = corners[2] - corners[0];
+  if (few_) few_->forget_found();
   Sum sum;
   bool is_first = true;
   for_each_node(degree, [&](double u, double v, double weight) {
-    const HiddenFactor factor = factor_at(corners[0] + u * along + v * across);
+    const HiddenFactor factor = factor_at(place_in(corners, u, v));
     sum.hidden += weight * factor.hidden;
     sum.unobstructed += weight * factor.unobstructed;
     sum.hidden_range.add(factor.hidden);
@@ -129,10 +141,55 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
     const double most = few_->seen_at_most(inset_corners(cell.corners)) * area;
     cell.error = std::max(cell.error, share_of_unseen * std::min(most, all) - seen);
   }
+  if (few_ && !cell.is_dark && !cell.is_lit && cell.may_miss) {
+    const double unseen = missed(cell, all);
+    cell.may_miss = unseen > 0;
+    cell.error = std::max(cell.error, unseen);
+  }
   if (cell.is_dark)
     estimate_dark(all, cell);
   else if (cell.is_smooth && !cell.is_lit)
     look_at_corners(cell);
+}
+
+/// Where points find something hidden, a strip that lies close before a surface may still hide more
+/// from between them: half of the most that each thing may hide that they hardly found. To be
+/// called when the points of the cell's last rule have been looked at.
+double BlockedCells::missed(const BlockedCell& cell, double whole) {
+  const double area = area_of(cell.corners);
+  const SightSurface& own = scene_.surfaces[at(a_)];
+  const double negligible = negligible_share * tolerance_.absolute * area / own.area;
+  const Ball round = ball_round(cell.corners);
+  const auto is_beyond = [&](const Blocker* side) {
+    const double reach = far_off * round.radius + side->ball.radius;
+    return (side->ball.centre - round.centre).squaredNorm() > reach * reach;
+  };
+  std::optional<Shaft> shaft;
+  double sum = 0;
+  for (std::size_t thing = 0; thing < few_->things(); ++thing) {
+    const double found = few_->found(thing) * area;
+    const auto sides = few_->sides(thing);
+    if (few_->width(thing) > wide * round.radius ||
+        std::all_of(sides.begin(), sides.end(), is_beyond))
+      continue;
+    double most = 0;
+    for (const Blocker* side : sides) most += side->area;
+    most = std::min(most, whole);
+    if (found >= hardly_found * most || most <= negligible) continue;
+    if (!shaft) shaft = make_shaft(cell.corners, few_->target_corners(), 0);
+    most = 0;
+    for (const Blocker* side : sides)
+      most += hidden_at_most(*shaft, cell.corners, own.frame.normal, *side);
+    most = std::min(most, whole);
+    if (found >= hardly_found * most) continue;
+    // Others may have hidden it.
+    double alone = 0;
+    for_each_node(cell.degree, [&](double u, double v, double weight) {
+      alone += weight * few_->hidden_by(thing, place_in(cell.corners, u, v));
+    });
+    if (alone * area < hardly_found * most) sum += share_of_unseen * most;
+  }
+  return std::min(sum, whole);
 }
 
 /// What all points see alike may still rise steeply towards an edge, as in a narrow gap between
@@ -240,6 +297,7 @@ void BlockedCells::add_halves(const BlockedCell& cell, std::vector<BlockedCell>&
   const Vec3 middle = 0.5 * (p + q);
   BlockedCell half = cell;
   half.is_exact = false;
+  half.may_miss = true;
   ++half.halvings;
   const bool is_unsure = cell.is_dark && cell.unsure > 0;
   const int degree = cell.is_lit || is_unsure ? degrees[0] : degrees[1];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/geometry/shaft.h"
 #include "solver/factors/few_blockers.h"
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/point_looks.h"
@@ -38,12 +39,12 @@ struct BlockedCell {
   int degree = 0;               ///< of the rule that `value` comes from
   double value = 0;             ///< ∫ hidden part of the point factor, squared scene units
   double error = 0;             ///< estimate of its absolute error
-  double spread = 0;            ///< between the values at its points
   bool is_lit = false;          ///< its points see all of `b`
   bool is_dark = false;         ///< its points see nothing
   bool is_smooth = false;       ///< the same edges bound what all of its points see
   bool is_exact = false;        ///< `value` is a closed form
   double unsure = 0;            ///< of `error`, what may be seen through gaps if it is dark
+  bool may_miss = true;         ///< its points tell little of something that may hide much
   int dark_levels = 0;          ///< times that it or what it is a part of was found dark
   std::uint64_t signature = 0;  ///< of one of its points
   /// Of its points, and of its corners once they were looked at.
@@ -75,6 +76,7 @@ class BlockedCells {
   BlockedCell raise(const BlockedCell& cell);
   void estimate(const Sum& sum, BlockedCell& cell);
   void estimate_dark(double whole, BlockedCell& cell);
+  double missed(const BlockedCell& cell, double whole);
   void look_at_corners(BlockedCell& cell);
   BlockedCell closed_form(const BlockedCell& dark) const;
   void add_halves(const BlockedCell& cell, std::vector<BlockedCell>& next);
@@ -93,5 +95,9 @@ class BlockedCells {
 /// comes between, else what the two see of all that reaches into their hull. Not a bound to the
 /// letter, for it is found from few points. More than `enough` is not summed up.
 double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough);
+
+/// The same of one thing, from a triangle with this normal; `shaft` is that to surface `b`.
+double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& normal,
+                      const Blocker& blocker);
 
 }  // namespace halfshade

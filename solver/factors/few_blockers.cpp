@@ -57,10 +57,9 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
         blockers.push_back(scene.blocker_of[at(t)]);
     }
   }
-  std::vector<Vec3> corners;
   for (const Corner& corner : parts_.corners_of_all())
-    corners.push_back(target_.frame.to_space(corner.at));
-  target_ball_ = ball_round(corners);
+    target_in_space_.push_back(target_.frame.to_space(corner.at));
+  target_ball_ = ball_round(target_in_space_);
   if (!is_known) {
     std::sort(blockers.begin(), blockers.end());
     blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
@@ -68,7 +67,6 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
   nearness_ = nearness_of_target * size;
   // Where a body lies before the target's plane as a whole, all that it covers is hidden.
   const auto is_before = [&](const Vec3& p) { return target_.frame.height(p) >= -nearness_; };
-  std::vector<int> bodies;
   for (const int b : blockers) {
     const Blocker& blocker = scene.blockers[at(b)];
     if (blocker.corners.size() + 1 >= borders_of_shade) return;
@@ -76,15 +74,20 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
       add(blocker);
       continue;
     }
-    if (std::find(bodies.begin(), bodies.end(), blocker.body) != bodies.end()) continue;
+    const auto known = std::find_if(solids_.begin(), solids_.end(),
+                                    [&](const Solid& solid) { return solid.body == blocker.body; });
+    if (known != solids_.end()) {
+      known->sides.push_back(&blocker);
+      continue;
+    }
     const ConvexBody& body = scene.bodies[at(blocker.body)];
     if (body.edges.size() < borders_of_shade &&
-        std::all_of(body.vertices.begin(), body.vertices.end(), is_before)) {
-      bodies.push_back(blocker.body);
-      solids_.push_back({blocker.body, &body});
-    } else
+        std::all_of(body.vertices.begin(), body.vertices.end(), is_before))
+      solids_.push_back({blocker.body, &body, {&blocker}});
+    else
       add(blocker);
   }
+  forget_found();
   if (shades_.size() + 3 * solids_.size() > most_shades) return;
   is_applicable_ = true;
 }
@@ -101,6 +104,45 @@ void FewBlockers::add(const Blocker& blocker) {
     shade.most = std::max(shade.most, height);
   }
   shades_.push_back(shade);
+}
+
+double FewBlockers::Shade::height(const Vec3& point) const {
+  const Vec3 towards = point - blocker->corners.front();
+  const double height = blocker->normal.dot(towards);
+  return std::abs(height) > edge_on * length_about(towards) ? height : 0;
+}
+
+std::span<const Blocker* const> FewBlockers::sides(std::size_t thing) const {
+  if (thing < solids_.size()) return solids_[thing].sides;
+  return {&shades_[thing - solids_.size()].blocker, 1};
+}
+
+double FewBlockers::found(std::size_t thing) const {
+  return looks_ == 0 ? 0 : found_[thing] / static_cast<double>(looks_);
+}
+
+void FewBlockers::forget_found() {
+  found_.assign(things(), 0);
+  looks_ = 0;
+}
+
+double FewBlockers::hidden_by(std::size_t thing, const Vec3& point) {
+  if (!(target_.frame.height(point) > 0) || parts_.is_nothing()) return 0;
+  stand_at(point);
+  parts_.take_all();
+  shadow_.clear();
+  if (thing < solids_.size()) {
+    find_silhouette(*solids_[thing].shape, point, silhouette_);
+    if (!make_shadow(silhouette_, 0)) return 0;
+  } else {
+    const Shade& shade = shades_[thing - solids_.size()];
+    const double height = shade.height(point);
+    if (height == 0 || !make_shadow(shade, height, 0)) return 0;
+  }
+  double sum = 0;
+  parts_.cut_off(shadow_, FlatParts::everywhere(),
+                 [&](std::span<const Corner> part) { sum += sum_over(part); });
+  return sum;
 }
 
 /// What lies behind a plane through the point. False if nothing of the target does; a plane that
@@ -169,12 +211,11 @@ void FewBlockers::add_hidden(std::span<const Corner> part, HiddenFactor& factor)
 
 /// Where the shadow of some corners' hull lies: everywhere, if that tells little or takes too long.
 FlatParts::Box FewBlockers::reach_of_shadow(std::span<const Vec3> corners) const {
-  FlatParts::Box everywhere(Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL));
-  if (parts_.count() < worth_a_reach) return everywhere;
+  if (parts_.count() < worth_a_reach) return FlatParts::everywhere();
   FlatParts::Box reach;
   for (const Vec3& corner : corners) {
     const Vec3 to = turned(target_.frame, corner - point_);
-    if (!(to.z() < -nearness_)) return everywhere;
+    if (!(to.z() < -nearness_)) return FlatParts::everywhere();
     reach.extend(in_frame_.head<2>() - in_frame_.z() / to.z() * to.head<2>());
   }
   return {reach.min().array() - nearness_, reach.max().array() + nearness_};
@@ -217,9 +258,11 @@ bool FewBlockers::is_beside(const Ball& ball) const {
 template <class SilhouetteOf>
 bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) {
   const auto can_go_on = [&] { return parts_.count() > 0 && parts_.count() <= most_parts; };
-  const auto cut_off = [&](std::span<const Vec3> corners) {
+  const auto cut_off = [&](std::size_t thing, std::span<const Vec3> corners) {
+    const double before = factor.hidden;
     parts_.cut_off(shadow_, reach_of_shadow(corners),
                    [&](std::span<const Corner> part) { add_hidden(part, factor); });
+    found_[thing] += factor.hidden - before;
   };
   std::uint32_t border = 0;
   for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
@@ -227,19 +270,18 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
     border += borders_of_shade;
     if (is_beside(solid.shape->ball)) continue;
     shadow_.clear();
-    if (make_shadow(silhouette_of(solid), border)) cut_off(solid.shape->vertices);
+    if (make_shadow(silhouette_of(solid), border)) cut_off(k, solid.shape->vertices);
   }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
     for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
       const Shade& shade = shades_[k];
-      const Vec3 towards = point_ - shade.blocker->corners.front();
-      const double height = shade.blocker->normal.dot(towards);
-      if (!(height * side > edge_on * length_about(towards)) || is_beside(shade.blocker->ball))
-        continue;
+      const double height = shade.height(point_);
+      if (!(height * side > 0) || is_beside(shade.blocker->ball)) continue;
       const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
       shadow_.clear();
-      if (make_shadow(shade, height, number * borders_of_shade)) cut_off(shade.blocker->corners);
+      if (make_shadow(shade, height, number * borders_of_shade))
+        cut_off(solids_.size() + k, shade.blocker->corners);
     }
   factor.is_dark = parts_.count() == 0;
   return parts_.count() <= most_parts;
@@ -247,6 +289,7 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
 
 bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   factor = {};
+  ++looks_;
   if (!(target_.frame.height(point) > 0) || parts_.is_nothing()) return true;
   look_from(point);
   parts_.take_all();
@@ -287,7 +330,6 @@ bool FewBlockers::hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor) 
 
 double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
   parts_.take_all();
-  const FlatParts::Box everywhere(Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL));
   // What lies in the shadows from all three corners.
   const auto cut_off_common = [&](auto make) {
     if (parts_.count() == 0 || parts_.count() > most_parts) return;
@@ -296,7 +338,7 @@ double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
       stand_at(corner);
       if (!make()) return;
     }
-    parts_.cut_off(shadow_, everywhere, [](std::span<const Corner>) {});
+    parts_.cut_off(shadow_, FlatParts::everywhere(), [](std::span<const Corner>) {});
   };
   for (const Solid& solid : solids_)
     cut_off_common([&] {
@@ -306,11 +348,9 @@ double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
   for (const Shade& shade : shades_) {
     double side = 0;  // the same for all corners, or nothing is sure
     cut_off_common([&] {
-      const Vec3 towards = point_ - shade.blocker->corners.front();
-      const double height = shade.blocker->normal.dot(towards);
+      const double height = shade.height(point_);
       if (side == 0) side = height;
-      return height * side > 0 && std::abs(height) > edge_on * length_about(towards) &&
-             make_shadow(shade, height, 0);
+      return height * side > 0 && make_shadow(shade, height, 0);
     });
   }
   double most = 0;

@@ -65,13 +65,32 @@ class FewBlockers {
   /// Width of the narrowest thing in between, or radius of the target: what the hidden part may
   /// vary over, scene units.
   double narrowest() const {
-    double width = target_ball_.radius;
-    for (const Solid& solid : solids_) width = std::min(width, solid.shape->width);
-    for (const Shade& shade : shades_) width = std::min(width, shade.blocker->width);
-    return width;
+    double narrowest = target_ball_.radius;
+    for (std::size_t thing = 0; thing < things(); ++thing)
+      narrowest = std::min(narrowest, width(thing));
+    return narrowest;
   }
   /// Whether all that is in between are closed convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
+
+  /// Closed bodies and polygons in between.
+  std::size_t things() const { return solids_.size() + shades_.size(); }
+  double width(std::size_t thing) const {
+    return thing < solids_.size() ? solids_[thing].shape->width
+                                  : shades_[thing - solids_.size()].blocker->width;
+  }
+  /// The polygons that bound one, as far as they reach in between.
+  std::span<const Blocker* const> sides(std::size_t thing) const;
+  /// What lies before the plane of `a`: corners of convex pieces.
+  const Polygon3& target_corners() const { return target_in_space_; }
+
+  /// What a thing alone hides from a point of `a`, as a form factor.
+  double hidden_by(std::size_t thing, const Vec3& point);
+
+  /// Mean of what a thing hides, and no thing before it does, from points that `factor` was asked
+  /// for since the last `forget_found`.
+  double found(std::size_t thing) const;
+  void forget_found();
 
   /// From a point of `a`. False if shadows cut the target into too many parts.
   bool factor(const Vec3& point, HiddenFactor& factor);
@@ -91,11 +110,15 @@ class FewBlockers {
     Vec2 a;  ///< with b and what follows: its plane in the target's
     double b, steepness;
     double least, most;  ///< heights of the target above its plane
+
+    /// Of a point, if it is not on the plane but for rounding.
+    double height(const Vec3& point) const;
   };
   /// A convex solid before the target.
   struct Solid {
     int body;
     const ConvexBody* shape;
+    std::vector<const Blocker*> sides;
   };
 
   void add(const Blocker& blocker);
@@ -117,6 +140,7 @@ class FewBlockers {
   double nearness_ = 0;
   Vec3 normal_;      ///< of the surface that looks, in the target's frame
   FlatParts parts_;  ///< of the target that are not hidden
+  Polygon3 target_in_space_;
   Ball target_ball_;
   std::vector<Solid> solids_;
   std::vector<Shade> shades_;
@@ -129,6 +153,8 @@ class FewBlockers {
   bool needs_signature_ = true;
   Silhouette silhouette_;
   std::vector<FlatParts::HalfPlane> shadow_;  ///< of one thing in between
+  std::vector<double> found_;                 ///< by thing, the sum over `looks_` points
+  std::size_t looks_ = 0;
 };
 
 }  // namespace halfshade

@@ -33,6 +33,7 @@ class FlatParts {
     }
   };
   using Box = Eigen::AlignedBox2d;
+  static Box everywhere() { return {Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL)}; }
 
   /// A convex part of the surface, counter-clockwise; its borders count from 0.
   void add(std::span<const Vec2> corners);

@@ -1,4 +1,3 @@
-#include "meshing/geometry/shaft.h"
 #include "solver/factors/blocked_cell.h"
 
 #include <algorithm>
@@ -46,7 +45,20 @@ double hidden_by(const Triangle3& cell, const Vec3& normal, const Polygon3& bloc
   return std::max(size_of_triangle(cell) * most, size * seen);
 }
 
+bool is_outside(const Shaft& shaft, const Ball& ball) {
+  return std::any_of(shaft.sides.begin(), shaft.sides.end(), [&](const Shaft::Side& side) {
+    return side.normal.dot(ball.centre) - ball.radius > side.limit;
+  });
+}
+
 }  // namespace
+
+double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& normal,
+                      const Blocker& blocker) {
+  if (is_outside(shaft, blocker.ball)) return 0;
+  const Polygon3 between = clipped(blocker.corners, shaft);
+  return between.empty() ? 0 : hidden_by(part, normal, between);
+}
 
 double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough) {
   const PlaneFrame& plane = scene.surfaces[at(a)].frame;

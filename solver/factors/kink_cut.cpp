@@ -63,6 +63,7 @@ bool BlockedCells::add_sides_of_kink(const BlockedCell& cell, std::vector<Blocke
   const Vec3 on_c = corners[apart] + t * (corners[c] - corners[apart]);
   BlockedCell part = cell;
   ++part.halvings;
+  part.may_miss = true;
   for (const Triangle3& side :
        {Triangle3{corners[apart], on_b, on_c}, Triangle3{on_b, corners[b], corners[c]},
         Triangle3{on_b, corners[c], on_c}}) {

@@ -109,6 +109,7 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
         for (const int k : soup.triangles[t]) blocker.corners.push_back(soup.points[at(k)]);
       blocker.ball = ball_round(blocker.corners);
       blocker.width = width_of(blocker.corners);
+      blocker.area = area_vector(blocker.corners).norm();
       scene.blockers.push_back(std::move(blocker));
       if (is_convex(surface)) known = static_cast<int>(scene.blockers.size()) - 1;
     }

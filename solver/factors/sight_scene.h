@@ -48,6 +48,7 @@ struct Blocker {
   double rounding = 0;  ///< of heights above its plane
   Ball ball;            ///< round it
   double width = 0;     ///< least distance from a side to the farthest corner
+  double area = 0;      ///< squared scene units
   int body = -1;        ///< that it is a side of; −1: none
 };
 

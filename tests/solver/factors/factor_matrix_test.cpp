@@ -174,6 +174,18 @@ TEST(FactorMatrix, RowsOfRoomsWithBoxesSumToOne) {
   }
 }
 
+/// Points that see a box do not see that a strip right above them hides all between them.
+TEST(FactorMatrix, StripsBetweenPointsAreFound) {
+  for (const double height : {6.6e-4, 1e-5}) {
+    test::SceneMaker maker;
+    maker.up({0, 0}, {1, 1}, 0).down({-0.19, -0.19}, {0.81, 0.81}, 1);
+    maker.up({0, 0.9335}, {0.926, 0.9518}, height);
+    maker.turned_box({0.43, 0.48, 0.52}, {0.58, 0.53, 0.68}, 0.3);
+    const FactorMatrix matrix = factors(maker.scene, 0.01);
+    EXPECT_LT((matrix.row_sum - 1).abs().maxCoeff(), 0.005) << height;
+  }
+}
+
 TEST(FactorMatrix, RowsOfAnOpenSceneSumToOneWithSpaceFoundOnItsOwn) {
   const FactorMatrix matrix = factors(test::table_scene(), 1e-5);
   EXPECT_LT((matrix.row_sum - 1).abs().maxCoeff(), 1e-5);

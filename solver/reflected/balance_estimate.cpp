@@ -67,18 +67,19 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
 }
 
 double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                           const std::vector<Rgb>& missing, const std::vector<double>& weight) {
+                           const ReflectionEstimate& estimate, const std::vector<double>& weight) {
   const ReflectedMesh& mesh = system.mesh;
   const auto surface_of = [&](int e) { return at(system.light.surface[at(mesh.root(e))]); };
   std::vector<Rgb> mean(1 + at(*std::ranges::max_element(system.light.surface)), Rgb::Zero());
-  std::vector<double> area(mean.size(), 0);
+  std::vector<double> reach(mean.size(), 0);
   for (int e = 0; e < mesh.count(); ++e) {
-    mean[surface_of(e)] += missing[at(e)];
-    area[surface_of(e)] += mesh.area(e);
+    mean[surface_of(e)] += estimate.missing[at(e)];
+    reach[surface_of(e)] += estimate.reach[at(e)];
   }
   ElementField source = zero_field(mesh);
   for (int e = 0; e < mesh.count(); ++e)
-    source.of(e).row(0) = (mean[surface_of(e)] / area[surface_of(e)]).transpose();
+    if (const double there = reach[surface_of(e)]; there > 0)
+      source.of(e).row(0) = (mean[surface_of(e)] / there).transpose();
   const ElementField all = missing_light(system, source);
   const ElementField there = irradiance.whole(mesh, system.systems);
   double square = 0;

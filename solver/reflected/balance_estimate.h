@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/reflected/reflected_system.h"
+#include "solver/reflected/reflection_estimate.h"
 
 #include <vector>
 
@@ -46,10 +47,11 @@ class MeanOfLooks {
   int count_ = 0;
 };
 
-/// ∫ |error|², weighted, that comes of what is `missing` (its integral over each element) in the
-/// mean over each surface, as it is reflected on.
+/// ∫ |error|², weighted, that comes of what `estimate` finds missing in the mean over each surface,
+/// as it is reflected on. What is missing where all that leaves gets lost, as above a lamp close
+/// below a ceiling, does not count.
 double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                           const std::vector<Rgb>& missing, const std::vector<double>& weight);
+                           const ReflectionEstimate& estimate, const std::vector<double>& weight);
 
 /// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays
 /// that all arrive, up to three in N may get lost (the rule of three, at 95 %).

@@ -20,7 +20,9 @@ ReflectionEstimate estimate_exactly(const ExactSight& sight, const ExactGather& 
         const std::vector<Sighted> targets =
             sight.may_see(mesh.forest.corners(mesh.triangle[at(e)]), root);
         const Rgb here = rest.value(e, probe.place);
-        probe.missing = gather.irradiance(root, position, targets) - here;
+        const ExactGather::Gathered found = gather.gather(root, position, targets);
+        probe.missing = found.irradiance - here;
+        probe.reach = found.reach;
         probe.square_error = probe.missing.square().sum();
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
         probe.square = (light.direct_at(root, position) + here + constant).square().sum();

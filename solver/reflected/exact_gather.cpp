@@ -27,9 +27,10 @@ ExactGather::ExactGather(const ExactSight& sight, const ReflectingScene& scene,
       leaving_(all_leaving(light, mesh, leaving, mesh_, direct_points)),
       maker_(sight, mesh_, accuracy) {}
 
-Rgb ExactGather::irradiance(int root, const Vec3& position,
-                            std::span<const Sighted> targets) const {
-  return halfshade::irradiance(closed_row(maker_, scene_, root, position, targets), leaving_);
+ExactGather::Gathered ExactGather::gather(int root, const Vec3& position,
+                                          std::span<const Sighted> targets) const {
+  const IrradianceRow row = closed_row(maker_, scene_, root, position, targets);
+  return {halfshade::irradiance(row, leaving_), row.sum};
 }
 
 Rgb ExactGather::irradiance(const SurfacePoint& point) const {

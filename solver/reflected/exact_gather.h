@@ -15,10 +15,14 @@ class ExactGather {
               const ReflectedMesh& mesh, const ElementField& leaving, const RowAccuracy& accuracy,
               int direct_points);
 
-  /// Irradiance from S and what else leaves, at a position in a part of a root.
-  Rgb irradiance(int root, const Vec3& position, std::span<const Sighted> targets) const;
+  struct Gathered {
+    Rgb irradiance;  ///< from S and what else leaves
+    double reach;    ///< form factor to all that is seen
+  };
+  /// At a position in a part of a root.
+  Gathered gather(int root, const Vec3& position, std::span<const Sighted> targets) const;
 
-  /// The same at any point, of which nothing is known.
+  /// At any point, of which nothing is known.
   Rgb irradiance(const SurfacePoint& point) const;
 
  private:

@@ -105,7 +105,7 @@ class Walk {
     constexpr double too_close = 0.7;
     if (size > too_close * distance) return false;
     const double factor = std::min(1., mesh_.forest.area(t) / (M_PI * distance * distance));
-    const double share = size / (is_whole ? distance : accuracy_.length);
+    const double share = std::min(size / (is_whole ? distance : accuracy_.length), 1.);
     return factor * std::pow(share, mesh_.highest_order + 1) < accuracy_.collapse;
   }
 

@@ -23,7 +23,7 @@ Rgb irradiance(const IrradianceRow& row, const QuickField& leaving);
 struct RowAccuracy {
   double moments = 1e-5;   ///< of each moment, absolute
   double collapse = 1e-3;  ///< what may be lost where a triangle stands for the leaves below it
-  double length = 1;       ///< over which what leaves changes, scene units
+  double length = 1;       ///< over which what leaves changes, scene units; 0: any
 };
 
 /// Makes rows by exactly visible parts. A surface's triangles are walked from the roots: those that

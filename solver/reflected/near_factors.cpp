@@ -16,6 +16,9 @@ constexpr double factor_tolerance = 1e-7;
 /// Elements as long as this many gaps have nodes where light gets lost.
 constexpr double seen_gaps = 3;
 constexpr double least_gap = 1e-9;  // of an element's size
+/// Light that gets lost through gaps is no more than what meets them; where it comes back so seldom
+/// that this share of it is not lost, nothing is worth a closed form.
+constexpr double lost_at_most = 4, negligible = 1e-5;
 
 /// Where light gets lost, less leaves than in the mean over an element: so much of what nodes miss
 /// does get lost, at most, where both sides together reflect ρ and `gap` is relative to the
@@ -48,7 +51,9 @@ class GapSearch {
       const Rgb both = (rho * light.rho[at(roots_[at(surface)].front())]).sqrt();
       const double height = gap(element, size, surface);
       const double absorbed = std::max(1 - both.maxCoeff(), 0.);
-      if (height < 0 || height * absorbed > nearest_black * size) continue;
+      if (height < 0 || height * absorbed > nearest_black * size ||
+          lost_at_most * height < negligible * absorbed * size)
+        continue;
       loss.factor += share_lost(both, height / size) * std::abs(missed(element, surface));
       loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(height, least_gap * size)));
     }
@@ -113,11 +118,13 @@ class GapSearch {
 
 }  // namespace
 
-std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system,
-                                       const ReflectingScene& scene) {
+std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene,
+                                       const Progress& progress) {
   const GapSearch search(system, scene);
   std::vector<UnsureLoss> unsure(at(system.mesh.count()));
-  parallel_for(unsure.size(), [&](std::size_t e) { unsure[e] = search(static_cast<int>(e)); });
+  parallel_for(
+      unsure.size(), [&](std::size_t e) { unsure[e] = search(static_cast<int>(e)); }, progress,
+      "error of reflected light");
   return unsure;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/core/progress.h"
 #include "solver/reflected/balance_estimate.h"
 #include "solver/reflected/reflected_system.h"
 #include "solver/reflected/reflecting_scene.h"
@@ -11,7 +12,9 @@ namespace halfshade {
 /// What is not known of the light that elements lose through gaps narrower than half of what they
 /// are long: it gets out within a few times the gap's width of the border, where nodes hardly ever
 /// lie, and what these see is taken for the mean. The mean form factor to the surface opposite is
-/// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen.
-std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene);
+/// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen. If
+/// stopped, the rest is zero.
+std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene,
+                                       const Progress& progress);
 
 }  // namespace halfshade

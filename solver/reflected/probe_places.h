@@ -16,6 +16,7 @@ struct ProbePlace {
   double weight = 1;                    ///< of |error|²
   double square_error = 0, square = 0;  ///< found there: |error|² and |H_d + G|²
   Rgb missing = Rgb::Zero();            ///< what arrives and is not in the solution
+  double reach = 1;                     ///< share of what leaves the place that arrives somewhere
 };
 
 /// The share of probes that each element is to have: the largest errors are those of small elements

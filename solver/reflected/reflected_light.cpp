@@ -50,9 +50,26 @@ double first_length(const HugeRoots& huge, bool is_exact, const ReflectedOptions
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
 }
 
-/// How exact rows have to be for a tolerance, in a scene of some area.
-RowAccuracy row_accuracy(double tolerance, double area) {
-  return {0.003 * tolerance, 0.3 * tolerance, 0.35 * std::sqrt(area)};
+/// How many times light is reflected in the mean, at most: where it gets lost, what rows are off
+/// counts as often.
+double reflected_at_most(ReflectedLight::State& state) {
+  state.light.painted.update(state.mesh, state.light.rho);
+  double least = 1;
+  for (int e = 0; e < state.mesh.count(); ++e)
+    least = std::min(least, 1 - state.light.mean_rho(state.mesh, e).maxCoeff());
+  constexpr double unbounded = 1e-4;
+  return 1 / std::max(least, unbounded);
+}
+
+/// How exact rows have to be for a tolerance, in a scene of some area where light is reflected so
+/// many times.
+RowAccuracy row_accuracy(double tolerance, double times, double area) {
+  constexpr double few_times = 8;
+  const double off = tolerance * std::min(1., few_times / times);
+  // Where little gets lost, a part that is dark because it is hidden, like a ceiling close above a
+  // lamp, must not darken what is seen round it: light may change over any length.
+  const double length = times > few_times ? 0 : 0.35 * std::sqrt(area);
+  return {0.003 * off, 0.3 * off, length};
 }
 
 bool reflects_nothing(const FirstLight& light) {
@@ -168,9 +185,10 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   if (is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
-    state->accuracy = row_accuracy(options.tolerance, huge.area);
+    const double times = reflected_at_most(*state);
+    state->accuracy = row_accuracy(options.tolerance, times, huge.area);
     state->gather_accuracy = row_accuracy(
-        options.gather_tolerance > 0 ? options.gather_tolerance : 0.1 * options.tolerance,
+        options.gather_tolerance > 0 ? options.gather_tolerance : 0.1 * options.tolerance, times,
         huge.area);
   }
   if (!reflects_nothing(state->light) && !is_exact && !options.through_operator)

@@ -117,7 +117,7 @@ class Rounds {
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
-    found.unsure = unsure_by_gaps(system, state_.reflecting);
+    found.unsure = unsure_by_gaps(system, state_.reflecting, progress_);
     if (kept_rays_) add_unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_), found.unsure);
     solve(system, found);
     ++report.rounds;
@@ -295,7 +295,7 @@ class Rounds {
         estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
                          found.weight, report.amplification, negligible * goal);
     if (report.amplification >= much_comes_back)
-      found.on.add(square_reflected_on(system, irradiance, estimate.missing, found.weight));
+      found.on.add(square_reflected_on(system, irradiance, estimate, found.weight));
     const double on = found.on.mean();
     report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),
                               report.residual * report.amplification);
@@ -308,10 +308,11 @@ class Rounds {
     const bool cannot_show = unbalanced.elements == 0 || unbalanced.elements > most_for_gaps;
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.square > goal && cannot_show) return Next::end;
+    const bool is_reflected_on = on > goal && square <= goal && unbalanced.square <= goal;
     // Nor does more of anything help where all noise comes back.
-    if (on > goal && square <= goal && unbalanced.square <= goal) return Next::end;
+    if (is_reflected_on && !parts_) return Next::end;
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
-                  goal, found);
+                  is_reflected_on ? square * goal / on : goal, found);
   }
 
   Next decide(const RefinementInput& input, double goal, const Found& found) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace halfshade {
 
@@ -13,11 +14,13 @@ void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePla
   square_error.resize(at(mesh.count()), 0);
   chance.resize(at(mesh.count()), 0);
   missing.resize(at(mesh.count()), Rgb::Zero());
+  reach.resize(at(mesh.count()), 0);
   double variance = deviation * deviation;
   for (const ProbePlace& probe : probes) {
     const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
-    missing[at(probe.element)] += probe.share * probe.missing;
+    missing[at(probe.element)] += probe.share * probe.reach * probe.missing;
+    reach[at(probe.element)] += probe.share * probe.reach;
     chance[at(probe.element)] = std::min(mesh.area(probe.element) / probe.share, 1.);
     sum += error;
     variance += error * error;
@@ -31,6 +34,7 @@ void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_
   for (std::size_t e = 0; e < square_error.size(); ++e) {
     square_error[e] = a * square_error[e] + b * other.square_error[e];
     missing[e] = a * missing[e] + b * other.missing[e];
+    reach[e] = a * reach[e] + b * other.reach[e];
     // Of points of both: what one says of it, for the other may have missed it.
     chance[e] = std::min(std::max(chance[e] / a, other.chance[e] / b), 1.);
   }
@@ -76,6 +80,19 @@ std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<d
   return strata;
 }
 
+namespace {
+
+double share_that_ends(const TracedHemispheres& traced) {
+  double ends = 0, rays = 0;
+  for (const HemisphereEnds& each : traced.of_each) {
+    ends += each.last - each.first;
+    rays += each.rays;
+  }
+  return rays > 0 ? ends / rays : 0;
+}
+
+}  // namespace
+
 ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedSystem& system,
                                   const SplitIrradiance& irradiance,
                                   const ReflectionProbes& options, const Progress& progress) {
@@ -96,8 +113,9 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
         std::array<RayHemisphere, 2> halves;
         for (std::size_t h = 0; h < 2; ++h)
           halves[h] = {from, options.strata[at(e)], mix_bits(probe.seed + h)};
-        const ChannelArray found =
-            gathered(gather_rays(scene, light, Looks::exact, halves), mesh.forest, leaving);
+        GatheredRays rays = gather_rays(scene, light, Looks::exact, halves);
+        probe.reach = share_that_ends(rays.traced);
+        const ChannelArray found = gathered(std::move(rays), mesh.forest, leaving);
         const Rgb first = found.row(0).transpose() - here, second = found.row(1).transpose() - here;
         probe.square_error = (first * second).sum();
         probe.missing = (first + second) / 2;

@@ -21,7 +21,10 @@ struct ReflectionEstimate {
   /// Element → how likely a point was to fall on it, where one did: only this share of the error
   /// found there is its own, the rest stands for elements like it that none fell on.
   std::vector<double> chance;
-  std::vector<Rgb> missing;  ///< element → ∫ over it of what arrives and is not in the solution
+  /// Element → ∫ over it of what arrives and is not in the solution, times the share of what leaves
+  /// there that arrives somewhere; and of this share alone.
+  std::vector<Rgb> missing;
+  std::vector<double> reach;
   std::size_t rays = 0;
   bool complete = true;
 

@@ -1,5 +1,6 @@
 #include "apps/command_files.h"
 #include "apps/console.h"
+#include "apps/factor_warnings.h"
 #include "apps/run_end.h"
 #include "io/files/same_file.h"
 #include "io/read/read_factors.h"
@@ -13,9 +14,6 @@
 namespace halfshade {
 namespace {
 
-/// Backs that swallow more than this deserve a word.
-constexpr double noticeable_backs = 1e-3;
-
 CommandFiles checked_files(const FactorsCommand& command, const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
   add_factor_inputs(files, "--from", command.from);
@@ -27,19 +25,16 @@ CommandFiles checked_files(const FactorsCommand& command, const CommonOptions& c
   return files;
 }
 
-std::vector<Warning> warnings_of(const FactorMatrix& matrix) {
-  const FactorReport& report = matrix.report;
-  if (report.backs_max < noticeable_backs) return {};
-  return {{Warning::Kind::light_escapes,
-           fmt::format(
-               "backs of one-sided faces swallow {:.2g} % of what leaves '{}'; it is counted "
-               "as space",
-               100 * report.backs_max, matrix.names[static_cast<std::size_t>(report.backs_row)])}};
+void print_doubts(const SceneFile& file, const FactorMatrix& matrix, const Context& context) {
+  print_warnings(file, warnings_of(file.scene, matrix), context);
+  const std::string note = note_of(file.scene, matrix);
+  if (!context.common.quiet && !note.empty()) complain("note: {}\n", note);
 }
 
 void print_summary(const FactorMatrix& matrix, const Context& context) {
   const FactorReport& report = matrix.report;
   std::FILE* out = context.summary;
+  print_repairs(matrix.scene, context);
   fmt::print(out, "surfaces     {}\n", matrix.names.size());
   if (report.rays > 0)
     fmt::print(out, "rays         {}\n", report.rays);
@@ -48,7 +43,9 @@ void print_summary(const FactorMatrix& matrix, const Context& context) {
                report.partial_pairs);
   fmt::print(out, "error        at most {:.2g} in a factor; rows sum to 1 within {:.2g}\n",
              matrix.error.maxCoeff(), report.row_sum_error_max);
-  if (report.left_out > 0) fmt::print(out, "left out     {} factors\n", report.left_out);
+  if (report.left_out > 0)
+    fmt::print(out, "left out     {} factors, {:.2g} of a row at most\n", report.left_out,
+               report.left_out_max);
   if (report.is_enforced)
     fmt::print(out, "enforced     factors changed by up to {:.2g} %\n", 100 * report.enforced_by);
 }
@@ -84,7 +81,7 @@ ExitCode run(const FactorsCommand& command, const Context& context) {
   write_factors(matrix, context.provenance, command.output);
   if (!context.common.json.empty())
     write_report(matrix, run_info(context, code, outputs), context.common.json);
-  print_warnings(file, warnings_of(matrix), context);
+  print_doubts(file, matrix, context);
   if (!context.common.quiet) {
     print_summary(matrix, context);
     print_outputs(context, outputs);

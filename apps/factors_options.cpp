@@ -11,9 +11,10 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       "factors", "Compute the matrix of form factors (view factors) between surfaces");
   FactorOptions& options = command.options;
   add_scene(app, command.scene);
-  add_file(app, "-o,--output", command.output,
-           "Result: .csv (surface,area,NAME…,space,row_sum,error), .mtx (MatrixMarket, with names\n"
-           "and areas beside it in .names.csv); '-': .csv to stdout")
+  add_file(
+      app, "-o,--output", command.output,
+      "Result: .csv (surface,area,NAME…,space,row_sum,error), .mtx (MatrixMarket, with names,\n"
+      "areas and places beside it in .names.csv); '-': .csv to stdout")
       ->required();
   CLI::Option* from = add_file(
       app, "--from", command.from,
@@ -41,10 +42,13 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
            "Pixels along an edge of hemicubes; at least four stand on a surface")
       ->capture_default_str()
       ->excludes(from);
-  add_not_negative(app, "--sparse-below", options.sparse_below,
-                   "Leave out form factors that cannot reach this, and say so in 'error'");
-  app.add_flag("--enforce", options.enforce,
-               "Scale rows and columns alike until rows, with space, sum to one");
+  add_not_negative(
+      app, "--sparse-below", options.sparse_below,
+      "Leave out form factors that cannot reach this, and say so in 'error' and a comment");
+  app.add_flag(
+      "--enforce", options.enforce,
+      "Scale rows and columns alike until rows, with space, sum to one; what --sparse-below\n"
+      "left out is made up for by the rest");
   add_whole(app, "--max-points", options.max_points, {1, 1000000000},
             "Points at which a pair of surfaces is looked at, at most")
       ->capture_default_str()

@@ -2,6 +2,7 @@
 
 #include "apps/console.h"
 #include "io/files/same_file.h"
+#include "meshing/repair/repair_sentence.h"
 
 #include <sys/resource.h>
 
@@ -33,6 +34,12 @@ void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
   for (const std::string& warning : file.warnings) complain("warning: {}\n", warning);
   for (const std::string& guess : file.guesses) complain("note: {}\n", guess);
   for (const Warning& warning : of_result) complain("warning: {}\n", warning.sentence);
+}
+
+void print_repairs(const SoundScene& scene, const Context& context) {
+  if (!context.common.verbose) return;
+  for (const Repair& repair : scene.repairs)
+    fmt::print(context.summary, "repair       {}\n", sentence(repair, scene));
 }
 
 RunInfo run_info(const Context& context, ExitCode code,

@@ -3,6 +3,7 @@
 #include "apps/commands.h"
 #include "io/read/read_scene.h"
 #include "io/write/write_report.h"
+#include "meshing/core/sound_scene.h"
 #include "solver/pipeline/warnings.h"
 
 #include <filesystem>
@@ -15,6 +16,9 @@ namespace halfshade {
 /// Prints what of a scene's files was not used, or guessed, and what to doubt of a result.
 void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
                     const Context& context);
+
+/// Prints what was put right in a scene, if more than the summary is to be told.
+void print_repairs(const SoundScene& scene, const Context& context);
 
 /// What the report says of the run so far.
 RunInfo run_info(const Context& context, ExitCode code,

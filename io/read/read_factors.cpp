@@ -6,11 +6,14 @@
 #include "io/files/extension.h"
 #include "io/read/read_text.h"
 #include "meshing/core/error.h"
+#include "solver/factors/saved_factors.h"
 
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -48,37 +51,90 @@ double number_in(const std::string& cell, const char* what, double least, double
 /// Estimates of shares may be off by what they are.
 constexpr double least_share = -0.5, most_share = 1.5;
 
-void read_names(const path& file, FactorMatrix& matrix) {
-  const std::string bytes = read_bytes(file);
-  LineReader lines(bytes);
-  if (!lines.next() || lines.text() != "surface,area,space,row_sum,error")
-    fail(file, lines.line(),
-         "this is no table of form factors: 'surface,area,space,row_sum,error' is expected here");
-  std::vector<std::array<double, 4>> rows;
-  while (lines.next()) {
-    const std::vector<std::string> cells = cells_of(lines.text());
-    if (cells.size() != 5)
-      fail(file, lines.line(), fmt::format("there are {} cells; 5 are expected", cells.size()));
-    matrix.names.push_back(cells[0]);
-    rows.push_back({number_in(cells[1], "an area", 0, HUGE_VAL, file, lines.line()),
-                    number_in(cells[2], "space", least_share, most_share, file, lines.line()),
-                    number_in(cells[3], "a row's sum", least_share, HUGE_VAL, file, lines.line()),
-                    number_in(cells[4], "an error", 0, HUGE_VAL, file, lines.line())});
-    if (!(rows.back()[0] > 0)) fail(file, lines.line(), "an area is 0");
+/// The table beside a matrix, by the names of its columns.
+class NamesReader {
+ public:
+  NamesReader(const path& file, FactorMatrix& matrix)
+      : file_(file), bytes_(read_bytes(file)), lines_(bytes_), matrix_(matrix) {}
+
+  void read() {
+    constexpr std::string_view needed = "surface,area,space,row_sum,error";
+    if (!lines_.next() || !lines_.text().starts_with(needed))
+      fail(file_, lines_.line(),
+           fmt::format("this is no table of form factors: '{}' is expected here", needed));
+    columns_ = cells_of(lines_.text());
+    while (lines_.next()) row();
+    if (matrix_.names.empty()) fail(file_, 0, "the table has no rows");
+    matrix_.area = values("area");
+    matrix_.space = values("space");
+    matrix_.row_sum = values("row_sum");
+    matrix_.error = values("error");
+    if (has("left_out")) matrix_.left_out = values("left_out");
+    if (std::all_of(place_columns.begin(), place_columns.end(),
+                    [&](std::string_view name) { return has(name); }))
+      read_places();
+    matrix_.backs = Eigen::ArrayXd::Zero(matrix_.area.size());
+    matrix_.report.row_sum_error_max = (matrix_.row_sum - 1).abs().maxCoeff();
   }
-  if (rows.empty()) fail(file, 0, "the table has no rows");
-  const auto column = [&rows](std::size_t k) {
-    Eigen::ArrayXd values(static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i) values[static_cast<Eigen::Index>(i)] = rows[i][k];
-    return values;
-  };
-  matrix.area = column(0);
-  matrix.space = column(1);
-  matrix.row_sum = column(2);
-  matrix.error = column(3);
-  matrix.backs = Eigen::ArrayXd::Zero(matrix.area.size());
-  matrix.report.row_sum_error_max = (matrix.row_sum - 1).abs().maxCoeff();
-}
+
+ private:
+  void row() {
+    const std::vector<std::string> cells = cells_of(lines_.text());
+    if (cells.size() != columns_.size())
+      fail(file_, lines_.line(),
+           fmt::format("there are {} cells; {} are expected", cells.size(), columns_.size()));
+    matrix_.names.push_back(cells[0]);
+    for (std::size_t k = 1; k < cells.size(); ++k)
+      if (const std::optional<double> value = value_of(columns_[k], cells[k]))
+        values_[columns_[k]].push_back(*value);
+  }
+
+  /// Nothing in a column that is not known.
+  std::optional<double> value_of(const std::string& column, const std::string& text) const {
+    const auto within = [&](const char* what, double least, double most) {
+      return number_in(text, what, least, most, file_, lines_.line());
+    };
+    if (column == "space") return within("space", least_share, most_share);
+    if (column == "row_sum") return within("a row's sum", least_share, HUGE_VAL);
+    if (column == "error") return within("an error", 0, HUGE_VAL);
+    if (column == "left_out") return within("what was left out", 0, most_share);
+    if (std::find(place_columns.begin(), place_columns.end(), column) != place_columns.end())
+      return within("a place", -HUGE_VAL, HUGE_VAL);
+    if (column != "area") return std::nullopt;
+    const double area = within("an area", 0, HUGE_VAL);
+    if (!(area > 0)) fail(file_, lines_.line(), "an area is 0");
+    return area;
+  }
+
+  bool has(std::string_view column) const { return values_.contains(std::string(column)); }
+
+  Eigen::ArrayXd values(std::string_view column) {
+    std::vector<double>& found = values_[std::string(column)];
+    if (found.size() != matrix_.names.size())
+      fail(file_, 0, fmt::format("the column {} is there twice", in_quotes(column)));
+    return Eigen::Map<Eigen::ArrayXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+  }
+
+  void read_places() {
+    const auto vectors = [&](std::size_t first) {
+      Eigen::Matrix3Xd result(3, matrix_.area.size());
+      for (std::size_t k = 0; k < 3; ++k)
+        result.row(static_cast<Eigen::Index>(k)) =
+            values(place_columns[first + k]).matrix().transpose();
+      return result;
+    };
+    const Eigen::Matrix3Xd centre = vectors(0), normal = vectors(3), extent = vectors(6);
+    for (Eigen::Index i = 0; i < matrix_.area.size(); ++i)
+      matrix_.places.push_back({centre.col(i), normal.col(i), extent.col(i)});
+  }
+
+  path file_;
+  std::string bytes_;
+  LineReader lines_;
+  FactorMatrix& matrix_;
+  std::vector<std::string> columns_;
+  std::map<std::string, std::vector<double>> values_;  ///< by column, one a row
+};
 
 class MatrixReader {
  public:
@@ -155,8 +211,9 @@ FactorMatrix read_factors(const path& file) {
   matrix.source = file.string();
   // A matrix without its table helps nobody; the sentence names what is missing.
   require_readable(file);
-  read_names(factor_names_file(file), matrix);
+  NamesReader(factor_names_file(file), matrix).read();
   MatrixReader(file, matrix).read();
+  require_rows_that_add_up(matrix);
   return matrix;
 }
 

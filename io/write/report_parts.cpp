@@ -36,6 +36,10 @@ Json head_json(const RunInfo& run) {
           {"peak_memory_bytes", run.peak_memory_bytes}};
 }
 
+Json units_json(const std::string& unit) {
+  return {{"length", unit}, {"area", unit + "²"}, {"power", "W/m² · " + unit + "²"}};
+}
+
 Json scene_json(const SoundScene& scene, const std::vector<Camera>& cameras) {
   std::set<int> faces;
   for (const Surface& surface : scene.surfaces)

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <string>
 #include <vector>
 
 /// What reports on different commands have in common: plain structs as JSON objects.
@@ -19,6 +20,8 @@ using Json = nlohmann::ordered_json;
 
 /// What every report begins with.
 Json head_json(const RunInfo& run);
+/// What lengths, areas and powers are in where their keys do not say so.
+Json units_json(const std::string& unit);
 /// How much there is of everything, and the names that go with the numbers in result files.
 Json scene_json(const SoundScene& scene, const std::vector<Camera>& cameras);
 /// Faces count from 1 here, as in the sentences.

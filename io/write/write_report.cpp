@@ -4,11 +4,13 @@
 #include "io/files/consistency.h"
 #include "io/write/report_parts.h"
 #include "io/write/write_curves.h"
+#include "solver/heat/heat.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <optional>
 
 namespace halfshade {
 namespace {
@@ -33,6 +35,7 @@ template <class Result>
 Json scene_head(const Result& result, const RunInfo& run) {
   Json json = head_json(run);
   json["unit"] = result.unit;
+  json["units"] = units_json(result.unit);
   json["interrupted"] = result.interrupted;
   return json;
 }
@@ -57,6 +60,7 @@ Json groups_json(const SolveResult& result) {
     sums.absorbed += area * (1 - s.rho.row(e).transpose()) * irradiance;
   }
   const bool grey = result.radiosity.channels == 1;
+  const std::optional<double> metres = metres_in(result.unit);
   Json json = Json::array();
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Sums& sums = groups[g];
@@ -67,6 +71,11 @@ Json groups_json(const SolveResult& result) {
                     {"mean_irradiance_w_per_m2", to_json(sums.irradiance / area, grey)},
                     {"emitted_power", to_json(sums.emitted, grey)},
                     {"absorbed_power", to_json(sums.absorbed, grey)}});
+    if (!metres) continue;
+    const double square = *metres * *metres;
+    json.back()["area_m2"] = square * sums.area;
+    json.back()["emitted_power_w"] = to_json(square * sums.emitted, grey);
+    json.back()["absorbed_power_w"] = to_json(square * sums.absorbed, grey);
   }
   return json;
 }

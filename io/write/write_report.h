@@ -10,12 +10,14 @@
 namespace halfshade {
 
 /// Writes what a program may want to know of a run as one JSON object: version, command_line,
-/// status, seconds, peak_memory_bytes, unit, scene (counts and names), repairs, warnings (kind and
+/// status, seconds, peak_memory_bytes, unit, units (what lengths, areas and powers are in where
+/// keys do not say so), scene (counts and names), repairs, warnings (kind and
 /// sentence), discontinuities (how they were found, kept and culled), mesh (elements, points,
 /// min_angle_degrees and a histogram of the elements' minimum angles), stages, exchange, radiosity
 /// (per channel), interrupted, estimated_relative_error, outputs, and groups (area, mean radiosity
 /// and irradiance, emitted and absorbed power of each, powers in W/m² times the square of the unit
-/// of length); bounces (mean irradiance after each number of reflections), if told apart; where
+/// of length; the same in area_m2, emitted_power_w, absorbed_power_w if it is known how many metres
+/// that is); bounces (mean irradiance after each number of reflections), if told apart; where
 /// heat is given net_exchange (bands, unit_m, surroundings_temperature_k, surroundings_net_power_w,
 /// and area_m2, net_flux_w_per_m2, net_power_w, temperature_k of each group: SI units, what leaves
 /// net counts positive). Lists of channels have one entry where all three are equal, and in

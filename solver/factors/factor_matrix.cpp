@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <unistd.h>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -45,14 +46,16 @@ FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options
   require_factor_memory(sound.rows());
   if (options.method == FactorMethod::exact) require_few_pairs(sound.sound.surfaces.size());
   const SightScene sight = make_sight_scene(sound.sound, progress);
-  const RowExchange exchange = options.method == FactorMethod::exact
-                                   ? exact_exchange(sound, sight, options, progress)
-                               : options.method == FactorMethod::rays
-                                   ? sampled_exchange(sound, sight.reflecting, options, progress)
-                                   : hemicube_exchange(sound, sight.reflecting, options, progress);
+  RowExchange exchange = options.method == FactorMethod::exact
+                             ? exact_exchange(sound, sight, options, progress)
+                         : options.method == FactorMethod::rays
+                             ? sampled_exchange(sound, sight.reflecting, options, progress)
+                             : hemicube_exchange(sound, sight.reflecting, options, progress);
   // What rays were asked for is a number of them.
   const double tolerance = options.method == FactorMethod::exact ? options.tolerance : HUGE_VAL;
-  return finished_matrix(sound, exchange, tolerance, options);
+  FactorMatrix result = finished_matrix(sound, std::move(exchange), tolerance, options);
+  if (options.unit == FactorUnit::face) result.places = row_places(sound);
+  return result;
 }
 
 }  // namespace halfshade

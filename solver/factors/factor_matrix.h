@@ -3,6 +3,7 @@
 #include "meshing/core/progress.h"
 #include "meshing/core/scene.h"
 #include "solver/factors/factor_scene.h"
+#include "solver/factors/row_place.h"
 
 #include <Eigen/Core>
 
@@ -26,7 +27,8 @@ struct FactorOptions {
   int rays = 10000;  ///< of each row but with FactorMethod::exact, ≥ 1; pixels count as rays
   int hemicube_pixels = 64;  ///< along an edge, FactorMethod::hemicube, even and ≥ 2
   double sparse_below = 0;   ///< entries that cannot reach this are left out, ≥ 0
-  bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one
+  bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one; what
+                             ///< was left out is made up for
 };
 
 /// How a matrix came about.
@@ -39,7 +41,9 @@ struct FactorReport {
   double row_sum_error_max = 0;  ///< largest |row_sum − 1|
   double backs_max = 0;          ///< largest share that is swallowed by backs
   int backs_row = 0;             ///< which row that is of
-  std::size_t left_out = 0;      ///< entries below FactorOptions::sparse_below
+  double sparse_below = 0;       ///< FactorOptions::sparse_below,
+  std::size_t left_out = 0;      ///< how many entries are left out for it,
+  double left_out_max = 0;       ///< and the largest share of a row that they were, all together
   bool is_enforced = false;      ///< rows were scaled,
   double enforced_by = 0;        ///< an entry by at most this share
   bool is_complete = true;       ///< false if stopped: entries are missing
@@ -60,8 +64,13 @@ struct FactorMatrix {
   Eigen::ArrayXd row_sum;  ///< Σ F + space before anything was put right
   Eigen::ArrayXd error;  ///< of each entry of the row, absolute, space with it: an estimate on the
                          ///< safe side, see factors.md, and no proof
-  std::string unit;      ///< of lengths
-  std::string source;    ///< the file that it was read from; empty if it was computed
+  /// Share that FactorOptions::sparse_below left out and nothing makes up for: Σ F + space +
+  /// left_out is row_sum, or one if it was enforced. Empty if a file does not tell.
+  Eigen::ArrayXd left_out;
+  std::vector<RowPlace> places;  ///< by face; empty otherwise, or if a file does not tell
+  std::string unit;              ///< of lengths
+  std::string source;            ///< the file that it was read from; empty if it was computed
+  SoundScene scene;              ///< what was repaired, and lines of faces; no more is kept of it
   FactorReport report;
 };
 

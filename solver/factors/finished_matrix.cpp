@@ -12,6 +12,8 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
   FactorMatrix result;
   result.names = scene.names;
   result.unit = scene.unit;
+  result.scene.repairs = scene.sound.repairs;
+  result.scene.face_lines = scene.sound.face_lines;
   result.report = exchange.report;
   result.area = Eigen::Map<const Eigen::ArrayXd>(scene.areas.data(), scene.rows());
   result.factors = result.area.inverse().matrix().asDiagonal() * exchange.mutual;
@@ -20,13 +22,17 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
   result.row_sum = result.factors.rowwise().sum().array() + result.space;
   result.error =
       exchange.mutual_error.rowwise().maxCoeff().array().max(exchange.space_error) / result.area;
+  result.left_out = Eigen::ArrayXd::Zero(result.area.size());
   return result;
 }
 
 void fill_report(double tolerance, FactorMatrix& result) {
   FactorReport& report = result.report;
+  const auto entries = static_cast<double>(result.area.size() + 1);
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
     const double missing = std::abs(result.row_sum[i] - 1);
+    // One entry at least is off by its part of what the sum is off.
+    result.error[i] = std::max(result.error[i], missing / entries);
     // Space is found on its own: what a sum of many good entries misses is in one that is not.
     if (missing > 2 * tolerance) result.error[i] = std::max(result.error[i], missing);
     const bool is_off = result.error[i] > tolerance;
@@ -36,6 +42,27 @@ void fill_report(double tolerance, FactorMatrix& result) {
     report.backs_max = result.backs[i];
     report.backs_row = static_cast<int>(i);
   }
+}
+
+/// Leaves out pairs neither of whose factors can reach the limit.
+void make_sparse(double limit, RowExchange& exchange, FactorMatrix& result) {
+  const auto most = [&](Eigen::Index i, Eigen::Index j) {
+    return result.factors(i, j) + exchange.mutual_error(i, j) / result.area[i];
+  };
+  const auto leave_out = [&](Eigen::Index i, Eigen::Index j) {
+    result.error[i] = std::max(result.error[i], most(i, j));
+    result.left_out[i] += result.factors(i, j);
+    result.factors(i, j) = exchange.mutual(i, j) = 0;
+    ++result.report.left_out;
+  };
+  for (Eigen::Index i = 0; i < result.area.size(); ++i)
+    for (Eigen::Index j = i; j < result.area.size(); ++j) {
+      if (result.factors(i, j) == 0 || most(i, j) >= limit || most(j, i) >= limit) continue;
+      leave_out(i, j);
+      if (i != j) leave_out(j, i);
+    }
+  result.report.sparse_below = limit;
+  result.report.left_out_max = result.left_out.maxCoeff();
 }
 
 /// A F with the surroundings as one more row.
@@ -76,32 +103,21 @@ void enforce(const RowExchange& exchange, FactorMatrix& result) {
   }
   result.factors = factors;
   result.space = space;
-}
-
-/// Leaves out pairs neither of whose factors can reach the limit.
-void make_sparse(const RowExchange& exchange, double limit, FactorMatrix& result) {
-  const auto most = [&](Eigen::Index i, Eigen::Index j) {
-    return result.factors(i, j) + exchange.mutual_error(i, j) / result.area[i];
-  };
-  for (Eigen::Index i = 0; i < result.area.size(); ++i)
-    for (Eigen::Index j = i; j < result.area.size(); ++j) {
-      if (result.factors(i, j) == 0 || most(i, j) >= limit || most(j, i) >= limit) continue;
-      result.error[i] = std::max(result.error[i], most(i, j));
-      result.error[j] = std::max(result.error[j], most(j, i));
-      result.report.left_out += i == j ? 1 : 2;
-      result.factors(i, j) = result.factors(j, i) = 0;
-    }
+  result.left_out.setZero();
 }
 
 }  // namespace
 
-FactorMatrix finished_matrix(const FactorScene& scene, const RowExchange& exchange,
-                             double tolerance, const FactorOptions& options) {
+FactorMatrix finished_matrix(const FactorScene& scene, RowExchange exchange, double tolerance,
+                             const FactorOptions& options) {
+  // Nothing sends less than nothing, whatever it is off by.
+  exchange.mutual = exchange.mutual.cwiseMax(0);
+  exchange.space = exchange.space.max(0);
   FactorMatrix result = matrix_of(scene, exchange);
   if (!result.report.is_complete) return result;
   fill_report(tolerance, result);
+  if (options.sparse_below > 0) make_sparse(options.sparse_below, exchange, result);
   if (options.enforce) enforce(exchange, result);
-  if (options.sparse_below > 0) make_sparse(exchange, options.sparse_below, result);
   return result;
 }
 

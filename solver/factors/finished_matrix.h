@@ -5,9 +5,9 @@
 
 namespace halfshade {
 
-/// The form factors of an exchange between rows, scaled and made sparse as the options say. Rows
-/// with an error above `tolerance` count as not reached.
-FactorMatrix finished_matrix(const FactorScene& scene, const RowExchange& exchange,
-                             double tolerance, const FactorOptions& options);
+/// The form factors of an exchange between rows, made sparse and then scaled as the options say.
+/// Rows with an error above `tolerance` count as not reached.
+FactorMatrix finished_matrix(const FactorScene& scene, RowExchange exchange, double tolerance,
+                             const FactorOptions& options);
 
 }  // namespace halfshade

@@ -52,6 +52,42 @@ TEST(FactorFiles, ObstructedSquaresAreAsTheirPageDerives) {
   }
 }
 
+TEST(FactorFiles, OfAnotherSceneAreRefused) {
+  const test::TempDir folder;
+  const auto run = [&](const std::vector<std::string>& arguments) {
+    std::vector<std::string> all = {test::program};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    return test::run_program(all, folder.path());
+  };
+  // A cold plate under a warm one; then it is moved aside, and the matrix says nothing of it.
+  const auto scene = [](const std::string& x) {
+    return "mtllib m.mtl\nv 0 0 1\nv 0 1 1\nv 1 1 1\nv 1 0 1\nv " + x + " 0 0\nv 1" + x +
+           " 0 0\nv 1" + x + " 1 0\nv " + x + " 1 0\nusemtl m\nf 1 2 3 4\nf 5 6 7 8\n";
+  };
+  folder.write("m.mtl", "newmtl m\nemissivity 0.5\ntemperature 300\n");
+  folder.write("plates.obj", scene(".0"));
+  folder.write("moved.obj", scene(".5"));
+  ASSERT_EQ(run({"factors", "plates.obj", "--by", "face", "-o", "f.mtx"}).exit_code, 0);
+  EXPECT_EQ(run({"solve", "plates.obj", "--factors", "f.mtx", "-o", "o.vtu"}).exit_code, 0);
+  std::string text = test::contents(folder.path() / "f.mtx");
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"solve", "moved.obj", "--factors", "f.mtx", "-o", "o.vtu"},
+        std::vector<std::string>{"factors", "moved.obj", "--from", "f.mtx", "-o", "o.csv"}}) {
+    const test::Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("f.mtx: 'face 2' has its centre at (0.5, 0.5, 0)"),
+              std::string::npos)
+        << outcome.err;
+  }
+  for (std::size_t k = text.find(" 0.1998"); k != std::string::npos; k = text.find(" 0.1998"))
+    text.replace(k, 7, " 0.2998");
+  folder.write("f.mtx", text);
+  const test::Outcome changed = run({"solve", "plates.obj", "--factors", "f.mtx", "-o", "o.vtu"});
+  EXPECT_EQ(changed.exit_code, 3);
+  EXPECT_NE(changed.err.find("'face 1' and its space add up to 1.1"), std::string::npos)
+      << changed.err;
+}
+
 // By scipy where it is installed, else by numpy alone.
 TEST(FactorFiles, PythonReadsTheSameBits) {
   const test::TempDir folder;

@@ -77,7 +77,10 @@ TEST_F(Factors, MatrixMarketHoldsTheSameNumbers) {
   ASSERT_EQ(factors({cube, "-o", "f.mtx", "--by", "face", "-q"}).exit_code, 0);
   const auto table = rows("f.csv"), names = rows("f.names.csv");
   ASSERT_EQ(names.size(), 7u);
-  EXPECT_EQ(names[0], (std::vector<std::string>{"surface", "area", "space", "row_sum", "error"}));
+  EXPECT_EQ(names[0],
+            (std::vector<std::string>{"surface", "area", "space", "row_sum", "error", "left_out",
+                                      "centre_x", "centre_y", "centre_z", "normal_x", "normal_y",
+                                      "normal_z", "extent_x", "extent_y", "extent_z"}));
   std::istringstream lines(file("f.mtx"));
   std::string line;
   std::getline(lines, line);
@@ -104,6 +107,82 @@ TEST_F(Factors, NamesAreQuotedWhereTheyMustBe) {
   EXPECT_EQ(factors({"p.obj", "-o", "f.csv", "-q", "--tolerance", "0.01"}).exit_code, 0);
   EXPECT_NE(file("f.csv").find("surface,area,\"a,\"\"b\"\"\",c,space,row_sum,error\n"),
             std::string::npos);
+}
+
+TEST_F(Factors, TellWhatWasPutRight) {
+  write("rug.obj",
+        "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv .5 .25 0\nv 1.5 .25 0\nv 1.5 .75 0\nv .5 .75 0\n"
+        "v 3 0 0\nv 3 1 0\ng floor\nf 1 2 3 4\ng rug\nf 5 6 7 8\ng floor\nf 2 9 10 3\n");
+  const std::string cut =
+      "face 2 (line 14) and face 1 (line 12) lie in one plane and cover each other over an area of "
+      "0.5, which face 2 (line 14) keeps";
+  const test::Outcome said = factors({"rug.obj", "-o", "f.csv"});
+  EXPECT_EQ(said.exit_code, 0);
+  EXPECT_NE(said.err.find("note: " + cut + "\n"), std::string::npos) << said.err;
+  EXPECT_EQ(said.err.find("warning"), std::string::npos) << "a rug is what its maker wanted";
+  EXPECT_EQ(said.out.find("repair"), std::string::npos);
+  const test::Outcome all = factors({"rug.obj", "-o", "f.csv", "-v", "--json", "f.json"});
+  EXPECT_NE(all.out.find("repair       " + cut + "\n"), std::string::npos) << all.out;
+  EXPECT_NE(all.out.find("were joined\n"), std::string::npos) << all.out;
+  const auto repairs = nlohmann::json::parse(file("f.json")).at("repairs");
+  ASSERT_EQ(repairs.size(), 2U);
+  for (const auto& repair : repairs)
+    EXPECT_NE(all.out.find(repair.at("sentence").get<std::string>()), std::string::npos);
+  ASSERT_EQ(factors({"rug.obj", "-o", "f.mtx", "--by", "face", "-q"}).exit_code, 0);
+  const test::Outcome from = factors({"rug.obj", "--from", "f.mtx", "-o", "g.csv", "-v"});
+  EXPECT_NE(from.out.find("repair       " + cut + "\n"), std::string::npos) << from.out;
+  EXPECT_EQ(factors({cube, "-o", "f.csv"}).err.find("making the scene sound"), std::string::npos);
+}
+
+TEST_F(Factors, WarnOfFacesThatWereLostOrMoved) {
+  const auto warned = [&](const std::string& name, const std::string& text,
+                          const std::string& says) {
+    write(name, text);
+    const test::Outcome outcome = factors({name, "-o", "f.csv", "--by", "face"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_NE(outcome.err.find("warning: making the scene sound may have changed its form "
+                               "factors: " +
+                               says),
+              std::string::npos)
+        << outcome.err;
+  };
+  warned("twice.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 3\n",
+         "face 2 (line 5) has the same corners as face 1");
+  warned("off.obj",
+         "v 1000 0 0\nv 1002 0 0\nv 1002 1 0\nv 1000 1 0\nv 1000.5 .25 .0001\n"
+         "v 1001.5 .25 .0001\nv 1001.5 .75 .0001\nv 1000.5 .75 .0001\nf 1 2 3 4\nf 5 6 7 8\n",
+         "face 2 (line 10) and face 1 (line 9) lie in one plane and cover each other over an area "
+         "of 0.5, which face 2 (line 10) keeps, for they are no more than 0.0001 apart\n");
+  warned("across.obj",
+         "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nv 1 .25 0\nv 3 .25 0\nv 3 .75 0\nv 1 .75 0\n"
+         "f 1 2 3 4\nf 5 6 7 8\n",
+         "face 2 (line 10) and face 1 (line 9) lie in one plane and cover each other over an area "
+         "of 0.5, which face 2 (line 10) keeps\n");
+}
+
+TEST_F(Factors, TellWhatWasLeftOutAndScaled) {
+  const std::vector<std::string> sparse = {l_room,  "--by",           "face", "-o",
+                                           "f.mtx", "--sparse-below", "0.05"};
+  const auto with = [](std::vector<std::string> all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const test::Outcome plain = factors(with(sparse, {"--json", "f.json"}));
+  EXPECT_EQ(plain.exit_code, 0) << plain.err;
+  EXPECT_NE(file("f.mtx").find("form factors that cannot reach 0.05 are left out, 0.0"),
+            std::string::npos);
+  EXPECT_GT(nlohmann::json::parse(file("f.json")).at("left_out_max").get<double>(), 0.02);
+  const std::vector<std::string> from = {l_room, "--from", "f.mtx", "-o", "g.csv"};
+  EXPECT_EQ(factors(from).exit_code, 0) << "what was left out is accounted for";
+  EXPECT_EQ(factors(with(sparse, {"--enforce"})).exit_code, 0);
+  EXPECT_NE(file("f.mtx").find("% scaled until rows, with space, sum to one"), std::string::npos);
+  EXPECT_EQ(factors(from).exit_code, 0);
+  const auto table = rows("g.csv");
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    double sum = 0;
+    for (std::size_t j = 2; j < table[i].size() - 2; ++j) sum += std::stod(table[i][j]);
+    EXPECT_NEAR(sum, 1, 1e-12) << table[i][0];
+  }
 }
 
 TEST_F(Factors, GoToTheStandardOutputAndKeepTheRestOffIt) {

@@ -88,6 +88,12 @@ TEST(Materials, LeaveWhatTheyDoNotName) {
   EXPECT_FALSE(material_of(scene, 0).two_sided);
 }
 
+TEST(Materials, MaySayTheSameTwice) {
+  const Scene scene =
+      read(R"({"red": {"exitance": 1, "exitance": 1.0}, "lamp": {}, "lamp": {}})").scene;
+  EXPECT_TRUE((material_of(scene, 0).exitance == 1).all());
+}
+
 TEST(Materials, OverrideAGroupOnItsFacesOnly) {
   const Scene scene = read(R"({"lamp": {"exitance": 7, "reflectance": 0}})").scene;
   EXPECT_TRUE((material_of(scene, 2).exitance == 7).all());
@@ -195,6 +201,12 @@ const BadJson bad_materials[] = {
     {"ExitanceNegative", R"({"lamp": {"exitance": -3}})", {"'lamp': 'exitance'", "-3"}},
     {"ExitanceTooLarge", R"({"lamp": {"exitance": 1e999}})", {"extra.json"}},
     {"TwoSidedNumber", R"({"red": {"two_sided": 1}})", {"'red': 'two_sided'", "true or false"}},
+    {"NameTwice",
+     R"({"red": {"reflectance": 0.5}, "lamp": {}, "red": {"reflectance": 0.6}})",
+     {"'red' is there twice"}},
+    {"KeyTwice",
+     R"({"lamp": {}, "red": {"reflectance": [1, 0, 0], "exitance": 1, "reflectance": 1}})",
+     {"'red': 'reflectance' is there twice"}},
 };
 
 INSTANTIATE_TEST_SUITE_P(Files, BadMaterials, testing::ValuesIn(bad_materials),

@@ -31,6 +31,58 @@ TEST(ReadFactors, ReadsWhatIsWritten) {
   EXPECT_EQ(factors.source.substr(factors.source.size() - 5), "f.mtx");
 }
 
+TEST(ReadFactors, TellsWhatTheFileTells) {
+  EXPECT_TRUE(read(matrix, names).places.empty());
+  EXPECT_EQ(read(matrix, names).left_out.size(), 0);
+  const FactorMatrix factors = read(
+      matrix,
+      "surface,area,space,row_sum,error,note,left_out,centre_x,centre_y,centre_z,normal_x,normal_y,"
+      "normal_z,extent_x,extent_y,extent_z\n"
+      "face 1,2,0.5,1,1e-9,hot,0.25,1,2,3,0,0,1,2,1,0\nface "
+      "2,1,0.5,1,0,cold,0,4,5,6,0,0,-1,1,1,0\n");
+  ASSERT_EQ(factors.left_out.size(), 2);
+  EXPECT_EQ(factors.left_out[0], 0.25);
+  ASSERT_EQ(factors.places.size(), 2U);
+  EXPECT_EQ(factors.places[1].centre, Vec3(4, 5, 6));
+  EXPECT_EQ(factors.places[1].normal, Vec3(0, 0, -1));
+  EXPECT_EQ(factors.places[0].extent, Vec3(2, 1, 0));
+}
+
+TEST(ReadFactors, RefusesRowsThatDoNotAddUp) {
+  const std::string head = "%%MatrixMarket matrix coordinate real general\n2 2 2\n";
+  const auto refuse = [&](const std::string& entries, const std::string& first_row,
+                          const std::vector<std::string>& parts) {
+    SCOPED_TRACE(entries + first_row);
+    test::expect_error(
+        [&] {
+          read(head + entries,
+               "surface,area,space,row_sum,error\n" + first_row + "\nface 2,2,0.75,1,1e-9\n");
+        },
+        ErrorCode::invalid_input, parts);
+  };
+  const std::string good = "1 2 0.25\n2 1 0.25\n";
+  refuse("1 2 0.375\n2 1 0.375\n", "face 1,2,0.75,1,1e-9", {"'face 1'", "add up to 1.125"});
+  refuse("1 2 .25025\n2 1 .25025\n", "face 1,2,0.75,1,1e-9", {"add up to 1.00025", "as 1;"});
+  refuse("1 2 0.125\n2 1 0.125\n", "face 1,2,0.75,1,1e-3", {"add up to 0.875"});
+  refuse("1 2 -0.25\n2 1 -0.25\n", "face 1,2,1.25,1,1e-3",
+         {"from 'face 1' to 'face 2' is -0.25", "negative"});
+  refuse(good, "face 1,2,-0.25,0,1e-3", {"'face 1'", "space", "negative"});
+  refuse(good, "face 1,2,1,1.25,1e-3", {"'face 1'", "1.25 instead of 1", "0.003"});
+  refuse(good, "face 1,2,0.5,0.75,1e-3", {"'face 1'", "0.75 instead of 1"});
+}
+
+TEST(ReadFactors, TakesRowsThatWereEnforcedOrMadeSparse) {
+  const std::string head = "surface,area,space,row_sum,error";
+  EXPECT_NO_THROW(read(matrix, head + "\nface 1,2,.75,.998,1e-3\nface 2,1,.5,1.001,1e-3\n"));
+  // Without a column for it, what is missing may have been left out, each zero up to the error.
+  EXPECT_NO_THROW(read(matrix, head + "\nface 1,2,.74,1,.01\nface 2,1,.49,1,.01\n"));
+  EXPECT_NO_THROW(
+      read(matrix, head + ",left_out\nface 1,2,.74,1,.01,.01\nface 2,1,.49,1,.01,.01\n"));
+  test::expect_error(
+      [&] { read(matrix, head + ",left_out\nface 1,2,.74,1,.01,0\nface 2,1,.5,1,.01,0\n"); },
+      ErrorCode::invalid_input, {"'face 1'", "0.99"});
+}
+
 TEST(ReadFactors, RefusesWhatIsNoMatrixOfFormFactors) {
   const auto refuse = [](const std::string& matrix_text, const std::string& names_text,
                          const std::vector<std::string>& parts) {

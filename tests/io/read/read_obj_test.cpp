@@ -11,6 +11,7 @@ namespace {
 
 using test::expect_error;
 using test::TempDir;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -158,6 +159,17 @@ TEST(ReadMtl, WarnsOfWhatIsNotUsed) {
   EXPECT_THAT(read_material("Ke 1 1 1\n").warnings, ElementsAre(HasSubstr("no Kd")));
   EXPECT_THAT(read_material("Kd 1 1 1\nnewmtl m\nKd 0 0 0\n").warnings,
               ElementsAre(HasSubstr("defined again")));
+}
+
+TEST(ReadMtl, WarnsOfWhatIsSaidTwiceInAMaterial) {
+  EXPECT_THAT(read_material("Kd 1 1 1\nKd .5 .5 .5\n").warnings,
+              ElementsAre(AllOf(HasSubstr("scene.mtl:3"), HasSubstr("'m' has another Kd"))));
+  EXPECT_THAT(read_material("emissivity .5\nemissivity .7\ntemperature 300\n").warnings,
+              ElementsAre(HasSubstr("another emissivity")));
+  EXPECT_THAT(read_material("Kd 1\ntemperature 300\ntemperature 400\n").warnings,
+              ElementsAre(HasSubstr("another temperature")));
+  EXPECT_THAT(read_material("Kd .5\nKd 0.50 .5 .5\nKe 0 0 0\nKe 0\n").warnings, IsEmpty());
+  EXPECT_THAT(read_material("Kd .5\nnewmtl n\nKd .6\n").warnings, IsEmpty());
 }
 
 TEST(ReadMtl, IsFoundUnderNamesWithSpacesAndInOtherFolders) {

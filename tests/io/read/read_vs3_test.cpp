@@ -54,7 +54,11 @@ TEST(ReadVs3, RefusesWhatItWouldGetWrong) {
   refuse("F 3a\n", {"scene.vs3:1", "F '3a'"});
   refuse(vertices + "X 1 2 3\n", {"transformations"});
   refuse(vertices + "S 1 1 2 3 4 0 0 1.2 floor\n", {"surface 1", "emissivity 1.2", "[0, 1]"});
-  refuse(vertices + "S 1 1 2 3 9 0 0 0.9 floor\n", {"face 1 (line 10)", "vertex 8"});
+  refuse(vertices + "S 1 1 2 3 9 0 0 0.9 floor\n",
+         {"scene.vs3:10", "surface 1", "vertex 9", "from 1 to 5"});
+  refuse(vertices + "S 1 1 2 0 4 0 0 0.9 floor\n", {"vertex 0", "from 1 to 5"});
+  refuse(vertices + floor + "O 2 1 2 7 0\n", {"surface 2", "vertex 7"});
+  refuse("S 1 1 2 3 4 0 0 0.9 floor\n", {"vertex 1", "no vertices"});
   refuse(vertices + "S 2 1 2 3 4 0 0 0.9 floor\n", {"surface 2", "surface 1 is expected"});
   refuse(vertices + "V 7 0 0 0\n", {"vertex 7", "vertex 6 is expected"});
   refuse(vertices + "S 1 1 2 3 4 5 0 0.9 floor\n", {"the base is surface 5", "1 surfaces"});

@@ -85,6 +85,21 @@ TEST(WriteReport, GroupsAddUpToTheWhole) {
   EXPECT_EQ(groups.at(1).at("emitted_power").at(0), 0);
 }
 
+TEST(WriteReport, SaysWhatAreasAndPowersAreIn) {
+  SolveResult result = test::sample_result(1);  // in centimetres
+  const auto json = written(result);
+  EXPECT_EQ(json.at("units").at("length"), "cm");
+  EXPECT_EQ(json.at("units").at("area"), "cm²");
+  EXPECT_EQ(json.at("units").at("power"), "W/m² · cm²");
+  const auto group = json.at("groups").at(0);
+  EXPECT_NEAR(group.at("area_m2").get<double>(), 0.5e-4, 1e-18);
+  for (const std::string power : {"emitted_power", "absorbed_power"})
+    EXPECT_NEAR(group.at(power + "_w").at(2).get<double>(),
+                1e-4 * group.at(power).at(2).get<double>(), 1e-18);
+  result.unit = "furlong";
+  EXPECT_FALSE(written(result).at("groups").at(0).contains("area_m2"));
+}
+
 TEST(WriteReport, AGreySceneHasOneChannel) {
   SolveResult result = test::sample_result(1);
   result.radiosity.channels = 1;

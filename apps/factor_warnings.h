@@ -1,0 +1,20 @@
+#pragma once
+
+#include "meshing/core/scene.h"
+#include "solver/factors/factor_matrix.h"
+#include "solver/pipeline/warnings.h"
+
+#include <string>
+#include <vector>
+
+namespace halfshade {
+
+/// What to doubt of form factors: what making the scene sound changed, as solve says of its light,
+/// and faces that were no more than nearly flush; what backs swallow.
+std::vector<Warning> warnings_of(const Scene& scene, const FactorMatrix& matrix);
+
+/// What a maker of a scene wants, but what rows of the matrix tell of all the same: rugs and lamps
+/// flush on larger faces, whose rows have less area for it. Empty if there are none.
+std::string note_of(const Scene& scene, const FactorMatrix& matrix);
+
+}  // namespace halfshade

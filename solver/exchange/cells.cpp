@@ -196,7 +196,8 @@ SpaceCells find_cells(const SoundScene& scene, const ElementTable& elements) {
       static_cast<std::size_t>(*std::max_element(cell_of.begin(), cell_of.end())) + 1;
   cells.closed.assign(count, true);
   cells.swallowing.assign(count, -1);
-  cells.closed[at(cell_of.back())] = false;
+  cells.outside = cell_of.back();
+  cells.closed[at(cells.outside)] = false;
   for (int e = 0; e < elements.count(); ++e) {
     const auto [front, back] = shells.of_side[at(e)];
     cells.of_side.push_back({cell_of[at(front)], cell_of[at(back)]});

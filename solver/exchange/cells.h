@@ -16,6 +16,7 @@ struct SpaceCells {
   std::vector<bool> closed;
   /// Cell → the surface whose back swallows light in it; −1 if there is none.
   std::vector<int> swallowing;
+  int outside = 0;  ///< the cell that extends to infinity
 
   int count() const { return static_cast<int>(closed.size()); }
   int before(int element) const { return of_side[at(element)][0]; }

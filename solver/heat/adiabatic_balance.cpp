@@ -1,72 +1,112 @@
 #include "solver/heat/adiabatic_balance.h"
 
+#include "solver/heat/emission.h"
+
 #include <Eigen/LU>
 
 namespace halfshade {
 namespace {
 
-/// From far above each step takes a quarter of the temperature away.
-constexpr int most_steps = 500;
-/// Of the hottest temperature.
-constexpr double settled = 1e-14;
-/// Below this share of the hottest, black bodies send nothing that doubles could tell from 0.
-constexpr double coldest = 1e-12;
+/// Of thousands of random systems none took more than eleven.
+constexpr int most_steps = 120;
+/// Should steps swing back and forth, they are halved after as many.
+constexpr int whole_steps = 40;
+/// Of a face's power: out of balance by no more, it is balanced.
+constexpr double settled = 1e-15;
+/// The same, where rounding keeps it from getting better.
+constexpr double good_enough = 1e-9;
+/// Of what they were: more is not taken from powers at once.
+constexpr double least_kept = 0.01;
 
-/// What is absorbed less what is sent out, and how that changes with the temperatures.
-struct Imbalance {
-  Eigen::VectorXd power;
-  Eigen::MatrixXd slope;
+/// What faces send out, and what they absorb then.
+struct State {
+  Eigen::ArrayXd power;  ///< y
+  Eigen::ArrayXd kelvin;
+  Eigen::ArrayXXd sent, growth;  ///< of each face (row) in each band, see Emission
+  Eigen::ArrayXd absorbed;
 };
 
-Imbalance imbalance_at(const Eigen::ArrayXd& kelvin, const AdiabaticBalance& balance,
-                       const std::vector<Band>& bands) {
-  const Eigen::Index faces = kelvin.size(), count = balance.rest.size();
-  Eigen::ArrayXXd sent(faces, count), slope(faces, count);
-  for (Eigen::Index i = 0; i < faces; ++i) {
-    sent.row(i) = blackbody_exitance(kelvin[i], bands).transpose();
-    slope.row(i) = blackbody_slope(kelvin[i], bands).transpose();
+class Balancing {
+ public:
+  Balancing(const AdiabaticBalance& balance, const std::vector<Band>& bands)
+      : balance_(balance), bands_(bands) {}
+
+  State first() const {
+    const Eigen::ArrayXd power = (balance_.emissivity * balance_.arriving).rowwise().sum();
+    return at(power, Eigen::ArrayXd::Zero(power.size()));
   }
-  Imbalance result{Eigen::VectorXd::Zero(faces), Eigen::MatrixXd::Zero(faces, faces)};
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::VectorXd e = balance.emissivity.col(k);
-    const Eigen::MatrixXd weighted =
-        e.asDiagonal() * balance.response[static_cast<std::size_t>(k)] * e.asDiagonal();
-    const Eigen::VectorXd more = sent.col(k) - balance.rest[k];
-    result.power += weighted * more;
-    result.power += e.cwiseProduct((balance.arriving.col(k) - sent.col(k)).matrix());
-    result.slope += weighted * slope.col(k).matrix().asDiagonal();
-    result.slope.diagonal() -= e.cwiseProduct(slope.col(k).matrix());
+
+  /// `kelvin` is near what is found, or 0.
+  State at(const Eigen::ArrayXd& power, const Eigen::ArrayXd& kelvin) const {
+    State state{power, kelvin, {}, {}, {}};
+    state.sent = state.growth = Eigen::ArrayXXd::Zero(power.size(), balance_.rest.size());
+    for (Eigen::Index i = 0; i < power.size(); ++i) {
+      const Eigen::ArrayXd emissivity = balance_.emissivity.row(i);
+      state.kelvin[i] = emission_temperature(power[i], emissivity, bands_, kelvin[i]);
+      if (!(state.kelvin[i] > 0)) continue;
+      const Emission emission = emission_at(state.kelvin[i], emissivity, bands_);
+      state.sent.row(i) = emission.power.transpose();
+      state.growth.row(i) = emission.growth.transpose();
+    }
+    state.absorbed = absorbed(state.sent);
+    return state;
   }
-  return result;
+
+  /// Newton's step for all powers.
+  Eigen::ArrayXd step_from(const State& state) const {
+    const Eigen::Index faces = state.power.size();
+    const Eigen::ArrayXd growth = state.growth.rowwise().sum();
+    Eigen::MatrixXd slope = -Eigen::MatrixXd::Identity(faces, faces);
+    for (Eigen::Index k = 0; k < balance_.rest.size(); ++k) {
+      const Eigen::VectorXd share = (growth > 0).select(state.growth.col(k) / growth, 0);
+      slope += balance_.emissivity.col(k).matrix().asDiagonal() * response(k) * share.asDiagonal();
+    }
+    return slope.partialPivLu().solve((state.power - state.absorbed).matrix()).array();
+  }
+
+ private:
+  const Eigen::MatrixXd& response(Eigen::Index band) const {
+    return balance_.response[static_cast<std::size_t>(band)];
+  }
+
+  Eigen::ArrayXd absorbed(const Eigen::ArrayXXd& sent) const {
+    Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(sent.rows());
+    for (Eigen::Index k = 0; k < balance_.rest.size(); ++k) {
+      const Eigen::ArrayXd e = balance_.emissivity.col(k);
+      const Eigen::VectorXd more = sent.col(k) - e * balance_.rest[k];
+      const Eigen::ArrayXd irradiance = balance_.arriving.col(k) + (response(k) * more).array();
+      sum += e * irradiance.max(0);
+    }
+    return sum;
+  }
+
+  const AdiabaticBalance& balance_;
+  const std::vector<Band>& bands_;
+};
+
+/// The worst face's, relative to its power.
+double imbalance(const State& state) {
+  const Eigen::ArrayXd scale = state.power.max(state.absorbed);
+  return (scale > 0).select((state.absorbed - state.power).abs() / scale, 0).maxCoeff();
 }
 
 }  // namespace
 
 Eigen::ArrayXd balanced_temperatures(const AdiabaticBalance& balance,
                                      const std::vector<Band>& bands) {
-  const Eigen::Index faces = balance.emissivity.rows();
-  double most = 0;
-  for (Eigen::Index i = 0; i < faces; ++i)
-    most = std::max(most, balance.arriving.row(i).sum() + balance.rest.sum());
-  if (!(most > 0)) return Eigen::ArrayXd::Zero(faces);
-  Eigen::ArrayXd kelvin = Eigen::ArrayXd::Constant(faces, blackbody_temperature(most));
-  for (int step = 0; step < most_steps; ++step) {
-    Imbalance now = imbalance_at(kelvin, balance, bands);
-    for (Eigen::Index i = 0; i < faces; ++i)
-      if (!(now.slope(i, i) < 0)) {
-        now.slope.row(i).setZero();
-        now.slope(i, i) = -1;
-        now.power[i] = 0;
-      }
-    const Eigen::ArrayXd change = -now.slope.partialPivLu().solve(now.power).array();
-    const double hottest = kelvin.maxCoeff();
-    // A step down may not go below nothing.
-    kelvin = (kelvin + change).max(kelvin / 2).max(coldest * hottest);
-    if (change.abs().maxCoeff() <= settled * kelvin.maxCoeff()) break;
+  const Balancing balancing(balance, bands);
+  State now = balancing.first(), best = now;
+  double least = HUGE_VAL;
+  for (int step = 0; step < most_steps && least > settled; ++step) {
+    const double off = imbalance(now);
+    if (!(off < least) && least <= good_enough) break;
+    if (off < least) best = now;
+    least = std::min(least, off);
+    const Eigen::ArrayXd change = std::exp2(-step / whole_steps) * balancing.step_from(now);
+    now = balancing.at((now.power + change).max(least_kept * now.power), now.kelvin);
   }
-  const double nothing = 2 * coldest * kelvin.maxCoeff();
-  kelvin = (kelvin <= nothing).select(0, kelvin);
-  return (balance.emissivity.rowwise().maxCoeff() > 0).select(kelvin, NAN);
+  if (!(least <= good_enough)) best.kelvin.setConstant(NAN);
+  return (balance.emissivity.rowwise().maxCoeff() > 0).select(best.kelvin, NAN);
 }
 
 }  // namespace halfshade

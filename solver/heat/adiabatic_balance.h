@@ -17,9 +17,11 @@ struct AdiabaticBalance {
 };
 
 /// Temperatures in K at which each face absorbs as much as it sends out, over all bands together:
-/// Σ_k ε_k (H_k − e_k(T)) = 0, H linear in what the faces send out. By Newton's method: e_k grows
-/// ever faster with T, so that from above it only falls. NaN for faces that are black in no band at
-/// all, 0 where nothing arrives. Precondition: as blackbody_exitance. To rounding.
+/// y = Σ_k ε_k e_k(T) = Σ_k ε_k H_k, H linear in what the faces send out. By Newton's method for y:
+/// as a function of y each band's part is nearly straight, however steep it is in T, and T follows
+/// from y face by face. 0 where nothing arrives,
+/// or less than can be followed; NaN for faces that are black in no band at all, and where no
+/// temperature is found. Precondition: as blackbody_exitance. To rounding.
 Eigen::ArrayXd balanced_temperatures(const AdiabaticBalance& balance,
                                      const std::vector<Band>& bands);
 

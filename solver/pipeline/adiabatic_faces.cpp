@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/heat/adiabatic_balance.h"
+#include "solver/pipeline/fixed_temperatures.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,9 @@ namespace {
 
 /// Each takes a solution of its own.
 constexpr std::size_t most_faces = 2000;
+
+/// Of what space sends: beside it, less is rounding.
+constexpr double told_apart = 1e-9;
 
 /// Adds a copy of a material.
 int add_copy(int material, AdiabaticFaces& faces) {
@@ -63,6 +67,22 @@ std::vector<Eigen::MatrixXd> find_responses(const AdiabaticFaces& faces, const S
   return responses;
 }
 
+/// The first face whose temperature the bands do not tell: too little is sent out in them for
+/// numbers to hold, or to be found beside what space sends. −1: there is none.
+int first_untold(const AdiabaticBalance& balance, const Eigen::ArrayXd& kelvin, const Heat& heat) {
+  const Eigen::ArrayXd unseen = unseen_bands(heat);
+  for (Eigen::Index j = 0; j < kelvin.size(); ++j) {
+    const Eigen::ArrayXd emissivity = balance.emissivity.row(j).transpose();
+    if (!(emissivity > 0).any()) continue;
+    if (!(kelvin[j] >= 0)) return static_cast<int>(j);
+    const double sent = (emissivity * blackbody_exitance(kelvin[j], heat.bands)).sum();
+    if ((sent == 0 && (emissivity * unseen > 0).any()) ||
+        sent < told_apart * (emissivity * balance.rest).sum())
+      return static_cast<int>(j);
+  }
+  return -1;
+}
+
 }  // namespace
 
 AdiabaticFaces adiabatic_faces(const Scene& scene, const Heat& heat) {
@@ -71,26 +91,23 @@ AdiabaticFaces adiabatic_faces(const Scene& scene, const Heat& heat) {
     faces.original.push_back(static_cast<int>(m));
   for (std::size_t f = 0; f < scene.faces.size(); ++f) {
     const int material = scene.faces[f].material;
-    if (!heat.materials[at(material)].is_adiabatic) continue;
-    if (scene.materials[at(material)].two_sided)
-      throw Error(ErrorCode::invalid_input, scene.source,
-                  fmt::format("material '{}' is two-sided and has a net flux of 0 in {} bands; "
-                              "each side would have a temperature of its own, so give it two "
-                              "faces",
-                              scene.materials[at(material)].name, bands_of(heat)));
+    if (!is_balanced(heat, scene.materials, material)) continue;
     const bool is_mirror = (faces.materials.rho.row(material) == 1).all();
     faces.face.push_back(static_cast<int>(f));
     faces.material.push_back(is_mirror ? -1 : add_copy(material, faces));
     if (!is_mirror) faces.scene.faces[f].material = faces.material.back();
   }
   // No face has them any more; mirrors have no part in any light.
-  for (std::size_t m = 0; m < heat.materials.size(); ++m)
-    if (heat.materials[m].is_adiabatic) faces.materials.rho.row(static_cast<Eigen::Index>(m)) = 1;
+  for (int m = 0; m < static_cast<int>(heat.materials.size()); ++m)
+    if (is_balanced(heat, scene.materials, m)) faces.materials.rho.row(m) = 1;
   if (faces.face.size() > most_faces)
     throw Error(ErrorCode::invalid_input, scene.source,
-                fmt::format("{} faces have a net flux of 0 in {} bands, and each takes a solution "
-                            "of its own to find its temperature; at most {} can be",
-                            faces.face.size(), bands_of(heat), most_faces));
+                fmt::format("{} faces have a net flux of 0 in {}, and each takes a solution of its "
+                            "own to find its temperature; at most {} can be",
+                            faces.face.size(),
+                            bands_of(heat) > 1 ? fmt::format("{} bands", bands_of(heat))
+                                               : "all on two sides",
+                            most_faces));
   return faces;
 }
 
@@ -107,11 +124,15 @@ std::vector<double> find_temperatures(AdiabaticFaces& faces, const Heat& heat,
     balance.emissivity.row(j) = 1 - faces.materials.rho.row(material);
     faces.materials.exitance.row(material) = balance.emissivity.row(j) * space.transpose();
   }
-  balance.arriving =
-      irradiance_of(faces, solve_bands(faces.scene, faces.materials, space, solve)).rowwise() +
-      space.transpose();
+  const BandLight light = solve_bands(faces.scene, faces.materials, space, solve);
+  if (!light.result.interrupted)
+    require_fixed_temperatures(faces.scene, heat, faces.materials, faces.original,
+                               light.result.scene);
+  balance.arriving = irradiance_of(faces, light).rowwise() + space.transpose();
   balance.response = find_responses(faces, solve);
   const Eigen::ArrayXd kelvin = balanced_temperatures(balance, heat.bands);
+  const int untold = first_untold(balance, kelvin, heat);
+  if (untold >= 0) refuse_bands(faces.scene, faces.face[at(untold)]);
 
   std::vector<double> result(faces.scene.faces.size(), NAN);
   for (Eigen::Index j = 0; j < count; ++j) {

@@ -33,14 +33,15 @@ std::vector<Part> find_parts(const Eigen::ArrayXXd& more) {
   return parts;
 }
 
-/// With a single part all channels are alike, so that one is solved.
+/// With a single part all channels are alike, so that one is solved. With none any light will do,
+/// for all that is taken from it is its elements.
 Scene scene_of_parts(Scene scene, Parts parts, const BandMaterials& materials,
                      const Eigen::ArrayXXd& more) {
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     Material& material = scene.materials[m];
     const auto row = static_cast<Eigen::Index>(m);
     material.rho.setZero();
-    material.exitance.setZero();
+    material.exitance.setConstant(parts.empty() ? 1 : 0);
     for (std::size_t c = 0; c < most_channels && !parts.empty(); ++c) {
       if (c >= parts.size() && parts.size() > 1) break;
       const Part& part = parts[std::min(c, parts.size() - 1)];
@@ -175,12 +176,13 @@ BandLight solve_bands(const Scene& scene, const BandMaterials& materials,
       add_signed(pack, solved[k].direct.coefficients, light.direct_field);
     }
     add_reports(pack, solved[k].radiosity, light.reports);
-    error += solved[k].solution.error_estimate *
-             (bands > most_channels ? static_cast<double>(pack.size()) : 1.);
+    const double counts = bands > most_channels ? static_cast<double>(pack.size()) : 1.;
+    if (!pack.empty()) error += counts * solved[k].solution.error_estimate;
     if (k > 0) join_reports(solved[k], solved[0]);
   }
   light.both_signs = static_cast<Eigen::Index>(parts.size()) > bands;
   light.result = std::move(solved.front());
+  if (parts.empty()) light.result.not_reached.clear();
   light.result.solution.error_estimate = std::move(error);
   return light;
 }

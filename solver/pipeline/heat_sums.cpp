@@ -1,6 +1,7 @@
 #include "solver/pipeline/heat_sums.h"
 
 #include "meshing/core/error.h"
+#include "solver/heat/emission.h"
 
 #include <fmt/format.h>
 
@@ -14,6 +15,12 @@ int channels_of(const SolveResult& result) {
   return result.radiosity.channels == 1 ? 1 : 3;
 }
 
+double temperature_in_balance(double irradiance, const Heat& heat) {
+  if (heat.bands.empty() || !heat.bands[0].has_wavelengths)
+    return blackbody_temperature(std::max(0., irradiance));
+  return emission_temperature(irradiance, Eigen::ArrayXd::Ones(1), heat.bands);
+}
+
 Eigen::ArrayXd temperatures(const SolveResult& result, const ElementTable& elements,
                             const ChannelArray& irradiance) {
   Eigen::ArrayXd kelvin = Eigen::ArrayXd::Constant(irradiance.rows(), NAN);
@@ -22,11 +29,13 @@ Eigen::ArrayXd temperatures(const SolveResult& result, const ElementTable& eleme
   for (int e = 0; e < elements.count(); ++e) {
     const HeatMaterial& said = result.heat.materials[at(elements.material[at(e)])];
     if (said.temperature) kelvin[e] = *said.temperature;
+    if (!said.is_adiabatic) continue;
     // In one band what arrives is what leaves, and both are what a black body of that temperature
     // sends.
-    if (said.is_adiabatic)
-      kelvin[e] =
-          found.empty() ? blackbody_temperature(irradiance(e, 0)) : found[at(elements.face[at(e)])];
+    if (!is_balanced(result.heat, result.scene.materials, elements.material[at(e)]))
+      kelvin[e] = temperature_in_balance(irradiance(e, 0), result.heat);
+    else if (!found.empty())
+      kelvin[e] = found[at(elements.face[at(e)])];
   }
   return kelvin;
 }
@@ -94,7 +103,6 @@ HeatSums sum_heat(const SolveResult& result) {
   const Solution& solution = result.solution;
   const ElementTable& elements = result.elements;
   const Eigen::ArrayXd kelvin = temperatures(result, elements, solution.irradiance);
-  const bool is_balanced = !result.found_heat.face_temperature.empty();
   for (int e = 0; e < elements.count(); ++e) {
     GroupHeat& group = sums.groups[at(elements.group[at(e)])];
     const double area = square * elements.area[at(e)];
@@ -102,8 +110,7 @@ HeatSums sum_heat(const SolveResult& result) {
     group.net_power += area * net_flux(result, e);
     const bool is_adiabatic = !result.heat.materials.empty() &&
                               result.heat.materials[at(elements.material[at(e)])].is_adiabatic;
-    const double black =
-        is_balanced ? stefan_boltzmann * std::pow(kelvin[e], 4) : double{solution.irradiance(e, 0)};
+    const double black = stefan_boltzmann * std::pow(kelvin[e], 4);
     states[at(elements.group[at(e)])].add(area, black, is_adiabatic, kelvin[e]);
   }
   for (std::size_t g = 0; g < states.size(); ++g)

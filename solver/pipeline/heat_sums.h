@@ -11,6 +11,9 @@ namespace halfshade {
 /// How many channels of a result mean something: 1 if all are alike, else bands or colours.
 int channels_of(const SolveResult& result);
 
+/// Of adiabatic surfaces in one band with this irradiance, W/m²; K.
+double temperature_in_balance(double irradiance, const Heat& heat);
+
 /// Temperatures in K of elements of the result, or parts of them, with this irradiance (W/m²): as
 /// given, or found where the net flux is; NaN where there is none.
 Eigen::ArrayXd temperatures(const SolveResult& result, const ElementTable& elements,

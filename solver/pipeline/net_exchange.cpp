@@ -2,7 +2,10 @@
 
 #include "meshing/core/error.h"
 #include "solver/pipeline/adiabatic_faces.h"
+#include "solver/pipeline/fixed_temperatures.h"
+#include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/result_error.h"
+#include "solver/pipeline/seen_backs.h"
 
 #include <fmt/format.h>
 
@@ -155,33 +158,67 @@ SolveResult assembled(BandLight light, const BandMaterials& materials, const Eig
   return result;
 }
 
-}  // namespace
+bool has_adiabatic(const Heat& heat) {
+  return std::any_of(heat.materials.begin(), heat.materials.end(),
+                     [](const HeatMaterial& said) { return said.is_adiabatic; });
+}
 
-SolveResult solve_net_exchange(const Scene& scene, const Heat& heat, const SceneSolver& solve) {
-  const bool balances = balances_bands(heat);
-  if (!has_surroundings(heat) && bands_of(heat) <= most_channels && !balances) {
-    SolveResult result = solve(scene);
-    result.heat = heat;
-    return result;
+/// Fails where an adiabatic temperature in one band does not follow from the irradiance.
+void require_found(const Scene& scene, const Heat& heat, const SolveResult& result) {
+  const bool is_unseen = bands_of(heat) == 1 && unseen_bands(heat)[0] > 0;
+  for (int e = 0; e < result.elements.count(); ++e) {
+    const int material = result.elements.material[at(e)];
+    if (!heat.materials[at(material)].is_adiabatic || is_balanced(heat, scene.materials, material))
+      continue;
+    const double irradiance = result.solution.irradiance(e, 0);
+    if ((is_unseen && irradiance < weakest_part) ||
+        std::isnan(temperature_in_balance(irradiance, heat)))
+      refuse_bands(scene, result.elements.face[at(e)]);
   }
+}
+
+/// With all materials as the scene has them.
+SolveResult solve_without_balance(const Scene& scene, const Heat& heat, const Eigen::ArrayXd& space,
+                                  const SceneSolver& solve) {
+  const BandMaterials materials = band_materials(scene, heat);
+  SolveResult result;
+  if (has_surroundings(heat) || bands_of(heat) > most_channels) {
+    result = assembled(solve_bands(scene, materials, space, solve), materials, space, heat);
+    restore_materials(scene, {}, result);
+  } else {
+    result = solve(scene);
+    result.heat = heat;
+  }
+  if (result.interrupted || !has_adiabatic(heat)) return result;
+  require_fixed_temperatures(scene, heat, materials, {}, result.scene);
+  require_found(scene, heat, result);
+  return result;
+}
+
+/// Without a word on how it went.
+SolveResult solve_heat(const Scene& scene, const Heat& heat, const SceneSolver& solve) {
   Eigen::ArrayXd space = Eigen::ArrayXd::Zero(bands_of(heat));
   if (has_surroundings(heat)) {
     require_known_space(scene, heat);
     space = blackbody_exitance(*heat.surroundings, heat.bands);
   }
-  if (!balances) {
-    const BandMaterials materials = band_materials(scene, heat);
-    SolveResult result =
-        assembled(solve_bands(scene, materials, space, solve), materials, space, heat);
-    restore_materials(scene, {}, result);
-    return result;
-  }
+  if (!balances_faces(heat, scene.materials))
+    return solve_without_balance(scene, heat, space, solve);
   AdiabaticFaces faces = adiabatic_faces(scene, heat);
   std::vector<double> kelvin = find_temperatures(faces, heat, space, solve);
   SolveResult result = assembled(solve_bands(faces.scene, faces.materials, space, solve),
                                  faces.materials, space, heat);
   result.found_heat.face_temperature = std::move(kelvin);
   restore_materials(scene, faces.original, result);
+  if (!result.interrupted) require_found(scene, heat, result);
+  return result;
+}
+
+}  // namespace
+
+SolveResult solve_net_exchange(const Scene& scene, const Heat& heat, const SceneSolver& solve) {
+  SolveResult result = solve_heat(scene, heat, solve);
+  if (heat.is_given) add(back_warnings(result.scene, heat), result.warnings);
   return result;
 }
 

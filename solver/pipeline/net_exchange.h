@@ -11,11 +11,13 @@ namespace halfshade {
 /// solution: exactly, for the equation is linear. Bands and their parts go through `solve` three at
 /// a time, on elements that all of them share. With more than three bands the channels of the
 /// result are their sum, and the solution has each band beside. Adiabatic faces in several bands
-/// have the temperatures at which they absorb what they send out, see find_temperatures.
+/// or on two sides have the temperatures at which they absorb what they send out, see
+/// find_temperatures.
 ///
 /// With surroundings, `direct_irradiance` is what comes straight from E′, not from E, and power
-/// that escapes is what space gets net. Throws as `solve`, solve_bands and find_temperatures do,
-/// and Error(invalid_input) where it is not known what the surroundings send in each channel.
+/// that escapes is what space gets net. Throws as `solve`, solve_bands, find_temperatures and
+/// require_fixed_temperatures do, and Error(invalid_input) where it is not known what the
+/// surroundings send in each channel, or a band holds too little to tell an adiabatic temperature.
 SolveResult solve_net_exchange(const Scene& scene, const Heat& heat, const SceneSolver& solve);
 
 }  // namespace halfshade

@@ -2,6 +2,8 @@
 
 #include "meshing/core/plane_frame.h"
 #include "meshing/repair/repair_sentence.h"
+#include "solver/pipeline/first_few.h"
+#include "solver/pipeline/weak_lights.h"
 
 #include <fmt/format.h>
 
@@ -14,13 +16,11 @@ namespace {
 
 /// Of the emitted power; beyond it nearly all is lost.
 constexpr double nearly_all = 0.99;
-/// Of the emitted power; where so much reaches surfaces, what leaves is what they reflect.
+/// Of the emitted power; where so much reaches surfaces, what leaves is what they reflect, and they
+/// look the right way.
 constexpr double clearly_arriving = 0.1;
 /// Relative to a face's size or area: what moved by less counts as rounding.
 constexpr double noticeable = 1e-3;
-
-/// Meshes hit the number of elements asked for no better than so.
-constexpr double noticeable_excess = 0.25;
 
 /// In the order of CurveKind, as --events has them.
 constexpr std::array<const char*, curve_kinds> kind_names = {"contact", "face", "ev", "eee",
@@ -63,9 +63,11 @@ bool matters(const Scene& scene, const Repair& repair) {
 
 bool is_unlit(const LightOutcome& outcome) { return (outcome.solution.irradiance == 0).all(); }
 
-/// Groups without any light on them, those that are nothing but lamps left out.
+/// Groups without any light on them, those that are nothing but lamps left out. None where light is
+/// too weak to be found.
 std::vector<std::string> dark_groups(const LightOutcome& outcome) {
   const SoundScene& scene = outcome.scene;
+  if (!weak_lights(scene, outcome.elements, outcome.solution).empty()) return {};
   std::vector<char> is_lit(scene.groups.size()), receives(scene.groups.size());
   for (int e = 0; e < outcome.elements.count(); ++e) {
     const std::size_t group = at(outcome.elements.group[at(e)]);
@@ -79,13 +81,30 @@ std::vector<std::string> dark_groups(const LightOutcome& outcome) {
   return names;
 }
 
-double escaping_share(const RadiosityReport& report) {
-  double emitted = 0, escaped = 0;
+/// Shares of what is emitted.
+struct EmittedShares {
+  double escaped = 0, absorbed = 0;
+};
+
+EmittedShares shares_of(const RadiosityReport& report) {
+  double emitted = 0;
+  EmittedShares shares;
   for (const ChannelReport& channel : report.channel) {
     emitted += channel.emitted_power;
-    escaped += channel.escaped_power;
+    shares.escaped += channel.escaped_power;
+    shares.absorbed += channel.absorbed_power;
   }
-  return emitted > 0 ? escaped / emitted : 0;
+  if (!(emitted > 0)) return {};
+  return {shares.escaped / emitted, shares.absorbed / emitted};
+}
+
+/// All but a small share, in words that do not say 100 % of what is less.
+std::string nearly_all_but(double share) {
+  constexpr double readable = 1e-6;
+  if (!(share > 0)) return "all of the light";
+  if (share < readable) return fmt::format("all but {:.2g} of the light", share);
+  const int digits = std::max(2, static_cast<int>(std::ceil(-std::log10(100 * share))));
+  return fmt::format("{:.{}f} % of the light", 100 * (1 - share), digits);
 }
 
 /// What arrives at surfaces of what is emitted; light that is reflected arrives more than once.
@@ -95,6 +114,20 @@ double arriving_share(const LightOutcome& outcome) {
   for (int e = 0; e < outcome.elements.count(); ++e)
     arriving += outcome.elements.area[at(e)] * outcome.solution.irradiance.row(e).sum();
   return emitted > 0 ? arriving / emitted : 0;
+}
+
+/// Of light that is neither absorbed nor, in good part, lost by factors that are off. Light of a
+/// number of bounces is not all absorbed where nothing gets out, either: what arrives tells then.
+/// Advice only where it may help: what is reflected before it leaves did meet the right side.
+std::vector<Warning> escape_warnings(const LightOutcome& outcome) {
+  constexpr double mostly = 0.5;
+  const EmittedShares shares = shares_of(outcome.radiosity);
+  const bool arrives = arriving_share(outcome) >= clearly_arriving;
+  if (!(shares.escaped > mostly && shares.absorbed < 1 - nearly_all)) return {};
+  if (arrives && outcome.bounces >= 0) return {};
+  const std::string text = fmt::format("{} leaves the scene or is swallowed by backs of surfaces",
+                                       nearly_all_but(shares.absorbed));
+  return {{Warning::Kind::light_escapes, arrives ? text : fmt::format("{}; {}", text, way_out)}};
 }
 
 /// What makes form factors better.
@@ -132,6 +165,8 @@ const char* name_of(Warning::Kind kind) {
       return "elements_exceeded";
     case Warning::Kind::exchange_estimated:
       return "exchange_estimated";
+    case Warning::Kind::backs_exchange:
+      return "backs_exchange";
     case Warning::Kind::lost_by_factors:
       return "lost_by_factors";
   }
@@ -183,16 +218,16 @@ std::vector<Warning> search_warnings(const DiscontinuityReport& report, double t
 
 std::vector<Warning> mesh_warnings(const MeshOutcome& outcome) {
   std::vector<Warning> warnings;
-  if (outcome.asked_elements > 0 &&
-      outcome.plain_elements > (1 + noticeable_excess) * outcome.asked_elements) {
+  if (outcome.asked_elements > 0 && outcome.plain_elements > outcome.asked_elements) {
     std::size_t contacts = 0;
     for (const Surface& surface : outcome.scene.surfaces) contacts += surface.contacts.size();
     warnings.push_back(
         {Warning::Kind::elements_exceeded,
          fmt::format("the {} surfaces and {} contact lines alone take {} elements, more than the "
-                     "{} asked for with --elements",
+                     "{} asked for with --elements{}",
                      outcome.scene.surfaces.size(), contacts, outcome.plain_elements,
-                     outcome.asked_elements)});
+                     outcome.asked_elements,
+                     outcome.is_searched ? "" : ", so that no curves are looked for")});
   }
   if (outcome.tolerance > outcome.asked_tolerance)
     warnings.push_back(
@@ -217,19 +252,16 @@ std::vector<Warning> exchange_warnings(const ExchangeReport& report) {
 
 std::vector<Warning> light_warnings(const LightOutcome& outcome) {
   std::vector<Warning> warnings;
-  const double escaping = escaping_share(outcome.radiosity);
   const std::vector<std::string> dark = dark_groups(outcome);
   if (is_unlit(outcome))
     warnings.push_back(
         {Warning::Kind::nothing_lit, fmt::format("no light reaches any surface; {}", way_out)});
-  else if (escaping > nearly_all && arriving_share(outcome) < clearly_arriving)
-    warnings.push_back(
-        {Warning::Kind::light_escapes,
-         fmt::format("{:.4g} % of the light leaves the scene; {}", 100 * escaping, way_out)});
+  else
+    add(escape_warnings(outcome), warnings);
   if (!is_unlit(outcome) && !dark.empty())
     warnings.push_back({Warning::Kind::dark_groups,
                         fmt::format("no light reaches the group{} {}; {}",
-                                    dark.size() == 1 ? "" : "s", fmt::join(dark, ", "), way_out)});
+                                    dark.size() == 1 ? "" : "s", first_few(dark), way_out)});
   if (outcome.exchange.unfinished > 0)
     warnings.push_back(
         {Warning::Kind::lost_by_factors,

@@ -24,6 +24,7 @@ struct Warning {
     tolerance_raised,    ///< curves above the tolerance were left out of the mesh
     elements_exceeded,   ///< the geometry takes more elements than asked for
     exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
+    backs_exchange,      ///< surfaces exchange heat with backs in closed parts of space
     lost_by_factors      ///< light gets lost in a closed space, for factors are off
   };
   Kind kind;
@@ -46,6 +47,7 @@ struct LightOutcome {
   const Solution& solution;
   const ExchangeReport& exchange;
   const RadiosityReport& radiosity;
+  int bounces = -1;  ///< after which light was not followed; −1: it was to the end
 };
 
 /// Of contact lines that would take more elements than allowed, by an option or not.
@@ -61,6 +63,7 @@ struct MeshOutcome {
   int plain_elements;                 ///< without any curves
   int asked_elements;                 ///< 0: a length was asked for
   double tolerance, asked_tolerance;  ///< shares of the mean irradiance
+  bool is_searched = true;            ///< for curves, if there may be any
 };
 
 std::vector<Warning> mesh_warnings(const MeshOutcome& outcome);

@@ -3,6 +3,8 @@
 #include "tests/support/furnace.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -78,6 +80,60 @@ TEST_F(NetExchangeOfBands, OfARadiatingWallInSeveralBandsBalancesTheirSum) {
       EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
       expect_balance(net, box.balances(wall, space));
     }
+}
+
+// Bands may hold next to nothing of the spectrum.
+TEST_F(NetExchangeOfBands, OfARadiatingWallBalancesNarrowAndDistantBands) {
+  save_factors(furnace);
+  const std::pair<std::array<double, 4>, double> all[] = {
+      {{.4, .5, .5, .7}, 300}, {{3, 3.0001, 10, 10.001}, 300}, {{3, 3.1, 1e3, HUGE_VAL}, 1200}};
+  for (const auto& [limits, space] : all) {
+    SCOPED_TRACE(testing::Message() << limits[0] << " µm on");
+    BandedFurnace box = banded_furnace(2);
+    for (std::size_t k = 0; k < 2; ++k) {
+      box.bands[k].shortest = limits[2 * k];
+      box.bands[k].longest = limits[2 * k + 1];
+    }
+    const double wall = box.adiabatic_wall(space);
+    const auto heat = folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
+    const Json net = exchange({"--factors", "f.mtx", "--surroundings", std::to_string(space),
+                               "--materials", heat.string()})
+                         .at("net_exchange");
+    EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
+    expect_balance(net, box.balances(wall, space));
+  }
+}
+
+// What arrives in a band is what a black body sends in it, not in all.
+TEST_F(NetExchangeOfBands, OfARadiatingWallInAPartOfTheSpectrumIsAsHotAsThat) {
+  save_factors(furnace);
+  BandedFurnace box = banded_furnace(2);
+  box.bands = {{"window", true, 3, 5}};
+  box.emissivity.conservativeResize(Eigen::NoChange, 1);
+  const double wall = box.adiabatic_wall(300);
+  const auto heat = folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
+  const Json net =
+      exchange({"--factors", "f.mtx", "--surroundings", "300", "--materials", heat.string()})
+          .at("net_exchange");
+  EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
+}
+
+TEST_F(NetExchangeOfBands, SaysWhereTheyTellNoTemperature) {
+  save_factors(furnace);
+  for (const std::size_t count : {1U, 2U}) {
+    BandedFurnace box = banded_furnace(2);
+    box.bands = {{"ultraviolet", true, .3, .4}, {"visible", true, .4, .7}};
+    box.bands.resize(count);
+    box.emissivity.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(count));
+    box.kelvin << 4, 3, 4, 5, 0;
+    folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
+    const test::Outcome outcome = run({"solve", furnace, "--factors", "f.mtx", "--surroundings",
+                                       "3", "--materials", "heat.json", "-o", "r.vtu"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("of material 'y_high"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("too little arrives there in the bands"), std::string::npos);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
 }
 
 // In one band the temperature needs no emissivity, and is the same as in bands of the same one.

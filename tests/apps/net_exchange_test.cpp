@@ -144,6 +144,129 @@ TEST_F(NetExchange, WithSurroundingsOfTheSameTemperatureIsNothing) {
   EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), 800, 1e-9);
 }
 
+/// The furnace under a lid; materials beside it say what it is.
+class LiddedFurnace : public NetExchange {
+ protected:
+  void SetUp() override {
+    folder_.write("lidded.obj", test::contents(furnace) + "\ng lid\nusemtl lid\nf 8 7 6 5\n");
+    const auto mtl = test::data_file("thermal_furnace.mtl");
+    folder_.write("thermal_furnace.mtl", test::contents(mtl) + "\nnewmtl lid\n");
+    folder_.write("lidded.json", R"({"unit": "mm"})");
+  }
+
+  Json exchange_under(const std::string& lid, const std::string& kelvin,
+                      std::vector<std::string> options) {
+    folder_.write("heat.json", lid);
+    options.insert(options.end(), {"--materials", "heat.json", "--surroundings", kelvin});
+    return exchange(options, "lidded.obj").at("net_exchange");
+  }
+};
+
+// A plate has one temperature and sends it out on both sides: e = (H + H') / 2, where H' is what
+// comes from outside. So its inner side has B = (1 - eps / 2) H + eps H' / 2.
+TEST_F(LiddedFurnace, OfTwoSidesHasATemperatureThatBothSidesBalance) {
+  folder_.write("heat.json", R"({"lid": {"emissivity": 0.3, "two_sided": true}})");
+  ASSERT_EQ(run({"factors", "lidded.obj", "-q", "--by", "face", "--tolerance", "1e-8", "-o",
+                 "f.mtx", "--materials", "heat.json"})
+                .exit_code,
+            0);
+  for (const double kelvin : {0., 400.}) {
+    using Vector6 = Eigen::Matrix<double, 6, 1>;
+    const Eigen::Matrix<double, 6, 6> F = make_furnace().factors;
+    const Vector6 rho{.2, .4, .1, .5, 1, .85};
+    const Vector6 exitance{
+        .8 * black(900),    .6 * black(700), .9 * black(500), .5 * black(1100), 0,
+        .15 * black(kelvin)};
+    const Eigen::Matrix<double, 6, 6> equations =
+        Eigen::Matrix<double, 6, 6>::Identity() - rho.asDiagonal() * F;
+    const Vector6 radiosity = equations.partialPivLu().solve(exitance);
+    const Vector6 irradiance = F * radiosity;
+    const double lid = std::pow((irradiance[5] + black(kelvin)) / 2 / stefan_boltzmann, .25);
+    const std::string one = R"({"lid": {"emissivity": 0.3, "two_sided": true, "net_flux": 0}})";
+    const Json net = exchange_under(one, std::to_string(kelvin), {"--factors", "f.mtx"});
+    EXPECT_NEAR(net.at("groups").at(5).at("temperature_k").get<double>(), lid, 1e-6);
+    EXPECT_NEAR(net.at("groups").at(5).at("net_power_w").at(0).get<double>(), 0, 1e-6);
+    EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(),
+                std::pow(irradiance[4] / stefan_boltzmann, .25), 1e-6);
+    EXPECT_NEAR(net.at("groups").at(0).at("net_power_w").at(0).get<double>(),
+                2 * (radiosity[0] - irradiance[0]), 1e-3);
+    EXPECT_NEAR(net.at("surroundings_net_power_w").at(0).get<double>(),
+                .6 * (black(kelvin) - black(lid)), 1e-3);
+  }
+}
+
+// In bands of the same emissivity it is the same, and by any method.
+TEST_F(LiddedFurnace, OfTwoSidesIsTheSameInBandsAndByPolynomials) {
+  const std::string one = R"({"lid": {"emissivity": 1, "two_sided": true, "net_flux": 0}})";
+  folder_.write("black.json", R"({
+    "bands": [{"name": "near", "wavelengths_um": [0, 4]}, {"name": "far", "wavelengths_um": [4, null]}],
+    "floor": {"emissivity": 1, "temperature": 900}, "x_low": {"emissivity": 1, "temperature": 700},
+    "x_high": {"emissivity": 1, "temperature": 500}, "y_low": {"emissivity": 1, "temperature": 1100},
+    "y_high": {"emissivity": 1, "temperature": 800},
+    "lid": {"emissivity": 1, "two_sided": true, "net_flux": 0}})");
+  const std::string bands = test::contents(folder_.path() / "black.json");
+  Json grey = Json::parse(bands);
+  grey.erase("bands");
+  const Eigen::Matrix<double, 6, 6> F = make_furnace().factors;
+  double arriving = 0;
+  const double kelvin[] = {900, 700, 500, 1100, 800};
+  for (int i = 0; i < 5; ++i) arriving += F(5, i) * black(kelvin[i]);
+  const double lid = std::pow((arriving + black(400)) / 2 / stefan_boltzmann, .25);
+  for (const std::string& materials : {grey.dump(), bands}) {
+    const Json net = exchange_under(materials, "400", {"--tolerance", "1e-2"});
+    EXPECT_NEAR(net.at("groups").at(5).at("temperature_k").get<double>(), lid, 1e-3 * lid);
+  }
+}
+
+TEST_F(LiddedFurnace, SaysWhatNothingFixes) {
+  Json all;
+  for (const char* const name : {"floor", "x_low", "x_high", "y_low", "y_high", "lid"})
+    all[name] = {{"net_flux", 0}};
+  folder_.write("closed.json", all.dump());
+  Json two = all;
+  for (Json& one : two) one["emissivity"] = {0.5, 0.3};
+  two["bands"] = Json::parse(
+      R"([{"name": "a", "wavelengths_um": [0, 3]}, {"name": "b", "wavelengths_um": [3, null]}])");
+  folder_.write("bands.json", two.dump());
+  Json cold = all;
+  cold["lid"] = {{"temperature", 0}};
+  folder_.write("cold.json", cold.dump());
+  all["lid"]["two_sided"] = true;
+  folder_.write("sides.json", all.dump());
+  save_factors("lidded.obj", "1e-4");
+  struct Wrong {
+    std::vector<std::string> options;
+    std::string says;
+  };
+  const std::string nothing = "has a net flux of 0, and so has all that it exchanges heat with";
+  const std::vector<Wrong> wrong = {
+      {{"--materials", "closed.json", "--surroundings", "300"}, nothing},
+      {{"--materials", "closed.json", "--surroundings", "300", "--factors", "f.mtx"}, nothing},
+      {{"--materials", "bands.json", "--surroundings", "300", "--factors", "f.mtx"}, nothing},
+      {{"--materials", "closed.json"}, "'temperature'"},
+      {{"--materials", "cold.json", "--factors", "f.mtx"}, "--surroundings"},
+      {{"--materials", "bands.json"}, "no face sends out heat"},
+      {{"--materials", "sides.json", "--surroundings", "300"}, "faces have two sides"}};
+  for (const Wrong& one : wrong) {
+    std::vector<std::string> arguments = {"solve", "lidded.obj", "-o", "r.vtu"};
+    arguments.insert(arguments.end(), one.options.begin(), one.options.end());
+    const test::Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 3) << testing::PrintToString(arguments);
+    EXPECT_NE(outcome.err.find(one.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+// What is as warm as its surroundings sends out nothing more than they do.
+TEST_F(LiddedFurnace, IsInEquilibriumByPolynomials) {
+  Json all;
+  for (const char* const name : {"floor", "x_low", "x_high", "y_low", "lid"})
+    all[name] = {{"temperature", 800}, {"emissivity", 0.5}};
+  const Json net = exchange_under(all.dump(), "800", {});
+  for (const Json& group : net.at("groups"))
+    EXPECT_NEAR(group.at("net_power_w").at(0).get<double>(), 0, 1e-9);
+}
+
 TEST_F(NetExchange, SumsOfASavedMatrixAreItsGroups) {
   save_factors(furnace, "1e-6");
   const test::Outcome outcome =

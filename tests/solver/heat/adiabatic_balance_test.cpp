@@ -11,7 +11,8 @@ const std::vector<Band> four = {
     {"a", true, 0, 2}, {"b", true, 2, 5}, {"c", true, 5, 12}, {"d", true, 12, HUGE_VAL}};
 
 /// What is absorbed less what is sent out, as the header has it.
-Eigen::ArrayXd imbalance(const AdiabaticBalance& balance, const Eigen::ArrayXd& kelvin) {
+Eigen::ArrayXd imbalance(const AdiabaticBalance& balance, const Eigen::ArrayXd& kelvin,
+                         const std::vector<Band>& bands = four) {
   Eigen::ArrayXd result = Eigen::ArrayXd::Zero(kelvin.size());
   for (Eigen::Index i = 0; i < kelvin.size(); ++i)
     for (Eigen::Index k = 0; k < balance.rest.size(); ++k) {
@@ -19,8 +20,9 @@ Eigen::ArrayXd imbalance(const AdiabaticBalance& balance, const Eigen::ArrayXd& 
       for (Eigen::Index j = 0; j < kelvin.size(); ++j)
         irradiance += balance.response[static_cast<std::size_t>(k)](i, j) *
                       balance.emissivity(j, k) *
-                      (blackbody_exitance(kelvin[j], four)[k] - balance.rest[k]);
-      result[i] += balance.emissivity(i, k) * (irradiance - blackbody_exitance(kelvin[i], four)[k]);
+                      (blackbody_exitance(kelvin[j], bands)[k] - balance.rest[k]);
+      result[i] +=
+          balance.emissivity(i, k) * (irradiance - blackbody_exitance(kelvin[i], bands)[k]);
     }
   return result;
 }
@@ -51,6 +53,56 @@ TEST(AdiabaticBalance, HoldsAtWhatIsFound) {
     EXPECT_LT(imbalance(balance, kelvin).abs().maxCoeff(), 1e-12 * sent) << round;
     EXPECT_GT(kelvin.minCoeff(), 0);
   }
+}
+
+/// Faces of as much area each in a white cavity, of which a share of lamps is let in and as much
+/// let out: as hot as the lamps are, if they are all as hot.
+AdiabaticBalance random_balance(test::Random& random, const std::vector<Band>& bands,
+                                Eigen::Index faces, double coldest, double hottest, double share) {
+  const auto count = static_cast<Eigen::Index>(bands.size());
+  AdiabaticBalance balance;
+  balance.rest = Eigen::ArrayXd::Zero(count);
+  balance.emissivity.resize(faces, count);
+  balance.arriving.resize(faces, count);
+  for (Eigen::Index i = 0; i < faces; ++i) {
+    const double kelvin = coldest * std::pow(hottest / coldest, random(0, 1));
+    balance.arriving.row(i) = share * blackbody_exitance(kelvin, bands).transpose();
+    for (Eigen::Index k = 0; k < count; ++k) balance.emissivity(i, k) = std::pow(10, random(-2, 0));
+  }
+  for (Eigen::Index k = 0; k < count; ++k)
+    balance.response.push_back(
+        Eigen::MatrixXd::Constant(faces, faces, (1 - share) / balance.emissivity.col(k).sum()));
+  return balance;
+}
+
+// Each face to its own power, not to that of the brightest.
+TEST(AdiabaticBalance, HoldsInBandsThatHoldLittle) {
+  const auto two = [](double a, double b, double c, double d) {
+    return std::vector<Band>{{"a", true, a, b}, {"b", true, c, d}};
+  };
+  test::Random random(7);
+  for (const std::vector<Band>& bands :
+       {two(.4, .5, .5, .7), two(3, 3.0001, 10, 10.001), two(0, 1, 1e5, HUGE_VAL),
+        two(.2, .3, 50, 50.01), two(1e3, 1e4, 1e5, 1e6)})
+    for (const double scale : {1., 100.})
+      for (const double share : {.5, 1e-2, 1e-5})
+        for (const Eigen::Index faces : {1, 2, 7, 20}) {
+          SCOPED_TRACE(testing::Message() << bands[0].shortest << " µm on, " << scale << ", "
+                                          << share << ", " << faces << " faces");
+          const double coldest = 200 * scale, hottest = 6000 * scale;
+          const AdiabaticBalance balance =
+              random_balance(random, bands, faces, coldest, hottest, share);
+          const Eigen::ArrayXd kelvin = balanced_temperatures(balance, bands);
+          const Eigen::ArrayXd off = imbalance(balance, kelvin, bands);
+          for (Eigen::Index i = 0; i < faces; ++i) {
+            EXPECT_GT(kelvin[i], coldest * .9999);
+            EXPECT_LT(kelvin[i], hottest * 1.0001);
+            double sent = 0;
+            for (Eigen::Index k = 0; k < 2; ++k)
+              sent += balance.emissivity(i, k) * blackbody_exitance(kelvin[i], bands)[k];
+            EXPECT_LT(std::abs(off[i]), 1e-11 * sent) << i;
+          }
+        }
 }
 
 TEST(AdiabaticBalance, OfNothingIsCold) {

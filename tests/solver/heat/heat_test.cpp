@@ -1,5 +1,7 @@
 #include "solver/heat/heat.h"
 
+#include "tests/support/expect_error.h"
+
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -60,6 +62,39 @@ TEST(Heat, BandsAreChannelsAsFarAsTheyGo) {
   EXPECT_TRUE((to_channels(Eigen::Array2d(4, 5), 9) == Rgb(4, 5, 0)).all());
   EXPECT_TRUE((to_channels(Eigen::Array3d(4, 5, 6), 9) == Rgb(4, 5, 6)).all());
   EXPECT_TRUE((to_channels(Eigen::Array4d(4, 5, 6, 7), 9) == Rgb(9, 9, 9)).all());
+}
+
+TEST(Heat, IsBalancedOverBandsAndOverSides) {
+  std::vector<Material> materials(2);
+  materials[1].two_sided = true;
+  Heat heat;
+  EXPECT_FALSE(balances_faces(heat, materials));
+  heat.materials.resize(2);
+  EXPECT_FALSE(balances_faces(heat, materials));
+  heat.materials[0].is_adiabatic = true;
+  EXPECT_FALSE(balances_faces(heat, materials));
+  heat.materials[1].is_adiabatic = true;
+  EXPECT_FALSE(is_balanced(heat, materials, 0));
+  EXPECT_TRUE(is_balanced(heat, materials, 1));
+  heat.bands = {{"near", true, 0, 3}, {"far", true, 3, HUGE_VAL}};
+  EXPECT_TRUE(is_balanced(heat, materials, 0));
+}
+
+TEST(Heat, HasToComeFromSomewhere) {
+  Scene scene;
+  scene.source = "cold.obj";
+  scene.materials.resize(1);
+  scene.faces.push_back({{0, 1, 2}, 0, 0});
+  Heat heat;
+  test::expect_error([&] { require_heat(scene, heat); }, ErrorCode::invalid_input,
+                     {"cold.obj", "'temperature'", "--surroundings"});
+  heat.surroundings = 0;
+  EXPECT_THROW(require_heat(scene, heat), Error);
+  heat.surroundings = 3;
+  EXPECT_NO_THROW(require_heat(scene, heat));
+  heat.surroundings.reset();
+  scene.materials[0].exitance.setOnes();
+  EXPECT_NO_THROW(require_heat(scene, heat));
 }
 
 TEST(Heat, UnitsOfLengthAreKnownByNameAndSign) {

@@ -111,11 +111,12 @@ void require_three_channels(const SceneFile& file, const char* command) {
                 fmt::format("the materials have {} bands, and {} knows at most {}; solve knows any "
                             "number",
                             bands, command, most_channels));
-  if (balances_bands(file.heat))
-    throw Error(ErrorCode::invalid_input, file.scene.source,
-                fmt::format("a material has a net flux of 0 in {} bands, so that its temperature "
-                            "has to be found; solve does that, {} does not",
-                            bands, command));
+  if (balances_faces(file.heat, file.scene.materials))
+    throw Error(
+        ErrorCode::invalid_input, file.scene.source,
+        fmt::format("a material has a net flux of 0 {}, so that its temperature has to be "
+                    "found; solve does that, {} does not",
+                    bands > 1 ? fmt::format("in {} bands", bands) : "on two sides", command));
 }
 
 }  // namespace halfshade

@@ -18,7 +18,14 @@ CLI::Validator not_empty() {
           ""};
 }
 
-/// What stands between the commas, also where that is nothing.
+/// Which of some words this is, whatever its letters' case; their number if it is none.
+std::size_t place_of(const std::string& word, const std::vector<std::string>& words) {
+  const auto found = std::find(words.begin(), words.end(), CLI::detail::to_lower(word));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+}  // namespace
+
 std::vector<std::string> items(const std::vector<std::string>& lists) {
   std::vector<std::string> result;
   for (const std::string& list : lists) {
@@ -31,14 +38,6 @@ std::vector<std::string> items(const std::vector<std::string>& lists) {
   }
   return result;
 }
-
-/// Which of some words this is, whatever its letters' case; their number if it is none.
-std::size_t place_of(const std::string& word, const std::vector<std::string>& words) {
-  const auto found = std::find(words.begin(), words.end(), CLI::detail::to_lower(word));
-  return static_cast<std::size_t>(found - words.begin());
-}
-
-}  // namespace
 
 void add_common(CLI::App& app, CommonOptions& common) {
   app.add_flag("-q,--quiet", common.quiet, "Print errors only");

@@ -50,6 +50,9 @@ void add_solve_method(CLI::App& app, SolveOptions& options);
 void add_factors_by(CLI::App& app, ExchangeOptions& options,
                     std::filesystem::path* saved = nullptr);
 
+/// What stands between the commas of lists, also where that is nothing.
+std::vector<std::string> items(const std::vector<std::string>& lists);
+
 /// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                        const char* help);

@@ -3,7 +3,6 @@
 #include "apps/run_end.h"
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
-#include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
@@ -73,9 +72,7 @@ void print_curves(const Discontinuities& found, std::FILE* out) {
 void print_summary(const MeshResult& result, bool with_elements, const Context& context) {
   std::FILE* out = context.summary;
   const bool verbose = context.common.verbose;
-  if (verbose)
-    for (const Repair& repair : result.scene.repairs)
-      fmt::print(out, "repair       {}\n", sentence(repair, result.scene));
+  print_repairs(result.scene, context);
   fmt::print(out, "surfaces     {}\n", result.scene.surfaces.size());
   print_curves(result.found, out);
   if (with_elements) {

@@ -82,9 +82,18 @@ CLI::Option* add_not_negative(CLI::App& app, const char* name, double& value, co
 CLI::Option* add_positives(CLI::App& app, const char* name, std::vector<double>& values,
                            const char* help) {
   const auto is_good = [](double v) { return v > 0 && std::isfinite(v); };
-  return app.add_option(name, values, help)
-      ->delimiter(',')
-      ->check(check<double>("a number above zero", is_good))
+  // A delimiter of CLI11 would leave empty items out, and whoever forgot one would not notice.
+  const auto check_all = [one = check<double>("a number above zero", is_good)](std::string& list) {
+    for (const std::string& item : items({list}))
+      if (const std::string wrong = one(item); !wrong.empty()) return wrong;
+    return std::string();
+  };
+  const auto take = [&values](const std::vector<std::string>& lists) {
+    values.clear();
+    for (const std::string& item : items(lists)) values.push_back(*parsed<double>(item));
+  };
+  return app.add_option_function<std::vector<std::string>>(name, take, help)
+      ->check(CLI::Validator(check_all, ""))
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NUMBER,…");

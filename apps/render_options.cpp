@@ -88,8 +88,8 @@ void add_methods(CLI::App& app, RenderCommand& command) {
       app, "--move", command.move,
       "Blur by motion: the camera moves so far while the shutter is open, at an even speed,\n"
       "and keeps its direction");
-  add_positive(app, "--gloss", command.gloss,
-               "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
+  add_number(app, "--gloss", command.gloss, {0, 1},
+             "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
 }
 
 }  // namespace

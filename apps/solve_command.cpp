@@ -7,7 +7,6 @@
 #include "io/write/write_points.h"
 #include "io/write/write_series.h"
 #include "meshing/core/error.h"
-#include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/face_radiosity.h"
 #include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/net_exchange.h"
@@ -77,9 +76,7 @@ void print_goal(const SolveResult& result, std::FILE* out) {
 void print_summary(const SolveResult& result, double asked_tolerance, const Context& context) {
   std::FILE* out = context.summary;
   const bool verbose = context.common.verbose;
-  if (verbose)
-    for (const Repair& repair : result.scene.repairs)
-      fmt::print(out, "repair       {}\n", sentence(repair, result.scene));
+  print_repairs(result.scene, context);
   fmt::print(out, "surfaces     {}\n", result.scene.surfaces.size());
   fmt::print(out, "elements     {}\n", result.elements.count());
   if (result.subdivision.patches > 0)
@@ -188,9 +185,10 @@ SolveResult solved(const SceneFile& file, const SolveCommand& command, const Con
     if (command.factors.empty()) return solve(scene, command.options, context.progress);
     return solve_by_faces(scene, read_factors(command.factors), command.options, context.progress);
   };
-  // Adiabatic faces are tried alone, and others may be as warm as the surroundings.
-  const bool may_be_dark = heat.surroundings || balances_bands(heat);
-  if (!command.factors.empty() && !may_be_dark) require_emitter(file.scene);
+  if (heat.is_given)
+    require_heat(file.scene, heat);
+  else if (!command.factors.empty())
+    require_emitter(file.scene);
   return solve_net_exchange(file.scene, heat, solve_scene);
 }
 

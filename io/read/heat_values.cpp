@@ -74,14 +74,22 @@ void take_band_values(const SceneDraft& draft, std::size_t material, HeatMateria
   if (draft.bands.empty()) return;
   said.rho = fit_bands(draft, material, true);
   said.exitance = fit_bands(draft, material, false);
-  if (!said.is_adiabatic) return;
-  if (draft.bands.size() == 1)
-    said.rho.setOnes();
-  else if (draft.origins[material].rho_place.empty())
-    fail(draft.scene.source, 0,
-         fmt::format("material {} has a net flux, but no emissivity, on which its temperature "
-                     "depends where there are {} bands",
-                     in_quotes(draft.scene.materials[material].name), draft.bands.size()));
+}
+
+/// Adiabatic surfaces reflect all that arrives, unless they balance several bands or two sides.
+void settle_adiabatic(SceneDraft& draft, std::size_t material, Heat& heat) {
+  if (!is_balanced(heat, draft.scene.materials, static_cast<int>(material))) {
+    if (heat.bands.empty()) draft.scene.materials[material].rho.setOnes();
+    heat.materials[material].rho.setOnes();
+    return;
+  }
+  if (!draft.origins[material].rho_place.empty()) return;
+  fail(draft.scene.source, 0,
+       fmt::format("material {} has a net flux, but no emissivity, on which its temperature "
+                   "depends where {}",
+                   in_quotes(draft.scene.materials[material].name),
+                   bands_of(heat) > 1 ? fmt::format("there are {} bands", bands_of(heat))
+                                      : "faces have two sides"));
 }
 
 }  // namespace
@@ -148,8 +156,8 @@ Heat apply_heat(SceneDraft& draft) {
   for (std::size_t m = 0; m < draft.origins.size(); ++m) {
     HeatMaterial said = draft.origins[m].heat;
     take_band_values(draft, m, said);
-    if (said.is_adiabatic && heat.bands.empty()) draft.scene.materials[m].rho.setOnes();
     heat.materials.push_back(std::move(said));
+    if (heat.materials[m].is_adiabatic) settle_adiabatic(draft, m, heat);
   }
   for (std::size_t m = 0; m < draft.origins.size(); ++m) {
     const HeatMaterial& said = heat.materials[m];

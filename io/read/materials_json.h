@@ -11,7 +11,8 @@
 /// What JSON files add to a scene.
 namespace halfshade::reading {
 
-/// The value in a file; comments are allowed. Throws Error(invalid_input) with file and line.
+/// The value in a file; comments are allowed. Throws Error(invalid_input) with file and line, and
+/// names a key that an object has twice with values that differ.
 nlohmann::json read_json(const std::filesystem::path& path);
 
 /// Applies an object {name: {"reflectance", "exitance", "emissivity", "temperature", "net_flux",

@@ -41,16 +41,16 @@ class MtlReader {
     } else if (small == "kd") {
       draft_.scene.materials[present(keyword)].rho = colour();
       draft_.origins[present(keyword)].rho_place = place(file_, line_);
-      entry_.rho = colour();
+      take(entry_.rho, Eigen::ArrayXd(colour()), keyword);
     } else if (small == "ke") {
       draft_.scene.materials[present(keyword)].exitance = colour();
       draft_.origins[present(keyword)].exitance_place = place(file_, line_);
-      entry_.exitance = colour();
+      take(entry_.exitance, Eigen::ArrayXd(colour()), keyword);
     } else if (small == "map_kd") {
-      if (auto use = picture(text, "Kd")) draft_.origins[*material_].picture = std::move(use);
+      if (auto use = picture(text, "Kd")) lay(draft_.origins[*material_].picture, *use, keyword);
     } else if (small == "map_ke") {
       if (auto use = picture(text, "Ke"))
-        draft_.origins[*material_].exitance_picture = std::move(use);
+        lay(draft_.origins[*material_].exitance_picture, *use, keyword);
     } else if (small == "emissivity" || small == "temperature" || small == "net_flux") {
       heat(small);
     } else {
@@ -110,12 +110,33 @@ class MtlReader {
     present(keyword);
     heat_line_ = line_;
     const Rgb value = colour();
-    if (keyword == "emissivity") {
-      entry_.emissivity = value;
-      return;
-    }
+    if (keyword == "emissivity") return take(entry_.emissivity, Eigen::ArrayXd(value), keyword);
     if (words_.size() != 2) fail(file_, line_, fmt::format("{} is a single number", keyword));
-    (keyword == "temperature" ? entry_.temperature : entry_.net_flux) = value[0];
+    take(keyword == "temperature" ? entry_.temperature : entry_.net_flux, double{value[0]},
+         keyword);
+  }
+
+  /// What a statement says of the material; of several the last one counts, which is said where
+  /// they differ.
+  template <class Value>
+  void take(std::optional<Value>& said, const Value& value, std::string_view keyword) {
+    if (said && !is_same(*said, value)) warn_of_second(keyword);
+    said = value;
+  }
+
+  void lay(std::optional<PictureUse>& said, const PictureUse& use, std::string_view keyword) {
+    if (said &&
+        !(said->texture == use.texture && said->scale == use.scale && said->offset == use.offset))
+      warn_of_second(keyword);
+    said = use;
+  }
+
+  static bool is_same(double a, double b) { return a == b; }
+  static bool is_same(const Eigen::ArrayXd& a, const Eigen::ArrayXd& b) { return (a == b).all(); }
+
+  void warn_of_second(std::string_view keyword) {
+    warn(fmt::format("material {} has another {} before; the last one counts",
+                     in_quotes(material_name()), keyword));
   }
 
   void start_material(std::string_view name) {

@@ -155,9 +155,17 @@ class Vs3Reader {
 
   /// Counted from 0; a fourth number of 0 makes a triangle.
   std::vector<long long> read_corners() const {
+    const auto count = static_cast<long long>(draft_.scene.vertices.size());
     std::vector<long long> corners;
-    for (std::size_t k = 2; k < 6; ++k) corners.push_back(whole(k) - 1);
-    if (corners.back() < 0) corners.pop_back();
+    for (std::size_t k = 2; k < 6; ++k) {
+      const long long vertex = whole(k);
+      if (k == 5 && vertex == 0) break;
+      if (vertex < 1 || vertex > count)
+        reject(fmt::format("surface {} names vertex {}, but {}", groups_.size() + 1, vertex,
+                           count == 0 ? "no vertices come before it"
+                                      : fmt::format("vertices are numbered from 1 to {}", count)));
+      corners.push_back(vertex - 1);
+    }
     return corners;
   }
 

@@ -8,15 +8,71 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace halfshade::reading {
 
 using nlohmann::json;
 
+namespace {
+
+/// Follows the parser through objects and lists and finds keys that are there twice with values
+/// that differ, of which the parser keeps the last.
+class KeyWatch {
+ public:
+  bool operator()(json::parse_event_t event, const json& parsed) {
+    using Event = json::parse_event_t;
+    if (event == Event::object_start || event == Event::array_start)
+      levels_.emplace_back();
+    else if (event == Event::key)
+      levels_.back().key = parsed.get<std::string>();
+    else if (event == Event::value)
+      note(parsed);
+    else
+      close(parsed);
+    return true;
+  }
+
+  const std::string& contradiction() const { return contradiction_; }
+
+ private:
+  struct Level {
+    std::string key;  ///< what comes next; in a list empty
+    std::map<std::string, json> values;
+  };
+
+  void close(const json& parsed) {
+    levels_.pop_back();
+    note(parsed);
+  }
+
+  void note(const json& value) {
+    if (levels_.empty() || levels_.back().key.empty()) return;
+    const auto [known, is_new] = levels_.back().values.try_emplace(levels_.back().key, value);
+    if (is_new || known->second == value || !contradiction_.empty()) return;
+    for (const Level& level : levels_)
+      if (!level.key.empty()) contradiction_ = key_path(contradiction_, level.key);
+  }
+
+  std::vector<Level> levels_;
+  std::string contradiction_;
+};
+
+}  // namespace
+
 json read_json(const std::filesystem::path& path) {
   const std::string bytes = read_bytes(path);
   try {
-    return json::parse(bytes, nullptr, true, true);
+    KeyWatch watch;
+    json value = json::parse(
+        bytes, [&](int, json::parse_event_t event, json& parsed) { return watch(event, parsed); },
+        true, true);
+    if (!watch.contradiction().empty())
+      fail(path, 0, watch.contradiction() + " is there twice, with values that differ");
+    return value;
   } catch (const json::parse_error& error) {
     const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(std::min(
                                          bytes.size(), error.byte > 0 ? error.byte - 1 : 0));

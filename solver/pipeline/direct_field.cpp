@@ -178,9 +178,10 @@ class DirectFieldSearch {
   }
 
   /// Where the scene alone takes more elements than were asked for.
-  void warn_of_excess(int plain_elements) {
+  void warn_of_excess(int plain_elements, bool is_searched) {
     if (has_budget(options_))
-      add(mesh_warnings({scene(), 0, plain_elements, options_.elements, 0, 0}), found_.warnings);
+      add(mesh_warnings({scene(), 0, plain_elements, options_.elements, 0, 0, is_searched}),
+          found_.warnings);
   }
 
   void fit_without_curves(double most_samples) {
@@ -189,7 +190,7 @@ class DirectFieldSearch {
           mesh_without_curves(scene(), options_, rays_.has_value(), progress_));
       return static_cast<std::size_t>(found_.patches->element_count());
     });
-    warn_of_excess(found_.patches->element_count());
+    warn_of_excess(found_.patches->element_count(), true);
     AdaptiveFieldOptions fit = field_options(scene(), plan_, options_, goal_);
     fit.max_samples = most_samples;
     fit_on_patches(fit);
@@ -200,9 +201,12 @@ class DirectFieldSearch {
     if (has_budget(options_))
       stages_.run("mesh", [&] {
         plain = make_solve_mesh(scene(), options_, progress_, least_angle);
-        warn_of_excess(plain.elements.count());
         return plain.elements.corners.size();
       });
+    const std::string no_room =
+        has_budget(options_) ? no_elements_for_curves(plain.elements.count(), options_) : "";
+    warn_of_excess(plain.elements.count(), no_room.empty());
+    if (!no_room.empty()) return fit_on_plain(std::move(plain), no_room);
     DiscontinuityOptions events = options_.events;
     events.eee = events.eee && plan_.no_eee.empty();
     rays_.reset();  // what follows curves is meant to be exact
@@ -243,6 +247,12 @@ class DirectFieldSearch {
       return fit_without_curves(0);
     }
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
+    fit_on_patches(field_options(scene(), plan_, options_, goal_));
+  }
+
+  void fit_on_plain(SolveMesh plain, const std::string& no_curves) {
+    stages_.leave_out_if(true, "discontinuities", no_curves);
+    found_.patches = std::make_shared<PatchMesh>(*std::move(plain.patches));
     fit_on_patches(field_options(scene(), plan_, options_, goal_));
   }
 

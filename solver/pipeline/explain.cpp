@@ -4,6 +4,7 @@
 #include "solver/exchange/cells.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/limits.h"
+#include "solver/pipeline/lit_backs.h"
 #include "solver/pipeline/solve_fields.h"
 #include "solver/pipeline/solve_mesh.h"
 #include "solver/reflected/reflected_cost.h"
@@ -35,8 +36,11 @@ std::vector<SpacePart> find_parts(const SoundScene& scene, const Progress& progr
   const SpaceCells cells = find_cells(scene, elements);
   std::vector<std::set<std::string>> groups(at(cells.count()));
   std::vector<SpacePart> all(groups.size());
+  std::vector<std::set<int>> fronts(groups.size()), backs(groups.size());
   for (int e = 0; e < elements.count(); ++e) {
     const std::size_t cell = at(cells.before(e));
+    fronts[cell].insert(elements.surface[at(e)]);
+    backs[at(cells.of_side[at(e)][1])].insert(elements.surface[at(e)]);
     groups[cell].insert(scene.groups[at(elements.group[at(e)])]);
     all[cell].area += elements.area[at(e)];
     const Material& material = scene.materials[at(elements.material[at(e)])];
@@ -47,8 +51,9 @@ std::vector<SpacePart> find_parts(const SoundScene& scene, const Progress& progr
     if (groups[k].empty()) continue;
     all[k].groups.assign(groups[k].begin(), groups[k].end());
     all[k].closed = cells.closed[k];
-    if (const int surface = cells.swallowing[k]; surface >= 0)
-      all[k].swallowing = scene.groups[at(scene.surfaces[at(surface)].group)];
+    const int surface = first_lit_back(
+        scene, {{fronts[k].begin(), fronts[k].end()}, {backs[k].begin(), backs[k].end()}});
+    if (surface >= 0) all[k].swallowing = scene.groups[at(scene.surfaces[at(surface)].group)];
     parts.push_back(std::move(all[k]));
   }
   return parts;

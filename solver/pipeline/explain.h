@@ -26,7 +26,7 @@ struct SpacePart {
   double area = 0;
   bool closed = false;
   bool lit = false;
-  std::string swallowing;  ///< group whose backs swallow light there; empty if none
+  std::string swallowing;  ///< group whose backs light can get to there; empty if none
 };
 
 /// What a scene is and what solve would do with it.

@@ -6,8 +6,8 @@
 #include "solver/elements/solution_parts.h"
 #include "solver/factors/saved_factors.h"
 #include "solver/pipeline/limits.h"
+#include "solver/pipeline/require_limits.h"
 #include "solver/pipeline/result_error.h"
-#include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
 
 #include <algorithm>
@@ -149,8 +149,8 @@ SolveResult solve_by_faces(const Scene& scene, const FactorMatrix& factors,
   result.relative_error = error_of_elements_and_solver(result);
   result.interrupted = progress.stopped();
   if (!result.interrupted)
-    add(light_warnings(
-            {result.scene, result.elements, result.solution, result.exchange, result.radiosity}),
+    add(light_warnings({result.scene, result.elements, result.solution, result.exchange,
+                        result.radiosity, options.radiosity.bounces}),
         result.warnings);
   return result;
 }

@@ -91,8 +91,8 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
   if (options.regions) find_regions(prepared, progress, stages, result);
   result.interrupted = progress.stopped();
   if (result.interrupted) return result;
-  add(light_warnings(
-          {result.scene, result.elements, result.solution, result.exchange, result.radiosity}),
+  add(light_warnings({result.scene, result.elements, result.solution, result.exchange,
+                      result.radiosity, result.most_bounces}),
       result.warnings);
   return result;
 }

@@ -4,9 +4,12 @@
 #include "solver/elements/material_arrays.h"
 #include "solver/elements/painted_triangle.h"
 #include "solver/pipeline/direct_field.h"
+#include "solver/pipeline/first_few.h"
 #include "solver/pipeline/goal_correction.h"
 #include "solver/pipeline/lit_surfaces.h"
+#include "solver/pipeline/require_limits.h"
 #include "solver/pipeline/total_field.h"
+#include "solver/pipeline/weak_lights.h"
 #include "solver/reflected/reflected_mesh.h"
 
 #include <fmt/format.h>
@@ -75,6 +78,17 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
       result.goal ? fmt::format("mean irradiance of '{}'", options.goal) : "irradiance",
       options.tolerance, first == reasons.end() ? "" : "; less would take ",
       first == reasons.end() ? "" : *first);
+}
+
+/// Of lights that are too weak beside others; empty if none are.
+std::string weak_lights_lost(const SolveResult& result) {
+  const std::vector<std::string> weak = weak_lights(result.scene, result.elements, result.solution);
+  if (weak.empty()) return {};
+  return fmt::format(
+      "light of {} is so weak beside the strongest of the scene that what is "
+      "reflected of it may get lost in double precision; --method matrix finds it, and "
+      "so does a scene without the strongest",
+      first_few(weak));
 }
 
 /// Whether a goal is: light of a number of reflections does not solve the equation whose residual
@@ -233,6 +247,7 @@ ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
 void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
                   const Progress& progress, Stages& stages, SolveResult& result) {
   const bool reflects = plan.no_factors.empty();
+  if (reflects) require_limits(prepared, options.radiosity, progress);
   const std::optional<Goal> asked = find_goal(prepared.scene(), options, progress, stages);
   const GoalWeights* goal = asked && asked->weights.weight ? &asked->weights : nullptr;
   SolveOptions direct_options = options;
@@ -297,6 +312,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.not_reached = not_reached(
       result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   fill_solution(prepared.scene(), error, result);
+  if (reflects)
+    if (std::string lost = weak_lights_lost(result); !lost.empty()) result.not_reached = lost;
   fill_powers(result);
 }
 

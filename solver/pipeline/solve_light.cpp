@@ -1,15 +1,12 @@
 #include "solver/pipeline/solve_light.h"
 
-#include "meshing/core/error.h"
 #include "solver/direct/direct_light.h"
 #include "solver/elements/material_arrays.h"
 #include "solver/exchange/estimated_factors.h"
 #include "solver/pipeline/gap_light.h"
-
-#include <fmt/format.h>
+#include "solver/pipeline/require_limits.h"
 
 #include <algorithm>
-#include <set>
 
 namespace halfshade {
 namespace {
@@ -81,24 +78,6 @@ ExchangeOptions needed_exactness(const SoundScene& scene, ExchangeOptions option
 }
 
 }  // namespace
-
-void require_limits(const std::vector<std::string>& group_names, std::span<const int> group,
-                    const Exchange& exchange, const MaterialArrays& materials,
-                    const RadiosityOptions& options) {
-  if (options.bounces >= 0) return;
-  const auto unlimited =
-      find_unlimited(light_exchange(exchange), materials.rho, materials.exitance);
-  if (!unlimited) return;
-  std::set<std::string> groups;
-  for (std::size_t e = 0; e < group.size(); ++e)
-    if (exchange.enclosures.of_element[e] == unlimited->system)
-      groups.insert(group_names[at(group[e])]);
-  throw Error(ErrorCode::invalid_input, {},
-              fmt::format("the group{} {} close{} in a space that reflects everything (reflectance "
-                          "1) and emits {} W, so its radiosity has no limit; lower a reflectance",
-                          groups.size() == 1 ? "" : "s", fmt::join(groups, ", "),
-                          groups.size() == 1 ? "s" : "", unlimited->power));
-}
 
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
                         const Plan& plan, const SolveOptions& options, const Progress& progress,

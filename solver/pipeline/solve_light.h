@@ -1,13 +1,8 @@
 #pragma once
 
-#include "solver/elements/material_arrays.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
-
-#include <span>
-#include <string>
-#include <vector>
 
 namespace halfshade {
 
@@ -27,11 +22,5 @@ struct SolvedLight {
 SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& elements,
                         const Plan& plan, const SolveOptions& options, const Progress& progress,
                         Stages& stages);
-
-/// Refuses a closed enclosure that reflects all its light with Error(invalid_input), which names
-/// its groups; `group` has one of `group_names` for each row of the exchange.
-void require_limits(const std::vector<std::string>& group_names, std::span<const int> group,
-                    const Exchange& exchange, const MaterialArrays& materials,
-                    const RadiosityOptions& options);
 
 }  // namespace halfshade

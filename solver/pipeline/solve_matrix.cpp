@@ -3,6 +3,7 @@
 #include "solver/adapt/recovery_estimate.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/vertex_interpolation.h"
+#include "solver/pipeline/require_limits.h"
 #include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
@@ -17,11 +18,13 @@
 namespace halfshade {
 namespace {
 
+/// None if there is a reason `needless`.
 Discontinuities find_curves(const PreparedScene& prepared, const Plan& plan,
-                            const SolveOptions& options, const Progress& progress, Stages& stages) {
+                            const SolveOptions& options, const std::string& needless,
+                            const Progress& progress, Stages& stages) {
   Discontinuities found;
-  stages.leave_out_if(!plan.no_discontinuities.empty(), "discontinuities", plan.no_discontinuities);
-  if (plan.no_discontinuities.empty())
+  stages.leave_out_if(!needless.empty(), "discontinuities", needless);
+  if (needless.empty())
     stages.run("discontinuities", [&] {
       DiscontinuityOptions events = options.events;
       events.eee = events.eee && plan.no_eee.empty();
@@ -92,6 +95,7 @@ std::string not_resolved(const SolvedLight& light) {
 
 void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
                   const Progress& progress, Stages& stages, SolveResult& result) {
+  if (plan.no_factors.empty()) require_limits(prepared, options.radiosity, progress);
   // What the geometry alone takes comes before the search for curves, for it may be too much.
   SolveMesh plain;
   stages.run("mesh", [&] {
@@ -99,7 +103,10 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
     return plain.elements.corners.size();
   });
   const int plain_elements = plain.elements.count();
-  const Discontinuities found = find_curves(prepared, plan, options, progress, stages);
+  const std::string no_room = no_elements_for_curves(plain_elements, options);
+  const bool are_needless = !plan.no_discontinuities.empty();
+  const Discontinuities found = find_curves(
+      prepared, plan, options, are_needless ? plan.no_discontinuities : no_room, progress, stages);
   result.discontinuities = found.report;
   result.curves = found.curves.size();
 
@@ -109,7 +116,7 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
       make_elements(prepared.scene(), found, std::move(plain), plan, options, progress, stages);
   add(mesh_warnings({prepared.scene(), mesh.report.kept, plain_elements,
                      options.max_length > 0 ? 0 : options.elements, mesh.tolerance,
-                     options.tolerance}),
+                     options.tolerance, are_needless || no_room.empty()}),
       result.warnings);
   result.mesh = mesh.report;
   result.discontinuity_tolerance = mesh.tolerance;

@@ -5,6 +5,7 @@
 #include "solver/pipeline/solve_options.h"
 
 #include <optional>
+#include <string>
 
 namespace halfshade {
 
@@ -31,15 +32,19 @@ PatchMesh mesh_plainly(const SoundScene& scene, const PlanarMeshOptions& mesh_op
 /// The longest element edge that a mesh along curves may come to have.
 double longest_edge(const SoundScene& scene, const SolveOptions& options);
 
-/// Meshes with the length asked for, or with the one that comes nearest to the number of elements
-/// asked for: narrow surfaces need more than their area suggests. Where that is more than a quarter
-/// more, or than options.max_elements, with smaller angles than `min_angle`, in degrees. Throws
-/// Error(too_large) if it takes more than options.max_elements all the same.
+/// Meshes with the length asked for, or with the one that takes the most elements that are no more
+/// than asked for: narrow surfaces need more than their area suggests. Where there is none, with
+/// smaller angles than `min_angle`, in degrees; where the geometry alone takes more, as few as can
+/// be. Throws Error(too_large) if these are more than options.max_elements.
 SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
                           const Progress& progress = {}, double min_angle = delaunay_angle);
 
-/// The same along curves; `plain` is the mesh without them, and has the angle. Where they make a
-/// quarter more than the elements asked for, or than `plain` if that has more, or more than
+/// Why no curves need be looked for with a mesh without them that has so many elements: there are
+/// none left for them. Empty if they do.
+std::string no_elements_for_curves(int plain_elements, const SolveOptions& options);
+
+/// The same along curves; `plain` is the mesh without them, and has the angle. Where they make more
+/// than the elements asked for, or than `plain` if that has more, or more than
 /// options.max_elements, those with the smallest effect are left out by raising the tolerance.
 /// `mean_irradiance` is what options.tolerance is a share of; W/m².
 SolveMesh make_solve_mesh(const SoundScene& scene, const Discontinuities& found, SolveMesh plain,

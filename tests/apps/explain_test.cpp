@@ -52,6 +52,26 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   EXPECT_EQ(halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code, 2);
 }
 
+TEST(Explain, SpeaksOfBacksOnlyWhereLightCanReachThem) {
+  const test::TempDir folder;
+  const std::string mtl =
+      "newmtl grey\nKd .5 .5 .5\nnewmtl lamp\nKd .5 .5 .5\nKe 1 1 1\nnewmtl black\nKd 0 0 0\n";
+  const std::string facing =
+      "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+      "usemtl lamp\ng light\nf 1 2 3 4\nusemtl grey\ng plate\nf 5 8 7 6\n";
+  // Above, a black one that looks down; below, a wide one that looks up and reflects.
+  const std::string beyond = "v 0 0 2\nv 1 0 2\nv 1 1 2\nusemtl black\ng above\nf 9 11 10\n";
+  const std::string wide = "v -9 -9 -1\nv 9 -9 -1\nv 0 9 -1\ng wide\nf 9 10 11\n";
+  std::ofstream(folder.path() / "s.mtl") << mtl;
+  const auto said = [&](const std::string& text) {
+    std::ofstream(folder.path() / "s.obj") << text;
+    return halfshade({"explain", "s.obj"}, folder.path()).out;
+  };
+  EXPECT_FALSE(has(said(facing), "reaches the back")) << said(facing);
+  EXPECT_FALSE(has(said(facing + beyond), "reaches the back")) << said(facing + beyond);
+  EXPECT_TRUE(has(said(facing + wide), "reaches the back of light")) << said(facing + wide);
+}
+
 TEST(Explain, SaysHowReflectedLightWillBeFoundAndWhatItTakes) {
   const test::TempDir folder;
   const std::string box = (fs::path(test::data_folder) / "cornell_box.obj").string();

@@ -33,7 +33,8 @@ TEST_F(ReadingRoom, IsDividedAsItsPageSays) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json all = report(), division = all.at("subdivision");
   ASSERT_EQ(division.at("elements").size(), 2u);
-  EXPECT_GT(division.at("patches"), 150);
+  EXPECT_LE(division.at("patches"), 150);
+  EXPECT_GT(division.at("patches"), 100);
   EXPECT_GT(division.at("elements")[0], 2 * division.at("patches").get<int>());
   EXPECT_GT(division.at("elements")[1], 1.5 * division.at("elements")[0].get<int>());
   EXPECT_EQ(division.at("elements")[1], all.at("mesh").at("elements"));

@@ -19,7 +19,7 @@ constexpr double hardly_found = 0.03;
 /// Things wider than this, in radii of the cell, do not pass between its points; and what is
 /// farther away than this looks alike from all of them.
 constexpr double wide = 2;
-constexpr double far_off = 1;
+constexpr double near_by = 1;
 /// Things that hide no more than this share of what is allowed are not asked.
 constexpr double negligible_share = 0.05;
 /// The same of what might be seen through gaps, where nothing is seen; by how often it was looked.
@@ -161,7 +161,7 @@ double BlockedCells::missed(const BlockedCell& cell, double whole) {
   const double negligible = negligible_share * tolerance_.absolute * area / own.area;
   const Ball round = ball_round(cell.corners);
   const auto is_beyond = [&](const Blocker* side) {
-    const double reach = far_off * round.radius + side->ball.radius;
+    const double reach = near_by * round.radius + side->ball.radius;
     return (side->ball.centre - round.centre).squaredNorm() > reach * reach;
   };
   std::optional<Shaft> shaft;

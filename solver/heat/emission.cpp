@@ -8,9 +8,9 @@ namespace {
 
 constexpr double coldest = 1e-60, hottest = 1e60;
 /// Halving alone takes sixty.
-constexpr int most_steps = 200;
+constexpr int most_steps_for_one = 200;
 /// Relative, of a temperature.
-constexpr double settled = 4e-16;
+constexpr double hardly_moves = 4e-16;
 
 }  // namespace
 
@@ -29,13 +29,13 @@ double emission_temperature(double power, const Eigen::ArrayXd& emissivity,
   double low = std::log(coldest), high = std::log(hottest);
   double at =
       std::clamp(start > 0 ? std::log(start) : std::log(blackbody_temperature(power)), low, high);
-  for (int step = 0; step < most_steps && high - low > settled; ++step) {
+  for (int step = 0; step < most_steps_for_one && high - low > hardly_moves; ++step) {
     const Emission now = emission_at(std::exp(at), emissivity, bands);
     const double sent = now.power.sum();
     (sent < power ? low : high) = at;
     const double change = sent > 0 ? std::log(power / sent) * (sent / now.growth.sum()) : NAN;
     const double next = at + change;
-    if (std::abs(change) <= settled) break;
+    if (std::abs(change) <= hardly_moves) break;
     at = next > low && next < high ? next : (low + high) / 2;
   }
   const double kelvin = std::exp(at);

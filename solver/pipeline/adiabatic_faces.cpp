@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_faces = 2000;
 
 /// Of what space sends: beside it, less is rounding.
-constexpr double told_apart = 1e-9;
+constexpr double clearly_more = 1e-9;
 
 /// Adds a copy of a material.
 int add_copy(int material, AdiabaticFaces& faces) {
@@ -77,7 +77,7 @@ int first_untold(const AdiabaticBalance& balance, const Eigen::ArrayXd& kelvin, 
     if (!(kelvin[j] >= 0)) return static_cast<int>(j);
     const double sent = (emissivity * blackbody_exitance(kelvin[j], heat.bands)).sum();
     if ((sent == 0 && (emissivity * unseen > 0).any()) ||
-        sent < told_apart * (emissivity * balance.rest).sum())
+        sent < clearly_more * (emissivity * balance.rest).sum())
       return static_cast<int>(j);
   }
   return -1;

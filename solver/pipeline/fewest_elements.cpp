@@ -6,15 +6,15 @@ namespace halfshade {
 namespace {
 
 /// Whether it is too much is asked before.
-constexpr std::size_t any_number = 1'000'000'000;
+constexpr std::size_t no_limit = 1'000'000'000;
 
 }  // namespace
 
-ElementTable fewest_elements(const SoundScene& scene) {
+ElementTable fewest_elements(const SoundScene& scene, const Progress& progress) {
   PlanarMeshOptions coarsest;
   coarsest.min_angle = 0;
-  coarsest.max_triangles = any_number;
-  return PatchMesh(scene, coarsest).elements();
+  coarsest.max_triangles = no_limit;
+  return PatchMesh(scene, coarsest, progress).elements();
 }
 
 }  // namespace halfshade

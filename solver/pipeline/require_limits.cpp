@@ -1,8 +1,8 @@
 #include "solver/pipeline/require_limits.h"
 
 #include "meshing/core/error.h"
-#include "meshing/patches/patch_mesh.h"
 #include "solver/linear/radiosity.h"
+#include "solver/pipeline/fewest_elements.h"
 #include "solver/pipeline/first_few.h"
 
 #include <fmt/format.h>
@@ -13,8 +13,6 @@
 namespace halfshade {
 namespace {
 
-/// How many elements surfaces alone take is asked for elsewhere.
-constexpr std::size_t any_number = 1'000'000'000;
 /// Stands for the reflectance of what is painted: less than 1.
 constexpr double of_paint = 0.5;
 
@@ -53,10 +51,7 @@ void require_limits(const PreparedScene& prepared, const RadiosityOptions& optio
                     const Progress& progress) {
   const SoundScene& scene = prepared.scene();
   if (options.bounces >= 0 || !may_have_no_limit(scene)) return;
-  PlanarMeshOptions coarsest;
-  coarsest.min_angle = 0;
-  coarsest.max_triangles = any_number;
-  const ElementTable elements = PatchMesh(scene, coarsest, progress).elements();
+  const ElementTable elements = fewest_elements(scene, progress);
   if (progress.stopped()) return;
   MaterialArrays materials = material_arrays(scene, elements);
   for (int e = 0; e < elements.count(); ++e)

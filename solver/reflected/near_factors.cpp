@@ -18,7 +18,7 @@ constexpr double seen_gaps = 3;
 constexpr double least_gap = 1e-9;  // of an element's size
 /// Light that gets lost through gaps is no more than what meets them; where it comes back so seldom
 /// that this share of it is not lost, nothing is worth a closed form.
-constexpr double lost_at_most = 4, negligible = 1e-5;
+constexpr double lost_at_most = 4, hardly_lost = 1e-5;
 
 /// Where light gets lost, less leaves than in the mean over an element: so much of what nodes miss
 /// does get lost, at most, where both sides together reflect ρ and `gap` is relative to the
@@ -52,7 +52,7 @@ class GapSearch {
       const double height = gap(element, size, surface);
       const double absorbed = std::max(1 - both.maxCoeff(), 0.);
       if (height < 0 || height * absorbed > nearest_black * size ||
-          lost_at_most * height < negligible * absorbed * size)
+          lost_at_most * height < hardly_lost * absorbed * size)
         continue;
       loss.factor += share_lost(both, height / size) * std::abs(missed(element, surface));
       loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(height, least_gap * size)));

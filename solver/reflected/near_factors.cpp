@@ -16,8 +16,8 @@ constexpr double factor_tolerance = 1e-7;
 /// Elements as long as this many gaps have nodes where light gets lost.
 constexpr double seen_gaps = 3;
 constexpr double least_gap = 1e-9;  // of an element's size
-/// Light that gets lost through gaps is no more than what meets them; where it comes back so seldom
-/// that this share of it is not lost, nothing is worth a closed form.
+/// At most so many times the gap's share of an element's size gets lost. Where that is less than
+/// this share of what is absorbed anyway, it is not worth a closed form.
 constexpr double lost_at_most = 4, hardly_lost = 1e-5;
 
 /// Where light gets lost, less leaves than in the mean over an element: so much of what nodes miss

@@ -52,11 +52,10 @@ double first_length(const HugeRoots& huge, bool is_exact, const ReflectedOptions
 
 /// How many times light is reflected in the mean, at most: where it gets lost, what rows are off
 /// counts as often.
-double reflected_at_most(ReflectedLight::State& state) {
-  state.light.painted.update(state.mesh, state.light.rho);
+double reflected_at_most(const FirstLight& light, const ReflectedMesh& mesh) {
   double least = 1;
-  for (int e = 0; e < state.mesh.count(); ++e)
-    least = std::min(least, 1 - state.light.mean_rho(state.mesh, e).maxCoeff());
+  for (int e = 0; e < mesh.count(); ++e)
+    least = std::min(least, 1 - light.mean_rho(mesh, e).maxCoeff());
   constexpr double unbounded = 1e-4;
   return 1 / std::max(least, unbounded);
 }
@@ -185,7 +184,8 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
   if (is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);
     state->sight = std::make_unique<const ExactSight>(*state->scene, state->reflecting);
-    const double times = reflected_at_most(*state);
+    state->light.painted.update(state->mesh, state->light.rho);
+    const double times = reflected_at_most(state->light, state->mesh);
     state->accuracy = row_accuracy(options.tolerance, times, huge.area);
     state->gather_accuracy = row_accuracy(
         options.gather_tolerance > 0 ? options.gather_tolerance : 0.1 * options.tolerance, times,

@@ -309,7 +309,8 @@ class Rounds {
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.square > goal && cannot_show) return Next::end;
     const bool is_reflected_on = on > goal && square <= goal && unbalanced.square <= goal;
-    // Nor does more of anything help where all noise comes back.
+    // Nor does more of anything help where all noise comes back. Without noise elements are off,
+    // and what is reflected on shrinks as what is off does.
     if (is_reflected_on && !parts_) return Next::end;
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
                   is_reflected_on ? square * goal / on : goal, found);

@@ -16,8 +16,6 @@ using test::furnace;
 using test::Json;
 using test::Vector5;
 
-using NetExchangeOfBands = test::FurnaceRuns;
-
 void expect_balance(const Json& net, const std::vector<Balance>& expected) {
   double scale = 0;
   for (const Balance& band : expected)
@@ -41,6 +39,20 @@ void expect_balance(const Json& net, const std::vector<Balance>& expected) {
   }
   EXPECT_NEAR(net.at("surroundings_total_net_power_w").get<double>(), -to_space, 1e-8 * scale);
 }
+
+class NetExchangeOfBands : public test::FurnaceRuns {
+ protected:
+  /// With f.mtx saved: one re-radiating wall, and surroundings of so many K.
+  void expect_balanced_wall(const BandedFurnace& box, double space) {
+    const double wall = box.adiabatic_wall(space);
+    const auto heat = folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
+    const Json net = exchange({"--factors", "f.mtx", "--surroundings", std::to_string(space),
+                               "--materials", heat.string()})
+                         .at("net_exchange");
+    EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
+    expect_balance(net, box.balances(wall, space));
+  }
+};
 
 TEST_F(NetExchangeOfBands, OfAnyNumberOfBandsIsTheSolutionOfAsManySystems) {
   save_factors(furnace);
@@ -71,14 +83,7 @@ TEST_F(NetExchangeOfBands, OfARadiatingWallInSeveralBandsBalancesTheirSum) {
   for (const std::size_t count : {2U, 4U})
     for (const double space : {0., 300., 1200.}) {
       SCOPED_TRACE(testing::Message() << count << " bands, " << space << " K");
-      const BandedFurnace box = banded_furnace(count);
-      const double wall = box.adiabatic_wall(space);
-      const auto heat = folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
-      const Json net = exchange({"--factors", "f.mtx", "--surroundings", std::to_string(space),
-                                 "--materials", heat.string()})
-                           .at("net_exchange");
-      EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
-      expect_balance(net, box.balances(wall, space));
+      expect_balanced_wall(banded_furnace(count), space);
     }
 }
 
@@ -94,13 +99,7 @@ TEST_F(NetExchangeOfBands, OfARadiatingWallBalancesNarrowAndDistantBands) {
       box.bands[k].shortest = limits[2 * k];
       box.bands[k].longest = limits[2 * k + 1];
     }
-    const double wall = box.adiabatic_wall(space);
-    const auto heat = folder_.write("heat.json", box.materials(R"({"net_flux": 0})"));
-    const Json net = exchange({"--factors", "f.mtx", "--surroundings", std::to_string(space),
-                               "--materials", heat.string()})
-                         .at("net_exchange");
-    EXPECT_NEAR(net.at("groups").at(4).at("temperature_k").get<double>(), wall, 1e-8 * wall);
-    expect_balance(net, box.balances(wall, space));
+    expect_balanced_wall(box, space);
   }
 }
 

@@ -63,14 +63,17 @@ bool lies_between(const SoundScene& scene, const Surface& surface, std::span<con
 std::vector<int> blocking_surfaces(const SoundScene& scene) {
   std::vector<int> all(scene.surfaces.size());
   std::iota(all.begin(), all.end(), 0);
-  return blocking_surfaces(scene, all);
+  return blocking_surfaces(scene, all, {});
 }
 
-std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids) {
+std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids,
+                                   std::span<const int> others) {
+  std::vector<int> around(others.begin(), others.end());
+  around.insert(around.end(), ids.begin(), ids.end());
   std::vector<int> blocking;
   for (const int id : ids) {
     const Surface& surface = scene.surfaces[at(id)];
-    if (!surface.back && lies_between(scene, surface, ids)) blocking.push_back(id);
+    if (!surface.back && lies_between(scene, surface, around)) blocking.push_back(id);
   }
   return blocking;
 }

@@ -11,8 +11,9 @@ namespace halfshade {
 /// Backs of two-sided ones are left out.
 std::vector<int> blocking_surfaces(const SoundScene& scene);
 
-/// Those of `ids` that some of the others lie before and behind.
-std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids);
+/// Those of `ids` that some of them or of `others` lie before and behind.
+std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int> ids,
+                                   std::span<const int> others);
 
 /// True if no straight line that passes three edges of these surfaces leaves all of them unpierced
 /// but for those in a face's plane: they are the whole boundary of a convex body, one convex

@@ -130,7 +130,8 @@ class DirectFieldSearch {
         progress_(progress),
         stages_(stages),
         goal_(goal),
-        blockers_(blocking_surfaces(prepared.scene(), plan.lit)),
+        blockers_(
+            blocking_surfaces(prepared.scene(), plan.lit, prepared.direct_light().emitters())),
         direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
         rays_(rays_of(prepared, plan)) {}
 

@@ -5,12 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace halfshade {
 namespace {
 
 /// Surfaces looked at in all.
 constexpr double most_looks = 2e7;
+/// Of places in all: beyond them, those of middles only.
+constexpr std::size_t many_places = 4000;
+/// Of an outline.
+constexpr std::size_t most_corners = 8;
+/// So far from the middle towards corners: of sources, nearly all the way, for what arrives close
+/// to a wall comes from one side; of blockers, to share out their shadow.
+constexpr double towards_corner = 0.9, half_way = 0.5;
+/// The mean square of what a penumbra takes away, over the square of it in the middle: 4/3 of
+/// ramps, and places are few.
+constexpr double mean_square = 1.5;
 /// Cosines below this count as it: grazing shadows have no end.
 constexpr double least_cosine = 0.05;
 
@@ -19,6 +30,18 @@ struct Landing {
   int surface = -1;
   double distance = 0;  ///< from the light, in units of that to the blocker
 };
+
+/// The middle of a surface, and so far from it towards its corners.
+std::vector<Vec3> middle_and_around(const Surface& surface, double towards) {
+  const Vec3 centre = middle(surface);
+  std::vector<Vec3> points = {centre};
+  const Ring& ring = surface.rings.front();
+  const std::size_t count = std::min(ring.size(), most_corners);
+  for (std::size_t k = 0; k < count; ++k)
+    points.push_back(centre +
+                     towards * (surface.frame.to_space(ring[k * ring.size() / count]) - centre));
+  return points;
+}
 
 Landing land(const SoundScene& scene, int blocker, const Vec3& from, const Vec3& through) {
   Landing landing;
@@ -35,6 +58,21 @@ Landing land(const SoundScene& scene, int blocker, const Vec3& from, const Vec3&
   return landing;
 }
 
+/// The place behind a point of a blocker that a point of light makes; none if nothing is there.
+std::optional<WatchedPlace> shadow_place(const SoundScene& scene, const Vec3& from, int blocker,
+                                         const Vec3& through) {
+  const Landing landing = land(scene, blocker, from, through);
+  if (landing.surface < 0) return std::nullopt;
+  const Surface &surface = scene.surfaces[at(blocker)],
+                &receiver = scene.surfaces[at(landing.surface)];
+  const Vec3 along = (through - from).normalized();
+  const double across = area(surface) * std::abs(surface.frame.normal.dot(along));
+  const double cosine = std::max(std::abs(receiver.frame.normal.dot(along)), least_cosine);
+  return WatchedPlace{
+      {{from + landing.distance * (through - from), receiver.frame.normal}, landing.surface},
+      mean_square * across * landing.distance * landing.distance / cosine};
+}
+
 }  // namespace
 
 std::vector<WatchedPlace> shadow_places(const SoundScene& scene, std::span<const int> sources,
@@ -43,25 +81,33 @@ std::vector<WatchedPlace> shadow_places(const SoundScene& scene, std::span<const
   std::stable_sort(blockers.begin(), blockers.end(), [&](int a, int b) {
     return area(scene.surfaces[at(a)]) > area(scene.surfaces[at(b)]);
   });
-  const double each = static_cast<double>(scene.surfaces.size()) *
-                      static_cast<double>(std::max<std::size_t>(sources.size(), 1));
-  const double most = std::floor(most_looks / each);
+  const double each =
+      static_cast<double>(scene.surfaces.size() * std::max<std::size_t>(sources.size(), 1));
+  constexpr std::size_t around = (1 + 4) * (1 + 4);  // of most surfaces
+  const bool only_middles = blockers.size() * sources.size() * around > many_places;
+  const double most = std::floor(most_looks / each / (only_middles ? 1 : around));
   if (static_cast<double>(blockers.size()) > most) blockers.resize(static_cast<std::size_t>(most));
+  const auto points_of = [&](int id, double towards) {
+    const Surface& surface = scene.surfaces[at(id)];
+    return only_middles ? std::vector{middle(surface)} : middle_and_around(surface, towards);
+  };
   std::vector<WatchedPlace> places;
+  int group = 0;
   for (const int source : sources) {
-    const Vec3 from = middle(scene.surfaces[at(source)]);
+    const std::vector<Vec3> ends = points_of(source, towards_corner);
     for (const int blocker : blockers) {
       if (blocker == source) continue;
-      const Surface& surface = scene.surfaces[at(blocker)];
-      const Vec3 through = middle(surface), along = (through - from).normalized();
-      const Landing landing = land(scene, blocker, from, through);
-      if (landing.surface < 0) continue;
-      const Surface& receiver = scene.surfaces[at(landing.surface)];
-      const double across = area(surface) * std::abs(surface.frame.normal.dot(along));
-      const double cosine = std::max(std::abs(receiver.frame.normal.dot(along)), least_cosine);
-      places.push_back(
-          {{{from + landing.distance * (through - from), receiver.frame.normal}, landing.surface},
-           across * landing.distance * landing.distance / cosine});
+      const std::vector<Vec3> throughs = points_of(blocker, half_way);
+      for (const Vec3& through : throughs) {
+        ++group;
+        for (const Vec3& from : ends) {
+          auto place = shadow_place(scene, from, blocker, through);
+          if (!place) continue;
+          place->area /= static_cast<double>(throughs.size());
+          place->group = group;
+          places.push_back(*place);
+        }
+      }
     }
   }
   return places;

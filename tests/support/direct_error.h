@@ -9,11 +9,13 @@
 
 namespace halfshade::test {
 
-/// Relative L2 error of a solution of direct light, at a random point of each element.
-inline double direct_error(const PreparedScene& prepared, const SolveResult& result) {
+/// Relative L2 error of a solution of direct light, at so many random points of each element.
+inline double direct_error(const PreparedScene& prepared, const SolveResult& result,
+                           int points = 1) {
   Random random(3);
   double square_error = 0, square = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
+  for (int k = 0; k < points * result.elements.count(); ++k) {
+    const int e = k / points;
     double s = random(0, 1), t = random(0, 1);
     if (s + t > 1) s = 1 - s, t = 1 - t;
     const Vec3 p = position(result.elements.triangle(e), {s, t});

@@ -21,6 +21,12 @@ constexpr double most_orders_at_once = 3;
 /// so many digits.
 constexpr int error_digits = 12;
 
+/// A square as a share of another one, to compare it: rounding steps at the same shares in any unit
+/// of length.
+double comparable(double square, double of) {
+  return rounded<error_digits>(of > 0 ? square / of : square);
+}
+
 double square_error_of(std::span<const FittedElement> elements) {
   double sum = 0;
   for (const FittedElement& element : elements) sum += element.square_error();
@@ -34,7 +40,7 @@ std::vector<int> worst_elements(std::span<const FittedElement> elements, double 
   std::iota(order.begin(), order.end(), 0);
   std::vector<double> key;
   for (const FittedElement& element : elements)
-    key.push_back(rounded<error_digits>(element.square_error()));
+    key.push_back(comparable(element.square_error(), may_stay));
   std::stable_sort(order.begin(), order.end(),
                    [&](int a, int b) { return key[at(a)] > key[at(b)]; });
   double left = square_error_of(elements);
@@ -66,7 +72,7 @@ void drop_orders(std::span<FittedElement> elements, double most) {
   };
   const auto candidate = [&](int e) {
     const FittedElement& element = elements[at(e)];
-    return Candidate(rounded<error_digits>(square_of_layer(element) / (element.fit.order + 1)), e);
+    return Candidate(comparable(square_of_layer(element) / (element.fit.order + 1), most), e);
   };
   std::priority_queue<Candidate, std::vector<Candidate>, std::greater<>> queue;
   for (int e = 0; e < static_cast<int>(elements.size()); ++e)

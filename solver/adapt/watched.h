@@ -12,8 +12,6 @@ namespace halfshade {
 struct WatchedPlace {
   FieldPoint place;
   double area;  ///< of it, squared scene units
-  /// Places of a group tell of the same thing, and what tells most counts; < 0: a group of its own.
-  int group = -1;
 };
 
 /// The foot of a corner of something that touches a surface, or nearly does: around it a field

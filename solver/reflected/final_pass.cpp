@@ -53,16 +53,17 @@ std::vector<int> share_rays(const ReflectedMesh& mesh, const std::vector<double>
     area += mesh.counts(e) ? weight[at(e)] * mesh.area(e) : 0;
   }
   std::vector<double> expected, rays;
-  double mean = 0;
+  double sum_of_rays = 0, count = 0;  // of those that count: others change nothing for them
   for (int e = 0; e < mesh.count(); ++e) {
     const double alike = area > 0 && mesh.counts(e) ? sum / area * weight[at(e)] * mesh.area(e) : 0;
     const auto nodes =
         static_cast<double>(element_nodes_of(mesh.order[at(mesh.triangle[at(e)])]).places.size());
     expected.push_back((1 - share_alike) * noise[at(e)] + share_alike * alike);
     rays.push_back(std::sqrt(expected.back() / nodes));
-    mean += rays.back() / mesh.count();
+    sum_of_rays += mesh.counts(e) ? rays.back() : 0;
+    count += mesh.counts(e) ? 1 : 0;
   }
-  for (double& r : rays) r = mean > 0 ? r / mean : 0;
+  for (double& r : rays) r = sum_of_rays > 0 ? r * count / sum_of_rays : 0;
   constexpr double step = 1.0625;
   double all = fewest;
   const auto missing = [&](std::size_t e) {

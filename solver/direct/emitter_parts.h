@@ -28,4 +28,18 @@ bool cut_evenly(const SurfacePoint& point, const EmitterTarget& target,
                 std::span<const std::array<Vec3, 3>> triangles, double negligible,
                 std::vector<EmitterPart>& parts);
 
+/// A point of an emitter, drawn by the light that comes from it.
+struct LightPoint {
+  Vec3 position;
+  double weight;  ///< of the light along the way to it; 1 in the mean
+};
+
+/// Points of an emitter's triangles, about as likely as the light that would come from them,
+/// however close it is and where the horizon cuts it; `weight` makes up for the rest. Goes down
+/// halves of triangles until light from one is even. `pairs`, in [0, 1], one a point: where they
+/// fill a square evenly, the points do so, too; changed. Appends none if no light comes.
+void add_points_by_light(const SurfacePoint& point, const EmitterTarget& target,
+                         std::span<const std::array<Vec3, 3>> triangles,
+                         std::span<std::array<double, 2>> pairs, std::vector<LightPoint>& points);
+
 }  // namespace halfshade

@@ -55,7 +55,9 @@ struct RayWork {
   std::vector<Segment> segments;
   std::vector<double> weights;
   std::vector<RayGroup> groups;
-  std::vector<std::size_t> ends;  ///< of the groups of both estimates of each look
+  std::vector<std::array<double, 2>> pairs;  ///< that rays to a near emitter are drawn with
+  std::vector<LightPoint> near_ends;         ///< of those rays
+  std::vector<std::size_t> ends;             ///< of the groups of both estimates of each look
   std::vector<std::uint8_t> blocked;
 };
 
@@ -88,8 +90,8 @@ struct RayLight::Impl {
         work.looks[k].factor = exact_factor(point, *work.looks[k].emitter);
   }
 
-  /// Emitters over which light varies much are looked at part by part, unless they are weak;
-  /// exactly if they are too near for that.
+  /// Emitters over which light varies much are looked at part by part, unless they are weak; those
+  /// too near for that by rays that are as likely as the light along them.
   static void cut_uneven(const SurfacePoint& point, RayLook& look, RayShare& share, RayWork& work) {
     const EmitterTarget& target = look.emitter->target;
     if (is_even(point, target, look.emitter->area(), look.factor)) return;
@@ -98,16 +100,17 @@ struct RayLight::Impl {
       return;
     }
     look.first_part = work.parts.size();
-    if (!cut_evenly(point, target, look.emitter->triangles,
-                    negligible * work.deviation / target.strength, work.parts))
-      share.way = RayWay::exact;
+    look.is_near = !cut_evenly(point, target, look.emitter->triangles,
+                               negligible * work.deviation / target.strength, work.parts);
     look.end_part = work.parts.size();
   }
 
   /// Adds the rays of one estimate of a look.
   void add_rays(const FieldPoint& place, const RayLook& look, int of_look, std::uint64_t seed,
                 RayWork& work) const {
-    if (of_look > 0 && look.first_part == look.end_part)
+    if (of_look > 0 && look.is_near)
+      add_near_group(place, look, of_look, seed, work);
+    else if (of_look > 0 && look.first_part == look.end_part)
       add_group(place, *look.emitter, nullptr, look.factor, of_look, seed, work);
     for (std::size_t p = look.first_part; of_look > 0 && p < look.end_part; ++p) {
       const EmitterPart& part = work.parts[p];
@@ -124,16 +127,38 @@ struct RayLight::Impl {
                  RayWork& work) const {
     const SurfacePoint& point = place.point;
     SpreadPairs pairs(seed);
-    const int plane = scene->surfaces[at(place.surface)].plane;
     for (int k = 0; k < rays; ++k) {
       const auto [s, t] = pairs.next();
       const Vec3 end = triangle ? point_of(*triangle, s, t) : emitter.point(s, t);
       const double weight = light_along(point, emitter.target, end - point.position);
-      if (!(weight > 0)) continue;
-      work.segments.push_back({point.position, end, plane, emitter.plane});
-      work.weights.push_back(weight);
+      if (weight > 0) add_ray(place, emitter, end, weight, work);
     }
     work.groups.push_back({factor, work.segments.size()});
+  }
+
+  /// About as likely as the light along them.
+  void add_near_group(const FieldPoint& place, const RayLook& look, int rays, std::uint64_t seed,
+                      RayWork& work) const {
+    const RayEmitter& emitter = *look.emitter;
+    draw_near_ends(place.point, emitter, rays, SpreadPairs(seed), work);
+    for (const LightPoint& end : work.near_ends)
+      if (end.weight > 0) add_ray(place, emitter, end.position, end.weight, work);
+    work.groups.push_back({look.factor, work.segments.size()});
+  }
+
+  static void draw_near_ends(const SurfacePoint& point, const RayEmitter& emitter, int rays,
+                             SpreadPairs pairs, RayWork& work) {
+    work.pairs.clear();
+    for (int k = 0; k < rays; ++k) work.pairs.push_back(pairs.next());
+    work.near_ends.clear();
+    add_points_by_light(point, emitter.target, emitter.triangles, work.pairs, work.near_ends);
+  }
+
+  void add_ray(const FieldPoint& place, const RayEmitter& emitter, const Vec3& end, double weight,
+               RayWork& work) const {
+    const int plane = scene->surfaces[at(place.surface)].plane;
+    work.segments.push_back({place.point.position, end, plane, emitter.plane});
+    work.weights.push_back(weight);
   }
 
   /// Adds the rays of one estimate of all emitters that are drawn: each as often as it is strong,
@@ -164,7 +189,7 @@ struct RayLight::Impl {
   void add_draw(const FieldPoint& place, const DrawnEmitter& drawn, double light, double choice,
                 SpreadPairs& pairs, RayWork& work) const {
     const RayEmitter& emitter = *drawn.emitter;
-    const auto end = point_by_light(place.point, emitter, choice, pairs);
+    const auto end = point_of_draw(place.point, emitter, choice, pairs, work);
     if (!end) light = exact->factor(place.point, emitter.surface).visible * emitter.target.strength;
     work.draws.push_back({&emitter, light / drawn.light, !!end});
     if (!end) return;
@@ -172,9 +197,9 @@ struct RayLight::Impl {
     work.segments.push_back({place.point.position, *end, plane, emitter.plane});
   }
 
-  /// A point of an emitter, more likely where more light comes from; none if none of a few does.
-  static std::optional<Vec3> point_by_light(const SurfacePoint& point, const RayEmitter& emitter,
-                                            double choice, SpreadPairs& pairs) {
+  /// A point of an emitter, more likely where more light comes from; none if none does.
+  static std::optional<Vec3> point_of_draw(const SurfacePoint& point, const RayEmitter& emitter,
+                                           double choice, SpreadPairs& pairs, RayWork& work) {
     std::array<Vec3, points_of_draw> ends;
     std::array<double, points_of_draw> reached;
     double sum = 0;
@@ -183,7 +208,10 @@ struct RayLight::Impl {
       ends[k] = emitter.point(s, t);
       reached[k] = sum += light_along(point, emitter.target, ends[k] - point.position);
     }
-    if (!(sum > 0)) return std::nullopt;
+    if (!(sum > 0)) {
+      draw_near_ends(point, emitter, 1, pairs, work);
+      return work.near_ends.empty() ? std::nullopt : std::optional(work.near_ends.front().position);
+    }
     const auto first = std::upper_bound(reached.begin(), reached.end() - 1, choice * sum);
     return ends[static_cast<std::size_t>(first - reached.begin())];
   }

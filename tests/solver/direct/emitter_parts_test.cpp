@@ -1,6 +1,7 @@
 #include "solver/direct/emitter_parts.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "solver/direct/ray_emitter.h"
 #include "tests/support/random_scene.h"
 
 #include <gtest/gtest.h>
@@ -89,6 +90,50 @@ TEST(EmitterParts, GivesUpVeryCloseToTheEmitter) {
   std::vector<EmitterPart> parts(1);
   EXPECT_FALSE(cut_evenly(below, target, triangles_of(target), 1e-6, parts));
   EXPECT_EQ(parts.size(), 1U);
+}
+
+constexpr int pairs_drawn = 4000;
+
+std::vector<std::array<double, 2>> even_pairs() {
+  SpreadPairs next(5);
+  std::vector<std::array<double, 2>> pairs;
+  for (int k = 0; k < pairs_drawn; ++k) pairs.push_back(next.next());
+  return pairs;
+}
+
+TEST(EmitterParts, PointsAreAsLikelyAsTheLightFromThem) {
+  // Close below the emitter, below its border, and where the horizon cuts it.
+  const EmitterTarget target = strip(1e-3, 1, 1);
+  for (const SurfacePoint& point :
+       {SurfacePoint{{0.4, 0.3, 0}, Vec3::UnitZ()}, SurfacePoint{{0.999, 0.3, 0}, Vec3::UnitZ()},
+        SurfacePoint{{0.4, 0.3, 0}, Vec3(-1, 0, 1e-3).normalized()}}) {
+    std::vector<std::array<double, 2>> pairs = even_pairs();
+    std::vector<LightPoint> points;
+    add_points_by_light(point, target, triangles_of(target), pairs, points);
+    ASSERT_EQ(points.size(), std::size_t{pairs_drawn});
+    const auto factor_of = [&](double from, double to) {
+      const std::vector<std::vector<Vec3>> ring = {
+          {{from, 0, 1e-3}, {from, 1, 1e-3}, {to, 1, 1e-3}, {to, 0, 1e-3}}};
+      return unobstructed_factor(point.position, point.normal, ring);
+    };
+    for (const double x : {0.3985, 0.3995, 0.4005, 0.402, 0.9985, 0.9995}) {
+      double sum = 0;
+      for (const LightPoint& p : points)
+        if (p.position.x() < x) sum += p.weight / pairs_drawn;
+      EXPECT_NEAR(sum, factor_of(0, x) / factor_of(0, 1), 0.01) << point.position.x() << " " << x;
+    }
+    EXPECT_TRUE(std::all_of(points.begin(), points.end(), [&](const LightPoint& p) {
+      return p.weight > 0.3 && light_along(point, target, p.position - point.position) > 0;
+    }));
+  }
+}
+
+TEST(EmitterParts, NoPointsWhereThereIsNoLight) {
+  const EmitterTarget target = strip(1, 1, 1);
+  std::vector<std::array<double, 2>> pairs = even_pairs();
+  std::vector<LightPoint> points;
+  add_points_by_light({{0.5, 0.5, 2}, Vec3::UnitZ()}, target, triangles_of(target), pairs, points);
+  EXPECT_TRUE(points.empty());
 }
 
 }  // namespace

@@ -27,6 +27,8 @@ IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, in
   IrradianceRow row = maker.row({position, scene.roots.normal[at(root)]}, targets);
   if (!scene.cells.closed[at(scene.cells.before(root))] || !(row.sum > 0)) return row;
   row.off = std::max(row.off, std::abs(row.sum - 1));
+  // What is more than one is counted already.
+  if (1 - row.sum > maker.accuracy().allowed()) row.unsure += 1 - row.sum;
   for (double& m : row.moments) m /= row.sum;
   return row;
 }
@@ -40,6 +42,7 @@ bool ExactExchange::fits(const ReflectedMesh& mesh) const {
 }
 
 bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
+  stop_ = progress.stop;
   if (fits(mesh)) return true;
   const RowMaker maker(sight_, mesh, accuracy_);
   rows_.assign(at(mesh.count()), {});
@@ -79,6 +82,12 @@ std::vector<int> ExactExchange::seen_from(const ReflectedMesh& mesh, int element
   for (const IrradianceRow& row : rows_[at(element)])
     for (const int t : row.triangle) add_leaves(mesh, t, seen);
   return seen;
+}
+
+double ExactExchange::unsure(int element) const {
+  double sum = 0;
+  for (const IrradianceRow& row : rows_[at(element)]) sum += row.unsure * row.unsure;
+  return std::sqrt(sum / static_cast<double>(rows_[at(element)].size()));
 }
 
 double ExactExchange::row_error() const {

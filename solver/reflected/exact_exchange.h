@@ -4,6 +4,7 @@
 #include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/irradiance_row.h"
 
+#include <stop_token>
 #include <vector>
 
 namespace halfshade {
@@ -20,6 +21,8 @@ class ExactExchange : public IrradianceOperator {
   ElementField source(const ReflectedMesh& mesh) const override;
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
+  bool stopped() const override { return stop_.stop_requested(); }
+  double unsure(int element) const override;
 
   /// The most that moments of a row missed its form factors by, before they were put right; in
   /// closed cells also what form factors miss 1 by.
@@ -37,11 +40,12 @@ class ExactExchange : public IrradianceOperator {
   const FirstLight& light_;
   const DirectProjection& direct_;
   RowAccuracy accuracy_;
+  std::stop_token stop_;                          ///< of the last update
   std::vector<std::vector<IrradianceRow>> rows_;  ///< of each element's nodes
 };
 
 /// A row for a point of a part of a root; in a closed cell it is scaled to sum to one, and `off`
-/// is at least what it did not.
+/// is at least what it did not, as is `unsure` if that is more than is allowed.
 IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
                          const Vec3& position, std::span<const Sighted> targets);
 

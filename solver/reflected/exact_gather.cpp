@@ -7,11 +7,14 @@ namespace halfshade {
 namespace {
 
 QuickField all_leaving(const FirstLight& light, const ReflectedMesh& mesh,
-                       const ElementField& leaving, const ReflectedMesh& fine, int direct_points) {
+                       const ElementField& leaving, const ReflectedMesh& fine, int direct_points,
+                       Rgb& brightest) {
   DirectProjection direct(direct_points);
   direct.update(fine, light);
   ElementField all = restricted(mesh, leaving, fine);
   all.coefficients += direct.leaving(fine, light).coefficients;
+  for (int e = 0; e < all.count(); ++e)
+    brightest = brightest.max(all.of(e).row(0).transpose().abs());
   return QuickField(forest_field(fine, all));
 }
 
@@ -24,13 +27,13 @@ ExactGather::ExactGather(const ExactSight& sight, const ReflectingScene& scene,
     : sight_(sight),
       scene_(scene),
       mesh_(bisected(mesh, 2)),
-      leaving_(all_leaving(light, mesh, leaving, mesh_, direct_points)),
+      leaving_(all_leaving(light, mesh, leaving, mesh_, direct_points, brightest_)),
       maker_(sight, mesh_, accuracy) {}
 
 ExactGather::Gathered ExactGather::gather(int root, const Vec3& position,
                                           std::span<const Sighted> targets) const {
   const IrradianceRow row = closed_row(maker_, scene_, root, position, targets);
-  return {halfshade::irradiance(row, leaving_), row.sum};
+  return {halfshade::irradiance(row, leaving_), row.sum, row.unsure};
 }
 
 Rgb ExactGather::irradiance(const SurfacePoint& point) const {

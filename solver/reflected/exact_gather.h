@@ -18,9 +18,13 @@ class ExactGather {
   struct Gathered {
     Rgb irradiance;  ///< from S and what else leaves
     double reach;    ///< form factor to all that is seen
+    double unsure;   ///< see IrradianceRow
   };
   /// At a position in a part of a root.
   Gathered gather(int root, const Vec3& position, std::span<const Sighted> targets) const;
+
+  /// The most that leaves any triangle in the mean.
+  const Rgb& brightest() const { return brightest_; }
 
   /// At any point, of which nothing is known.
   Rgb irradiance(const SurfacePoint& point) const;
@@ -29,6 +33,7 @@ class ExactGather {
   const ExactSight& sight_;
   const ReflectingScene& scene_;
   ReflectedMesh mesh_;
+  Rgb brightest_ = Rgb::Zero();
   QuickField leaving_;
   RowMaker maker_;
 };

@@ -1,6 +1,7 @@
 #include "solver/reflected/exact_sight.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/core/planar.h"
 
@@ -15,6 +16,7 @@ namespace {
 struct Target {
   std::vector<std::vector<Vec3>> rings;
   std::vector<int> roots, cells;
+  double magnitude = 0;  ///< its largest coordinate
 };
 
 /// What each thread keeps between calls.
@@ -22,6 +24,12 @@ struct Sighter {
   VisiblePartFinder finder;
   VisiblePart part;
 };
+
+/// Whether a point that looks along or against a surface's normal was meant to lie in its plane.
+bool is_meant_in_plane(const Surface& surface, const SurfacePoint& point) {
+  return std::abs(surface.frame.normal.dot(point.normal)) > margins::same_normal &&
+         std::abs(surface.frame.height(point.position)) <= tolerance_of(surface).length;
+}
 
 bool reaches_above(std::span<const Vec3> corners, const Vec3& origin, const Vec3& normal) {
   return std::any_of(corners.begin(), corners.end(),
@@ -92,13 +100,24 @@ struct ExactSight::Impl {
     for (std::size_t k = 0; k < scene.surfaces.size(); ++k)
       for (const Ring& ring : scene.surfaces[k].rings) {
         auto& corners = targets[k].rings.emplace_back();
-        for (const Vec2& q : ring) corners.push_back(scene.surfaces[k].frame.to_space(q));
+        for (const Vec2& q : ring) {
+          corners.push_back(scene.surfaces[k].frame.to_space(q));
+          targets[k].magnitude =
+              std::max(targets[k].magnitude, corners.back().lpNorm<Eigen::Infinity>());
+        }
       }
     for (int root = 0; root < reflecting.roots.count(); ++root) {
       Target& target = targets[at(reflecting.roots.surface[at(root)])];
       target.roots.push_back(root);
       target.cells.push_back(reflecting.cells.before(root));
     }
+  }
+
+  /// As far as rounding tells: what lies in the surface's plane sees it edge-on.
+  bool is_above(const Vec3& point, int surface) const {
+    const double magnitude =
+        std::max(targets[at(surface)].magnitude, point.lpNorm<Eigen::Infinity>());
+    return scene.surfaces[at(surface)].frame.height(point) > margins::slack * magnitude;
   }
 
   void see_unobstructed(const SurfacePoint& point, int surface, SeenPart& seen) const {
@@ -132,7 +151,8 @@ std::vector<Sighted> ExactSight::may_see(const std::array<Vec3, 3>& part, int ro
   for (int s = 0; s < static_cast<int>(targets.size()); ++s) {
     const Target& target = targets[at(s)];
     const PlaneFrame& frame = scene.surfaces[at(s)].frame;
-    if (s == own || target.roots.empty() ||
+    // Rounding puts points of a two-sided face before their own back.
+    if (scene.surfaces[at(s)].plane == scene.surfaces[at(own)].plane || target.roots.empty() ||
         !reaches_above(target.rings.front(), part[0], reflecting.roots.normal[at(root)]) ||
         !reaches_above(part, frame.origin, frame.normal) ||
         std::find(target.cells.begin(), target.cells.end(), cell) == target.cells.end())
@@ -149,23 +169,25 @@ std::vector<Sighted> ExactSight::may_see(const std::array<Vec3, 3>& part, int ro
 
 std::vector<Sighted> ExactSight::may_see(const SurfacePoint& point) const {
   std::vector<Sighted> result;
-  for (int s = 0; s < static_cast<int>(impl_->targets.size()); ++s)
-    if (impl_->scene.surfaces[at(s)].frame.height(point.position) > 0 &&
+  for (int s = 0; s < static_cast<int>(impl_->targets.size()); ++s) {
+    const Surface& surface = impl_->scene.surfaces[at(s)];
+    if (impl_->is_above(point.position, s) && !is_meant_in_plane(surface, point) &&
         reaches_above(impl_->targets[at(s)].rings.front(), point.position, point.normal))
       result.push_back({s, false});
+  }
   return result;
 }
 
 void ExactSight::see(const SurfacePoint& point, const Sighted& target, SeenPart& seen) const {
   seen = {};
-  const PlaneFrame& frame = impl_->scene.surfaces[at(target.surface)].frame;
-  if (!(frame.height(point.position) > 0)) return;
+  if (!impl_->is_above(point.position, target.surface)) return;
   if (target.is_clear) return impl_->see_unobstructed(point, target.surface, seen);
   auto& [finder, part] = impl_->sighters.local();
   finder.find(point.position, point.normal, target.surface, part);
   if (part.region == Region::lit) return impl_->see_unobstructed(point, target.surface, seen);
   if (part.region != Region::penumbra) return;
   seen.factor = enclosed_factor(point.position, point.normal, part.pieces);
+  const PlaneFrame& frame = impl_->scene.surfaces[at(target.surface)].frame;
   for (const auto& ring : visible_rings(part, point.position, frame)) {
     Ring& flat = seen.rings.emplace_back();
     for (const Vec3& p : ring) flat.push_back(frame.to_plane(p));

@@ -24,6 +24,13 @@ class IrradianceOperator {
 
   /// The elements that are seen from an element; some more than once.
   virtual std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const = 0;
+
+  /// Whether the call of the last update was told to stop: what takes many applications should.
+  virtual bool stopped() const { return false; }
+
+  /// Form factor from an element of which it is not known where it leads, in the root of the mean
+  /// square; 0 where that shows as noise.
+  virtual double unsure(int /*element*/) const { return 0; }
 };
 
 }  // namespace halfshade

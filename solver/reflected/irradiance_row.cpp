@@ -11,8 +11,11 @@ namespace {
 
 /// Parts whose area is this share of a triangle's or more are all of it, and 1 − this nothing.
 constexpr double nearly_all = 1 - 1e-11;
-/// Moments are scaled to form factors only if they are about right.
-constexpr double most_off = 0.2;
+/// Moments may miss the form factor by so many times what each part of them may be off, and are off
+/// by rounding anyway.
+constexpr double parts_off = 3, rounding_off = 1e-9;
+/// Those that miss it by more are found with so much less for each part.
+constexpr double finer = 1e-3;
 /// Relative to coordinates, and far above what corners are off: those this close to a line lie on
 /// it. Rings that end at triangles'
 /// edges come out the same then, whatever rounding says: quadrature begins at their first corner.
@@ -148,26 +151,56 @@ RowMaker::RowMaker(const ExactSight& sight, const ReflectedMesh& mesh, const Row
   }
 }
 
+double RowAccuracy::allowed() const { return std::max(parts_off * moments, rounding_off); }
+
+double RowMaker::add(const SurfacePoint& point, int surface, const SeenPart& seen,
+                     const RowAccuracy& accuracy, IrradianceRow& row) const {
+  Walk walk(mesh_, corners_, accuracy,
+            above_plane(point.position, point.normal, sight_.scene().surfaces[at(surface)].frame),
+            row);
+  for (const int root : sight_.roots(surface))
+    seen.is_whole ? walk.whole(root) : walk.cut(root, seen.rings);
+  return walk.sum();
+}
+
+void RowMaker::add_scaled(const SurfacePoint& point, int surface, const SeenPart& seen,
+                          IrradianceRow& row) const {
+  const std::size_t triangles = row.triangle.size(), moments = row.moments.size();
+  const auto take_back = [&] {
+    row.triangle.resize(triangles);
+    row.first.resize(triangles);
+    row.moments.resize(moments);
+  };
+  const double allowed = accuracy_.allowed();
+  double sum = add(point, surface, seen, accuracy_, row);
+  if (!(std::abs(sum - seen.factor) <= allowed)) {
+    take_back();
+    RowAccuracy better = accuracy_;
+    better.moments *= finer;
+    sum = add(point, surface, seen, better, row);
+  }
+  double off = std::abs(sum - seen.factor);
+  if (sum > 0 && std::isfinite(sum)) {
+    for (std::size_t i = moments; i < row.moments.size(); ++i) row.moments[i] *= seen.factor / sum;
+  } else {
+    take_back();
+    off = seen.factor;
+  }
+  row.off += off;
+  if (off > allowed) row.unsure += off;
+}
+
 IrradianceRow RowMaker::row(const SurfacePoint& point, std::span<const Sighted> targets) const {
   IrradianceRow row;
   SeenPart seen;
   for (const Sighted& target : targets) {
     sight_.see(point, target, seen);
     if (!(seen.factor > 0)) continue;
-    const std::size_t begin = row.moments.size();
-    Walk walk(mesh_, corners_, accuracy_,
-              above_plane(point.position, point.normal,
-                          sight_.scene().surfaces[at(target.surface)].frame),
-              row);
-    for (const int root : sight_.roots(target.surface))
-      seen.is_whole ? walk.whole(root) : walk.cut(root, seen.rings);
+    add_scaled(point, target.surface, seen, row);
     row.sum += seen.factor;
-    row.off += std::abs(walk.sum() - seen.factor);
-    const double scale = seen.factor / walk.sum();
-    if (std::abs(scale - 1) < most_off)
-      for (std::size_t i = begin; i < row.moments.size(); ++i) row.moments[i] *= scale;
   }
   row.first.push_back(static_cast<int>(row.moments.size()));
+  if (row.sum - 1 > accuracy_.allowed()) row.unsure += row.sum - 1;
   return row;
 }
 

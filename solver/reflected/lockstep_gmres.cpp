@@ -1,6 +1,7 @@
 #include "solver/reflected/lockstep_gmres.h"
 
 #include "meshing/core/types.h"
+#include "solver/elements/balancing_scale.h"
 
 #include <Eigen/Dense>
 
@@ -31,6 +32,17 @@ ChannelArray scaled(const RowGroups& groups, const ChannelArray& factor, Channel
 
 ChannelArray inverse_or_zero(const ChannelArray& length, const ChannelArray& least) {
   return (length > least).select(1 / length, ChannelArray::Zero(length.rows(), 3));
+}
+
+/// Powers of two that bring the largest of each vector to about 1: systems may differ by so much
+/// that squares of one of them vanish.
+ChannelArray balancing_scales(const RowGroups& groups, const ChannelArray& x) {
+  ChannelArray most = ChannelArray::Zero(groups.count, 3);
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    auto of_group = most.row(groups.of_row[static_cast<std::size_t>(i)]);
+    of_group = of_group.max(x.row(i).abs());
+  }
+  return most.unaryExpr([](double largest) { return balancing_scale(largest); });
 }
 
 /// The small least-squares problem of one system, kept triangular by rotations.
@@ -184,10 +196,14 @@ ChannelArray dots(const RowGroups& groups, const ChannelArray& a, const ChannelA
   return sums;
 }
 
-GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A, const ChannelArray& b,
-                  const RowGroups& groups, double tolerance, int max_iterations) {
+GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A,
+                  const ChannelArray& right_side, const RowGroups& groups, double tolerance,
+                  int max_iterations, const std::function<bool()>& stopped) {
   GmresResult result;
-  result.x = ChannelArray::Zero(b.rows(), 3);
+  const auto is_stopped = [&] { return stopped && stopped(); };
+  result.x = ChannelArray::Zero(right_side.rows(), 3);
+  const ChannelArray scale = balancing_scales(groups, right_side);
+  const ChannelArray b = scaled(groups, scale, right_side);
   const ChannelArray size = dots(groups, b, b).sqrt();
   const ChannelArray inverse = inverse_or_zero(size, ChannelArray::Zero(groups.count, 3));
   const ChannelArray enough = tolerance * size;
@@ -200,13 +216,14 @@ GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A, con
       result.residual = (cycle.residual() * inverse).maxCoeff();
       ++result.iterations;
     } while (cycle.steps() < restart && result.residual > tolerance &&
-             result.iterations < max_iterations);
+             result.iterations < max_iterations && !is_stopped());
     cycle.add_solution(result.x);
     result.amplification = std::max(result.amplification, cycle.amplification());
-    if (result.residual <= tolerance || result.residual > stagnant * last) break;
+    if (result.residual <= tolerance || result.residual > stagnant * last || is_stopped()) break;
     last = result.residual;
     residual = b - A(result.x);
   }
+  result.x = scaled(groups, 1 / scale, std::move(result.x));
   return result;
 }
 

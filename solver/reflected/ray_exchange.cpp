@@ -68,6 +68,7 @@ ElementField reflected_part(const ReflectedMesh& mesh, const FirstLight& light,
 }
 
 bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
+  stop_ = progress.stop;
   of_triangle_.resize(at(mesh.forest.count()));
   const double area_of_all = area_of_all_rays(mesh);
   for (int t = 0; t < mesh.forest.count(); ++t)

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 namespace halfshade {
@@ -34,6 +35,7 @@ class RayExchange : public IrradianceOperator {
   ElementField source(const ReflectedMesh& mesh) const override;
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
+  bool stopped() const override { return stop_.stop_requested(); }
 
   /// What K (S + leaving) is off because the rays are few.
   FieldNoise noise(const ReflectedMesh& mesh, const ElementField& leaving) const;
@@ -54,6 +56,7 @@ class RayExchange : public IrradianceOperator {
   const FirstLight& light_;
   int strata_;
   std::size_t traced_ = 0;
+  std::stop_token stop_;                                ///< of the last update
   std::vector<std::unique_ptr<NodeRays>> of_triangle_;  ///< of the forest; none where split
 };
 

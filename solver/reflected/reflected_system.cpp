@@ -126,7 +126,8 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
   solution.ambient = ambient ? *ambient : ambient_form(system, irradiance);
   const GmresResult solved =
       gmres(RestOperator(system, solution.ambient), irradiance.rest.coefficients,
-            groups_of(mesh, systems, irradiance.rest), tolerance, most_iterations);
+            groups_of(mesh, systems, irradiance.rest), tolerance, most_iterations,
+            [&exchange = exchange] { return exchange.stopped(); });
   irradiance.rest.coefficients = solved.x;
   irradiance.constant -= of_closed(
       systems,
@@ -143,7 +144,7 @@ ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces) {
   ReflectedSolution solution;
   solution.irradiance = {ChannelArray::Zero(systems.count(), 3), zero_field(mesh)};
   ElementField& sum = solution.irradiance.rest;
-  for (int k = 1; k < bounces; ++k) {
+  for (int k = 1; k < bounces && !exchange.stopped(); ++k) {
     sum = exchange.apply(mesh, reflected_part(mesh, light, sum));
     sum.coefficients += first.coefficients;
   }

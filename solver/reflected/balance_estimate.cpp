@@ -66,30 +66,82 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   return estimate;
 }
 
-double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                           const ReflectionEstimate& estimate, const std::vector<double>& weight) {
-  const ReflectedMesh& mesh = system.mesh;
-  const auto surface_of = [&](int e) { return at(system.light.surface[at(mesh.root(e))]); };
-  std::vector<Rgb> mean(1 + at(*std::ranges::max_element(system.light.surface)), Rgb::Zero());
-  std::vector<double> reach(mean.size(), 0);
-  for (int e = 0; e < mesh.count(); ++e) {
-    mean[surface_of(e)] += estimate.missing[at(e)];
-    reach[surface_of(e)] += estimate.reach[at(e)];
+ReflectionEstimate reflected_within(ReflectionEstimate estimate,
+                                    const std::vector<UnsureLoss>& unsure) {
+  for (std::size_t e = 0; e < unsure.size(); ++e) {
+    const double more = (std::pow(unsure[e].within, 2) - 1) * estimate.square_error[e];
+    estimate.square_error[e] += more;
+    estimate.sum += more;
   }
-  ElementField source = zero_field(mesh);
-  for (int e = 0; e < mesh.count(); ++e)
-    if (const double there = reach[surface_of(e)]; there > 0)
-      source.of(e).row(0) = (mean[surface_of(e)] / there).transpose();
-  const ElementField all = missing_light(system, source);
+  return estimate;
+}
+
+double ReflectedOn::at_most() const {
+  return std::pow(std::sqrt(std::max(square, 0.)) + 2 * std::sqrt(variance), 2);
+}
+
+namespace {
+
+/// All channels alike: one of them is solved for.
+bool is_grey(const ReflectedSystem& system) {
+  const auto& [mesh, light, exchange, systems] = system;
+  const auto is_even = [](const Rgb& x) { return (x == x[0]).all(); };
+  for (int e = 0; e < mesh.count(); ++e) {
+    const int root = mesh.root(e);
+    if (light.painted.is_painted(root) || !is_even(light.rho[at(root)]) ||
+        !is_even(light.exitance[at(root)]))
+      return false;
+  }
+  return true;
+}
+
+/// What comes of each part of the points, beside what they found itself.
+std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
+                                          const ReflectionEstimate& estimate) {
+  const ReflectedMesh& mesh = system.mesh;
+  const std::size_t at_once = is_grey(system) ? 3 : 1;
+  static_assert(parts_of_probes % 3 == 0);
+  std::vector<ElementField> parts;
+  for (std::size_t p = 0; p < parts_of_probes; p += at_once) {
+    ElementField source = zero_field(mesh);
+    for (int e = 0; e < mesh.count(); ++e)
+      if (const double reach = estimate.reach[at(e)]; reach > 0)
+        for (int c = 0; c < 3; ++c)
+          source.of(e)(0, c) = estimate.missing[at(e)][at_once == 3 ? p + at(c) : p][c] *
+                               estimate.probed[at(e)] / (reach * mesh.area(e));
+    ElementField all = missing_light(system, source);
+    all.coefficients -= source.coefficients;
+    for (std::size_t k = 0; k < at_once; ++k) {
+      parts.push_back(all);
+      if (at_once == 3)
+        for (int c = 0; c < 3; ++c)
+          parts.back().coefficients.col(c) = all.coefficients.col(static_cast<Eigen::Index>(k));
+    }
+  }
+  return parts;
+}
+
+}  // namespace
+
+ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
+                         const ReflectionEstimate& estimate, const std::vector<double>& weight) {
+  const ReflectedMesh& mesh = system.mesh;
+  const std::vector<ElementField> parts = reflected_parts(system, estimate);
   const ElementField there = irradiance.whole(mesh, system.systems);
-  double square = 0;
-  for (int e = 0; e < mesh.count(); ++e)
-    square += mesh.area(e) * weight[at(e)] *
-              at_most((all.of(e).row(0) - source.of(e).row(0)).transpose(),
-                      there.of(e).row(0).transpose())
-                  .square()
-                  .sum();
-  return square;
+  constexpr double n = parts_of_probes;
+  ReflectedOn on;
+  for (int e = 0; e < mesh.count(); ++e) {
+    Rgb mean = Rgb::Zero(), variance = Rgb::Zero();
+    for (const ElementField& part : parts) mean += part.of(e).row(0).transpose() / n;
+    for (const ElementField& part : parts)
+      variance += (part.of(e).row(0).transpose() - mean).square() / (n * (n - 1));
+    const Rgb all = there.of(e).row(0).transpose();
+    const double share = mesh.area(e) * weight[at(e)];
+    on.square += share * at_most(mean, all).square().sum();
+    on.variance += share * at_most(variance.sqrt(), all).square().sum();
+  }
+  on.square -= on.variance;
+  return on;
 }
 
 void add_unsure_by_rays(const ReflectedSystem& system, const std::vector<double>& rays,

@@ -11,6 +11,7 @@ namespace halfshade {
 struct UnsureLoss {
   Rgb factor = Rgb::Zero();  ///< its form factors to all others may be off by this in the mean
   double parts = 0;          ///< into which its length had to be cut to know; 0: unknown
+  double within = 1;         ///< by how much errors over a part of it grow as they are reflected on
 };
 
 /// What light is off because it is not known exactly how much of it gets lost.
@@ -33,25 +34,28 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
                                  const std::vector<double>& weight, double amplification,
                                  double negligible);
 
-/// Of noisy looks at the same elements: the first that is little would end them.
-class MeanOfLooks {
- public:
-  void add(double value) {
-    sum_ += value;
-    ++count_;
-  }
-  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
+/// The same, with what errors within elements grow to: their means do not tell.
+ReflectionEstimate reflected_within(ReflectionEstimate estimate,
+                                    const std::vector<UnsureLoss>& unsure);
 
- private:
-  double sum_ = 0;
-  int count_ = 0;
+/// What all light is off by what is missing, as it is reflected on: ∫ |error|², weighted.
+struct ReflectedOn {
+  double square = 0;    ///< without bias by the noise of the points; may be negative
+  double variance = 0;  ///< that noise, reflected on as well
+
+  /// With two standard deviations.
+  double at_most() const;
+  /// Whether more points would say more than that.
+  bool is_unsure() const { return 4 * variance > square; }
 };
 
-/// ∫ |error|², weighted, that comes of what `estimate` finds missing in the mean over each surface,
-/// as it is reflected on. What is missing where all that leaves gets lost, as above a lamp close
-/// below a ceiling, does not count.
-double square_reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                           const ReflectionEstimate& estimate, const std::vector<double>& weight);
+/// What comes of what `estimate` finds missing in the mean over each element. Where light is
+/// reflected a hundred times, not only its amount is slow to settle: in a narrow gap it spreads as
+/// heat does in a plate, and whatever is missing over some gaps' width moves it there by nearly as
+/// much. What is missing where all that leaves gets lost, as above a lamp close below a ceiling,
+/// does not count.
+ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
+                         const ReflectionEstimate& estimate, const std::vector<double>& weight);
 
 /// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays
 /// that all arrive, up to three in N may get lost (the rule of three, at 95 %).

@@ -16,11 +16,13 @@ ReflectedCost reflected_cost(int surfaces, const ReflectedOptions& options) {
   const double by_parts = rows * 6.8e-6 * std::pow(surfaces, 1.25);
   const double by_rays = 0.21 * std::pow(finer, 2.3) * (1 + surfaces / 15.);
   // What has no noise is worth more time.
-  constexpr double worth = 2.5;
+  constexpr double worth = 2.5, much_amplified = 4;
   const bool is_exact =
       options.visibility == ReflectedVisibility::exact ||
       (options.visibility == ReflectedVisibility::automatic && by_parts < worth * by_rays);
-  return {is_exact, is_exact ? by_parts : by_rays};
+  const bool may_choose = options.visibility == ReflectedVisibility::automatic && !is_exact;
+  return {is_exact, may_choose ? std::max(much_amplified, by_parts / (worth * by_rays)) : HUGE_VAL,
+          is_exact ? by_parts : by_rays};
 }
 
 }  // namespace halfshade

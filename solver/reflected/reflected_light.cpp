@@ -165,14 +165,18 @@ int gathering_rays(double noise) {
   return static_cast<int>(std::clamp(usual_rays * ratio * ratio, fewest, most));
 }
 
-ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
-                               const ReflectedOptions& options, const Progress& progress) {
-  check(options);
+namespace {
+
+/// With what is found, or none if light is amplified by `most_amplified` by rays.
+std::shared_ptr<ReflectedLight::State> solved_state(const SoundScene& scene,
+                                                    const DirectIrradiance& direct,
+                                                    const ReflectedOptions& options, bool is_exact,
+                                                    double most_amplified,
+                                                    const Progress& progress) {
   ReflectingScene reflecting = make_reflecting_scene(scene, progress);
   const HugeRoots huge = find_huge(reflecting.roots, options.counted);
   FirstLight light = first_light(scene, reflecting.roots, direct, options.through_operator);
   const bool nothing = reflects_nothing(light) || options.bounces == 0;
-  const bool is_exact = reflected_cost(static_cast<int>(scene.surfaces.size()), options).is_exact;
   const double length = nothing ? HUGE_VAL : first_length(huge, is_exact, options);
   ReflectedMesh mesh =
       make_reflected_mesh(reflecting.roots, length, options.order, options.max_elements, huge);
@@ -195,9 +199,20 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
     find_hot_cells(*state, huge, options.tolerance);
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
-    run_rounds(*state, options, progress);
+    if (!run_rounds(*state, options, most_amplified, progress)) return nullptr;
   }
   finish(*state);
+  return state;
+}
+
+}  // namespace
+
+ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& direct,
+                               const ReflectedOptions& options, const Progress& progress) {
+  check(options);
+  const ReflectedCost cost = reflected_cost(static_cast<int>(scene.surfaces.size()), options);
+  auto state = solved_state(scene, direct, options, cost.is_exact, cost.most_amplified, progress);
+  if (!state) state = solved_state(scene, direct, options, true, HUGE_VAL, progress);
   return ReflectedLight(std::move(state));
 }
 

@@ -22,7 +22,9 @@ using DirectIrradiance = std::function<Rgb(int surface, const Vec3& position)>;
 
 /// How irradiance at a place follows from what leaves all others.
 enum class ReflectedVisibility {
-  automatic,  ///< exact, unless rays are expected to take far less time
+  /// Exact, unless rays are expected to take far less time; where they find that light, and so
+  /// their noise, is amplified, by so much more.
+  automatic,
   exact,   ///< by exactly visible parts: nothing is random; for some tens or hundreds of surfaces
   sampled  ///< by rays over hemispheres
 };

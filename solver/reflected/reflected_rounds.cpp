@@ -23,7 +23,7 @@ constexpr int many_to_solve = 20000;
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
 /// Where the solver amplifies by more, that is solved for.
-constexpr double comes_back = 1.2, much_comes_back = 10;
+constexpr double comes_back = 1.2, much_comes_back = 4;
 
 /// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
 constexpr double most_for_gaps = 2000;
@@ -47,7 +47,7 @@ constexpr double share_of_noise = 0.45, share_of_all = 0.95, uncertain = 1.1;
 constexpr double least_noise = 0.25;
 /// A pass takes at least so much of the noise away that this share is left.
 constexpr double least_gain = 0.75;
-constexpr int most_passes = 5;
+constexpr int most_passes = 5, surest = 16, sure = 3;  // times as many points as usual
 /// Deviation of the estimate above which it may be off by so much that it asks for too much.
 constexpr double unsure = 0.1, much_noise = 0.6;
 /// Noise of more than `hides` times what elements are off hides which of them are; of `unseen`
@@ -75,10 +75,12 @@ class Rounds {
                                                                         : few_strata);
   }
 
-  void run() {
+  bool run(double most_amplified) {
+    most_amplified_ = most_amplified;
     while (run_once())
       if (mesh_.count() > many_to_free) return_free_memory();
     if (kept_rays_) state_.report.rays += kept_rays_->rays();
+    return !is_amplified();
   }
 
  private:
@@ -95,7 +97,6 @@ class Rounds {
     std::vector<double> weight;
     std::vector<UnsureLoss> unsure;
     int passes = 0;  ///< on these elements
-    MeanOfLooks on;  ///< square of what is reflected on
     ElementField ambient;
   };
   enum class Next { end, refine, points, pass };
@@ -120,6 +121,7 @@ class Rounds {
     found.unsure = unsure_by_gaps(system, state_.reflecting, progress_);
     if (kept_rays_) add_unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_), found.unsure);
     solve(system, found);
+    if (is_amplified()) return false;
     ++report.rounds;
     return improve(system, found);
   }
@@ -129,7 +131,7 @@ class Rounds {
     ReflectionEstimate estimate;
     for (;;) {
       if (!look(system, found, estimate)) return false;
-      const Next next = judge(system, found, estimate);
+      const Next next = judge(system, found, reflected_within(estimate, found.unsure));
       if (next == Next::end || next == Next::refine) return next == Next::refine;
       if (next == Next::points) continue;
       if (!pass_once_more(system, found)) return false;
@@ -187,6 +189,7 @@ class Rounds {
   }
 
   bool all_bounces() const { return options_.bounces < 0; }
+  bool is_amplified() const { return state_.report.amplification >= most_amplified_; }
 
   /// What rays have found so far, as well as it is known.
   void balance(const ReflectedSystem& system, Found& found) const {
@@ -294,9 +297,11 @@ class Rounds {
     const BalanceEstimate unbalanced =
         estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
                          found.weight, report.amplification, negligible * goal);
-    if (report.amplification >= much_comes_back)
-      found.on.add(square_reflected_on(system, irradiance, estimate, found.weight));
-    const double on = found.on.mean();
+    const ReflectedOn reflected = report.amplification >= much_comes_back
+                                      ? reflected_on(system, irradiance, estimate, found.weight)
+                                      : ReflectedOn{};
+    if (progress_.stopped()) return Next::end;
+    const double on = reflected.at_most();
     report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),
                               report.residual * report.amplification);
     report.noise = share(summed(found.noise_left));
@@ -309,9 +314,8 @@ class Rounds {
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.square > goal && cannot_show) return Next::end;
     const bool is_reflected_on = on > goal && square <= goal && unbalanced.square <= goal;
-    // Nor does more of anything help where all noise comes back. Without noise elements are off,
-    // and what is reflected on shrinks as what is off does.
-    if (is_reflected_on && !parts_) return Next::end;
+    if (is_reflected_on && reflected.is_unsure() && surer_ < surest) return Next::points;
+    // What is reflected on shrinks as what is off does, elements or noise.
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
                   is_reflected_on ? square * goal / on : goal, found);
   }
@@ -321,17 +325,15 @@ class Rounds {
     RefinementPlan plan = plan_refinement(input, goal);
     const bool is_coarse = !plan.elements.empty();
     const bool is_last = report.rounds == options_.max_rounds;
-    const int room = options_.max_elements - mesh_.count();
     std::size_t fits = 0;
     for (int made = 0; fits < plan.elements.size() && !is_last; ++fits)
-      if ((made += (1 << plan.times[fits]) - 1) > room) break;
+      if ((made += (1 << plan.times[fits]) - 1) > options_.max_elements - mesh_.count()) break;
     const ReflectedEnd end = is_coarse && !is_last ? ReflectedEnd::elements : ReflectedEnd::rounds;
     report.end = ReflectedEnd::interrupted;
     const double noise = summed(found.noise_left);
     const double of_elements = std::max(input.estimate.sum - noise, 0.);
     const bool is_hidden = noise > std::max(hides * of_elements, share_of_noise * goal);
     const bool can_pass = kept_rays_ && found.passes < most_passes && noise > 0;
-    constexpr int surest = 16, sure = 3;
     const bool could_be_surer = !is_coarse && surer_ < surest;
     // More points take less than what an outlier among a few may ask for.
     if (noise <= much_noise * goal && surer_ < sure && input.estimate.deviation > unsure * goal &&
@@ -375,6 +377,7 @@ class Rounds {
 
   ReflectedLight::State& state_;
   const ReflectedOptions& options_;
+  double most_amplified_ = HUGE_VAL;
   const Progress& progress_;
   ReflectedMesh mesh_;
   DirectProjection direct_;
@@ -389,9 +392,9 @@ class Rounds {
 
 }  // namespace
 
-void run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
-                const Progress& progress) {
-  Rounds(state, options, progress).run();
+bool run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
+                double most_amplified, const Progress& progress) {
+  return Rounds(state, options, progress).run(most_amplified);
 }
 
 }  // namespace halfshade

@@ -8,8 +8,9 @@ namespace halfshade {
 inline constexpr int points_of_exact_projection = 100000;
 
 /// The rounds of solving, estimating and refining, until the tolerance is met or a limit stops it.
-/// What is found is kept after each.
-void run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
-                const Progress& progress);
+/// What is found is kept after each. False, after the first, if by rays light is amplified by
+/// `most_amplified` and more: nothing is kept then.
+bool run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
+                double most_amplified, const Progress& progress);
 
 }  // namespace halfshade

@@ -13,14 +13,20 @@ namespace halfshade {
 void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes) {
   square_error.resize(at(mesh.count()), 0);
   chance.resize(at(mesh.count()), 0);
-  missing.resize(at(mesh.count()), Rgb::Zero());
+  std::array<Rgb, parts_of_probes> none;
+  none.fill(Rgb::Zero());
+  missing.resize(at(mesh.count()), none);
   reach.resize(at(mesh.count()), 0);
+  probed.resize(at(mesh.count()), 0);
+  std::size_t part = 0;  // those of an element follow each other
   double variance = deviation * deviation;
   for (const ProbePlace& probe : probes) {
     const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
-    missing[at(probe.element)] += probe.share * probe.reach * probe.missing;
+    missing[at(probe.element)][part] += parts_of_probes * probe.share * probe.reach * probe.missing;
+    part = (part + 1) % parts_of_probes;
     reach[at(probe.element)] += probe.share * probe.reach;
+    probed[at(probe.element)] += probe.share;
     chance[at(probe.element)] = std::min(mesh.area(probe.element) / probe.share, 1.);
     sum += error;
     variance += error * error;
@@ -33,8 +39,10 @@ void ReflectionEstimate::join(const ReflectionEstimate& other, double weight_of_
   const double a = 1 - weight_of_other, b = weight_of_other;
   for (std::size_t e = 0; e < square_error.size(); ++e) {
     square_error[e] = a * square_error[e] + b * other.square_error[e];
-    missing[e] = a * missing[e] + b * other.missing[e];
+    for (std::size_t p = 0; p < parts_of_probes; ++p)
+      missing[e][p] = a * missing[e][p] + b * other.missing[e][p];
     reach[e] = a * reach[e] + b * other.reach[e];
+    probed[e] = a * probed[e] + b * other.probed[e];
     // Of points of both: what one says of it, for the other may have missed it.
     chance[e] = std::min(std::max(chance[e] / a, other.chance[e] / b), 1.);
   }

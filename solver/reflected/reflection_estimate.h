@@ -4,11 +4,15 @@
 #include "solver/reflected/probe_places.h"
 #include "solver/reflected/reflected_system.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace halfshade {
+
+/// Parts of the points that tell how sure their means are.
+inline constexpr std::size_t parts_of_probes = 6;
 
 /// What reflected light is off, by rays at random points.
 struct ReflectionEstimate {
@@ -22,9 +26,10 @@ struct ReflectionEstimate {
   /// found there is its own, the rest stands for elements like it that none fell on.
   std::vector<double> chance;
   /// Element → ∫ over it of what arrives and is not in the solution, times the share of what leaves
-  /// there that arrives somewhere; and of this share alone.
-  std::vector<Rgb> missing;
-  std::vector<double> reach;
+  /// there that arrives somewhere, as each part of the points has it; of this share alone; and the
+  /// area that the points stand for.
+  std::vector<std::array<Rgb, parts_of_probes>> missing;
+  std::vector<double> reach, probed;
   std::size_t rays = 0;
   bool complete = true;
 

@@ -76,6 +76,7 @@ struct MeshCommand {
   std::string picture_of;  ///< group or number of a surface; empty: the plane with most curves
   CurvePictureOptions picture_options;
   MeshOptions options;
+  bool has_tolerance = false;  ///< it was given
 };
 
 /// How pictures of scenes come about.

@@ -3,6 +3,7 @@
 #include "apps/run_end.h"
 #include "io/write/write_curves.h"
 #include "io/write/write_mesh.h"
+#include "meshing/core/error.h"
 #include "solver/pipeline/prepared_scene.h"
 
 #include <fmt/format.h>
@@ -16,6 +17,8 @@ namespace {
 
 /// A camera's up counts for a surface if the cosine of its angle with the normal is smaller.
 constexpr double clearly_across = 0.7;
+/// Surfaces: the complete curves of more take hours, for all that can come between is in some way.
+constexpr std::size_t many_surfaces = 20000;
 
 CommandFiles checked_files(const MeshCommand& command, const CommonOptions& common) {
   CommandFiles files = scene_files(command.scene, command.materials, common);
@@ -100,11 +103,25 @@ std::vector<std::filesystem::path> write(const MeshCommand& command, const Prepa
   return written;
 }
 
+/// Not without being told to.
+void require_time(const MeshCommand& command, const SoundScene& scene) {
+  const DiscontinuityOptions& events = command.options.events;
+  if (command.has_tolerance || scene.surfaces.size() <= many_surfaces ||
+      !(events.ev || events.eee || events.face))
+    return;
+  throw Error(ErrorCode::too_large, {},
+              fmt::format("all curves of {} surfaces take hours; --tolerance 0.01 leaves out those "
+                          "that change the light by less, and --tolerance 0 takes all the time "
+                          "there is",
+                          scene.surfaces.size()));
+}
+
 ExitCode run_prepared(const MeshCommand& command, const SceneFile& file,
                       const PreparedScene& prepared, const Context& context) {
   // Before the work: a name that does not exist is worth telling at once.
   if (!command.picture.empty() && !command.picture_of.empty())
     picture_surfaces(prepared.scene(), {}, command.picture_of);
+  require_time(command, prepared.scene());
   const MeshResult result = mesh_scene(prepared, command.options, context.progress);
   context.progress_ends();
   print_warnings(file, result.warnings, context);

@@ -38,10 +38,11 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
               "--curves or --picture is given)");
   add_file(app, "--curves", command.curves, "The curves with kind, order, jump and origin: .vtp");
   add_materials(app, command.materials, "Materials file, as for solve");
-  add_not_negative(
+  const CLI::Option* tolerance = add_not_negative(
       app, "--tolerance", command.options.tolerance,
       "Leave out curves that change the irradiance by less than this share of its mean,\n"
       "and draw conics accordingly (default: 0, the mesh is complete)");
+  app.callback([tolerance, &command] { command.has_tolerance = tolerance->count() > 0; });
   add_positive(app, "--max-length", command.options.max_length,
                "Longest element edge in scene units (default: no limit)");
   add_events(app, command.options.events, command.options.secondary);

@@ -147,8 +147,8 @@ void require_emitter(const Scene& scene) {
   if (!any)
     reject(
         scene,
-        "no face emits light; give a material an exitance (Ke in an MTL file, or 'exitance' in a "
-        "materials file)");
+        "no face emits light; give a material an exitance (Ke in an MTL file, or 'exitance' or "
+        "'temperature' in a materials file)");
 }
 
 }  // namespace halfshade

@@ -222,5 +222,23 @@ TEST_F(Mesh, RefusesWrongUsage) {
   }
 }
 
+TEST_F(Mesh, OfVeryManySurfacesIsCompleteOnlyIfToldSo) {
+  std::ofstream scene(folder_.path() / "many.obj");
+  scene << "mtllib many.mtl\nusemtl lamp\nv 0 0 9\nv 0 1 9\nv 1 1 9\nv 1 0 9\nf 1 2 3 4\n"
+           "usemtl dark\n";
+  for (int k = 0; k < 20100; ++k)
+    scene << "v " << k % 150 << " " << k / 150 << " 0\nv " << k % 150 + .5 << " " << k / 150
+          << " 0\nv " << k % 150 << " " << k / 150 + .5 << " .3\nf -3 -2 -1\n";
+  scene.close();
+  std::ofstream(folder_.path() / "many.mtl") << "newmtl lamp\nKd 0 0 0\nKe 1 1 1\n"
+                                                "newmtl dark\nKd 0 0 0\n";
+  const test::Outcome refused = mesh({"many.obj", "-q", "-o", "m.vtu"});
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_NE(refused.err.find("--tolerance 0.01"), std::string::npos) << refused.err;
+  EXPECT_FALSE(exists("m.vtu"));
+  const test::Outcome contacts = mesh({"many.obj", "-q", "-o", "m.vtu", "--events", "contact"});
+  EXPECT_EQ(contacts.exit_code, 0) << contacts.err;
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -96,8 +96,11 @@ void require_folder(const fs::path& folder) {
 }
 
 SceneFile read_scene(const fs::path& scene, const fs::path& materials,
-                     const SceneOptions& orientation, CommandFiles files) {
-  SceneFile file = read_scene(scene, materials);
+                     const SceneOptions& orientation, CommandFiles files, double lamp_tolerance) {
+  LampOptions lamps;
+  lamps.tolerance = lamp_tolerance > 0 ? lamp_tolerance : usual_lamp_tolerance;
+  lamps.turned = [&](const Scene& given) { return oriented(given, orientation); };
+  SceneFile file = read_scene(scene, materials, lamps);
   for (const fs::path& path : file.files) files.inputs.push_back({"a file that SCENE names", path});
   require_apart(files);
   file.scene = oriented(std::move(file.scene), orientation);

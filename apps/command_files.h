@@ -46,10 +46,15 @@ void require_place(const std::filesystem::path& file);
 /// not be written, or if it is a file.
 void require_folder(const std::filesystem::path& folder);
 
+/// Of lamps with pictures where light is to be all but exact.
+inline constexpr double exact_lamp_tolerance = 1e-4;
+
 /// Reads the scene of a command, its faces turned as asked for. Throws as halfshade::read_scene,
-/// and Error(usage) if an output is one of the files that the scene names.
+/// and Error(usage) if an output is one of the files that the scene names. Lamps with pictures are
+/// cut for `lamp_tolerance`.
 SceneFile read_scene(const std::filesystem::path& scene, const std::filesystem::path& materials,
-                     const SceneOptions& orientation, CommandFiles files);
+                     const SceneOptions& orientation, CommandFiles files,
+                     double lamp_tolerance = usual_lamp_tolerance);
 
 /// For commands that know three channels and no balance of heat: throws Error(invalid_input) if
 /// there are more bands, or temperatures to be found from several together.

@@ -59,8 +59,8 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   const CommandFiles files = scene_files(command.scene, command.materials, context.common);
   require_apart(files);
   require_place(context.common.json);
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
+  const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,
+                                    files, command.options.tolerance);
   const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   const ContactLimit limit{static_cast<double>(options.max_elements),
                            contacts_warning(options.max_elements, false)};

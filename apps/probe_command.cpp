@@ -90,10 +90,11 @@ struct ReadSolution {
   std::string not_reached;  ///< why it is not as accurate as asked for; empty if it is
 };
 
-std::optional<ReadSolution> get_solution(const ProbeCommand& command, const SoundScene& scene,
-                                         const Progress& progress) {
-  if (command.solution.empty()) return std::nullopt;
-  const ResultFile file = read_result(command.solution);
+std::optional<ReadSolution> get_solution(const ProbeCommand& command,
+                                         const std::optional<ResultFile>& given,
+                                         const SoundScene& scene, const Progress& progress) {
+  if (!given) return std::nullopt;
+  const ResultFile& file = *given;
   if (file.bounces >= 0)
     throw Error(ErrorCode::invalid_input, command.solution.string(),
                 fmt::format("the light in it was reflected {} times at most; reflected light is "
@@ -195,8 +196,26 @@ ExitCode finish(const ProbeCommand& command, const PointTable& table, const Ligh
   return code;
 }
 
+/// Why lamps with pictures are not as accurate as asked for; empty if they are.
+std::string lamps_limit(const SceneFile& file) {
+  if (!file.lamps.is_limited) return {};
+  return fmt::format(
+      "pieces of lamps with pictures leave an error of about {:.2g} of direct light "
+      "instead of {:.2g}",
+      file.lamps.relative_error, file.lamps.tolerance);
+}
+
+/// What lamps with pictures are cut for: as those of the solution that is given, for it is of their
+/// pieces.
+double lamp_tolerance(const ProbeCommand& command, const std::optional<ResultFile>& solution) {
+  if (solution) return solution->lamp_tolerance;
+  const bool is_exact = !command.has_tolerance && (command.direct_only || command.reference);
+  return is_exact ? exact_lamp_tolerance : command.options.tolerance;
+}
+
 ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
-                      const std::optional<PointTable>& given, const PreparedScene& prepared,
+                      const std::optional<PointTable>& given,
+                      const std::optional<ResultFile>& solution, const PreparedScene& prepared,
                       const Context& context) {
   const PointTable table = get_points(command, given, prepared.scene());
   const auto end = [&] {
@@ -207,16 +226,17 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
     const ReferenceLight light =
         reference_light(command, prepared.scene(), table.points, context.progress);
     end();
-    return finish(command, table, light, light.values.size(), {}, context);
+    return finish(command, table, light, light.values.size(), lamps_limit(file), context);
   }
   const std::optional<ReadSolution> read =
-      get_solution(command, prepared.scene(), context.progress);
+      get_solution(command, solution, prepared.scene(), context.progress);
   std::vector<DirectLight> light =
       direct_light(prepared.direct_light(), table.points, context.progress);
   std::string not_reached;
   if (!command.direct_only)
     not_reached = add_reflected(command, prepared, read, table.points, context.progress, light);
   end();
+  if (not_reached.empty()) not_reached = lamps_limit(file);
   return finish(command, table, light, light.size(), not_reached, context);
 }
 
@@ -224,8 +244,10 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
 
 ExitCode run(const ProbeCommand& command, const Context& context) {
   const CommandFiles files = checked_files(command, context.common);
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
+  std::optional<ResultFile> solution;
+  if (!command.solution.empty()) solution = read_result(command.solution);
+  const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,
+                                    files, lamp_tolerance(command, solution));
   require_three_channels(file, "probe");
   std::optional<PointTable> given;
   if (!command.points.empty()) given = read_points(command.points);
@@ -234,7 +256,7 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   ContactLimit limit{static_cast<double>(options.max_elements), {}};
   if (!command.direct_only) limit.warning = contacts_warning(options.max_elements, false);
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
-    return run_prepared(command, file, given, prepared, context);
+    return run_prepared(command, file, given, solution, prepared, context);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "solver/pipeline/face_radiosity.h"
 #include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/net_exchange.h"
+#include "solver/pipeline/straight_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -95,7 +96,10 @@ void print_summary(const SolveResult& result, double asked_tolerance, const Cont
     print_goal(result, out);
   else
     fmt::print(out, "error        {:.2g} relative to the irradiance (estimated, L2)\n",
-               result.relative_error);
+               error_of_files(result));
+  if (is_cut(result))
+    fmt::print(out, "straight     {} triangles, {:.2g} off the polynomials\n",
+               result.straight.pieces(), result.straight.relative_error);
   for (const StageReport& stage : result.stages)
     if (!stage.left_out_because.empty())
       fmt::print(out, "left out     {}: {}\n", stage.name, stage.left_out_because);
@@ -110,11 +114,11 @@ bool is_worth_writing(const SolveResult& result) {
 
 /// Says so where elements that were asked for are too few for a tolerance that was asked for, too.
 void require_tolerance(const SolveCommand& command, SolveResult& result) {
-  const double tolerance = command.options.tolerance;
-  if (command.needs_tolerance && result.not_reached.empty() && result.relative_error > tolerance)
+  const double tolerance = command.options.tolerance, error = error_of_files(result);
+  if (command.needs_tolerance && result.not_reached.empty() && error > tolerance)
     result.not_reached = fmt::format(
-        "with these elements the error is about {:.2g} of the irradiance instead of {:.2g}",
-        result.relative_error, tolerance);
+        "with these elements the error is about {:.2g} of the irradiance instead of {:.2g}", error,
+        tolerance);
 }
 
 ExitCode exit_code(const SolveResult& result) {
@@ -176,39 +180,50 @@ CommandFiles checked_files(const SolveCommand& command,
 }
 
 SolveResult solved(const SceneFile& file, const SolveCommand& command, const Context& context) {
+  SolveOptions options = command.options;
+  options.lamp_error = file.lamps.error;
   Heat heat = file.heat;
   if (command.surroundings > 0) heat.surroundings = command.surroundings;
   heat.is_given = heat.is_given || heat.surroundings;
   // Better now than when the report is to be written.
   if (heat.is_given && !context.common.json.empty()) require_metres_in(file.scene.unit);
   const auto solve_scene = [&](const Scene& scene) {
-    if (command.factors.empty()) return solve(scene, command.options, context.progress);
-    return solve_by_faces(scene, read_factors(command.factors), command.options, context.progress);
+    if (command.factors.empty()) return solve(scene, options, context.progress);
+    return solve_by_faces(scene, read_factors(command.factors), options, context.progress);
   };
   if (heat.is_given)
     require_heat(file.scene, heat);
   else if (!command.factors.empty())
     require_emitter(file.scene);
-  return solve_net_exchange(file.scene, heat, solve_scene);
+  SolveResult result = solve_net_exchange(file.scene, heat, solve_scene);
+  result.lamp_tolerance = file.lamps.tolerance;
+  if (options.straight) cut_for_files(options, result);
+  return result;
 }
 
 }  // namespace
 
-ExitCode run(const SolveCommand& command, const Context& context) {
+ExitCode run(const SolveCommand& given, const Context& context) {
+  SolveCommand command = given;
   std::vector<std::filesystem::path> outputs = command.outputs;
   if (outputs.empty() && command.values.empty() && command.progressive.empty())
     outputs.push_back(command.scene.stem().replace_extension(".vtu"));
+  command.options.straight = std::any_of(outputs.begin(), outputs.end(), [&](const auto& path) {
+    return holds_straight(path, command.result_options);
+  });
   const CommandFiles files = checked_files(command, outputs, context.common);
   check_method(command.options);
   check_series(command, outputs);
   PointTable table;
   if (!command.points.empty()) table = read_points(command.points);
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
+  const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,
+                                    files, command.options.tolerance);
   SolveResult result = solved(file, command, context);
   require_tolerance(command, result);
   context.progress_ends();
   print_warnings(file, result.warnings, context);
+  if (file.lamps.is_limited)  // after what was printed of the file
+    result.warnings.push_back({Warning::Kind::lamps_uneven, file.lamps.limit});
   if (!is_worth_writing(result)) return end_without_results();
   for (const auto& path : outputs) write(result, command, context, path);
   if (!command.progressive.empty() && !result.radiosity.stages.empty())

@@ -175,7 +175,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
            "Folder for the stages of shooting as a series that ParaView plays, progressive.pvd;\n"
            "with --method matrix and --solver southwell or southwell-ambient");
   app.add_flag("--linear", command.result_options.linear,
-               "Straight triangles in .vtu, for readers that know no polynomials");
+               "Straight triangles in .vtu, for readers that know no polynomials: as many as the\n"
+               "tolerance takes, if that is not more than 2 million");
   add_accuracy(app, command.options);
   add_size(app, command.options);
   add_light(app, command);

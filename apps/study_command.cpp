@@ -80,8 +80,8 @@ ExitCode run(const StudyCommand& command, const Context& context) {
   const CommandFiles files = scene_files(command.scene, command.materials, context.common);
   require_apart(files);
   require_place(context.common.json);
-  const SceneFile file =
-      read_scene(command.scene, command.materials, context.common.orientation, files);
+  const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,
+                                    files, exact_lamp_tolerance);
   require_three_channels(file, "study");
   const PreparedScene prepared(file.scene, context.progress);
   StudyOptions options = command.options;

@@ -110,6 +110,7 @@ ResultFile to_result(vtkPointSet* grid, const path& file) {
   result.interrupted = number("interrupted", 0) != 0;
   result.bounces = static_cast<int>(std::clamp(number("bounces", -1), -1., 1e9));
   result.achieved_error = std::max(number("achieved_error", 0), 0.);
+  result.lamp_tolerance = std::max(number("lamp_tolerance", 0), 0.);
   for (detail::PaintOn& paint : paints(grid->GetFieldData())) {
     result.paints.push_back(std::move(paint.paint));
     result.paint_most.push_back(paint.most);

@@ -30,6 +30,7 @@ struct ResultFile {
   bool interrupted = false;     ///< the light is not complete
   int bounces = -1;             ///< light after at most so many reflections; −1: all
   double achieved_error = 0;    ///< relative; 0: not known
+  double lamp_tolerance = 0;    ///< that lamps with pictures were cut for; 0: there are none
 };
 
 /// Throws Error(invalid_input) for anything that halfshade has not written, whatever is in the

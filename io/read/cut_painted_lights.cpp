@@ -1,4 +1,4 @@
-#include "io/read/picture_grid.h"
+#include "io/read/lamp_error.h"
 #include "io/read/read_formats.h"
 #include "io/read/read_text.h"
 #include "meshing/core/plane_frame.h"
@@ -10,158 +10,44 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace halfshade::reading {
 namespace {
 
-/// What a picture may differ by from its pieces' means, root mean square, over the face's mean.
-constexpr double even_enough = 0.02;
-/// That one face is cut into.
-constexpr std::size_t most_pieces = 64;
-/// Of a block's squared deviation, what a cut must take away to be preferred to one along the
-/// sharpest edge: where a chequerboard is cut once, both parts still have the same mean. Between 0
-/// and 0.1 it matters little for other pictures.
-constexpr double worth_cutting = 0.02;
+/// Of the error that is asked for: what pieces are cut for, and what more of it is to be told. What
+/// they shine on may lie in shadows, so that there is less light than is seen before there are any.
+constexpr double aimed_share = 0.2, allowed_share = 0.4;
+/// Beyond the tolerance that few pieces are for, their number grows as this power of it, and all
+/// lamps together have no more than so many. Each is one more emitter in what follows.
+constexpr double growth = 0.6;
+constexpr std::size_t most_in_all = 4096;
 
-/// Values over an area.
-struct Sum {
-  double area = 0;
-  Rgb value = Rgb::Zero();  ///< times area
-  double square = 0;        ///< of all channels, times area
+/// The tolerance below which even the cells of fine grids are felt.
+constexpr double finest_below = 5e-4;
 
-  void add(double more, const Rgb& of) {
-    area += more;
-    value += more * of;
-    square += more * of.square().sum();
-  }
-  Sum& operator+=(const Sum& other) {
-    area += other.area;
-    value += other.value;
-    square += other.square;
-    return *this;
-  }
-  Rgb mean() const { return value / area; }
-  double explained() const { return area > 0 ? value.square().sum() / area : 0; }
-  /// Squares of differences from the mean.
-  double deviation() const { return std::max(0., square - explained()); }
-};
-
-/// A block of the grid, and where it is best cut.
-struct Piece {
-  GridBlock block;
-  Sum sum;
-  std::size_t axis = 0;
-  int line = -1;    ///< −1: it cannot be cut
-  double gain = 0;  ///< squared deviation that it takes away; what has most is cut first
-};
-
-/// One axis of a block: sums between neighbouring lines, and squares of jumps across lines.
-struct Profile {
-  std::vector<Sum> between;
-  std::vector<double> jump;  ///< [k]: across the line before [k]
-};
-
-class FaceCut {
- public:
-  explicit FaceCut(const PictureGrid& grid) : grid_(grid) {}
-
-  /// Blocks that cover the grid. Best first.
-  std::vector<Piece> run() const {
-    std::vector<Piece> pieces = {make_piece(grid_.whole())};
-    const double enough = even_enough * even_enough * pieces[0].sum.explained();
-    while (pieces.size() < most_pieces) {
-      double left = 0;
-      for (const Piece& piece : pieces) left += piece.sum.deviation();
-      if (left <= enough) break;
-      // The first of equal ones, however they are rounded.
-      const auto best = std::max_element(
-          pieces.begin(), pieces.end(),
-          [](const Piece& a, const Piece& b) { return rounded(a.gain) < rounded(b.gain); });
-      if (best->line < 0) break;
-      GridBlock lower = best->block, upper = best->block;
-      lower.end[best->axis] = upper.low[best->axis] = best->line;
-      *best = make_piece(lower);
-      pieces.push_back(make_piece(upper));
-    }
-    return pieces;
-  }
-
- private:
-  Piece make_piece(const GridBlock& block) const {
-    Piece piece;
-    piece.block = block;
-    std::array<Profile, 2> profiles;
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto count = at(block.end[axis] - block.low[axis]);
-      profiles[axis] = {std::vector<Sum>(count), std::vector<double>(count, 0.)};
-    }
-    for (int row = block.low[1]; row < block.end[1]; ++row)
-      for (int column = block.low[0]; column < block.end[0]; ++column)
-        add_cell(block, column, row, profiles);
-    for (const Sum& column : profiles[0].between) piece.sum += column;
-    choose_cut(profiles, piece);
-    return piece;
-  }
-
-  void add_cell(const GridBlock& block, int column, int row,
-                std::array<Profile, 2>& profiles) const {
-    const std::size_t cell = grid_.cell(column, row);
-    if (!(grid_.area[cell] > 0)) return;
-    const std::array<int, 2> from = {column - block.low[0], row - block.low[1]};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      profiles[axis].between[at(from[axis])].add(grid_.area[cell], grid_.value[cell]);
-      if (from[axis] == 0) continue;
-      const std::size_t before =
-          axis == 0 ? grid_.cell(column - 1, row) : grid_.cell(column, row - 1);
-      profiles[axis].jump[at(from[axis])] +=
-          std::min(grid_.area[cell], grid_.area[before]) *
-          (grid_.value[cell] - grid_.value[before]).square().sum();
-    }
-  }
-
-  static void choose_cut(const std::array<Profile, 2>& profiles, Piece& piece) {
-    // Gain, or jump, then how near to the middle.
-    using Rank = std::pair<double, double>;
-    Rank most = {0, 0}, steepest = {0, -HUGE_VAL};
-    std::pair<std::size_t, int> best = {0, -1}, edge = {0, -1};
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const auto count = static_cast<int>(profiles[axis].between.size());
-      Sum below;
-      for (int k = 1; k < count; ++k) {
-        below += profiles[axis].between[at(k - 1)];
-        const Sum above{piece.sum.area - below.area, piece.sum.value - below.value, 0};
-        constexpr double none = 1e-12;
-        if (std::min(below.area, above.area) <= none * piece.sum.area) continue;
-        const double off_middle = std::abs(2. * k / count - 1);
-        const double gain = below.explained() + above.explained() - piece.sum.explained();
-        if (const Rank rank = {rounded(std::max(gain, 0.)), -off_middle}; rank > most)
-          most = rank, best = {axis, k};
-        const Rank rank = {rounded(profiles[axis].jump[at(k)]), -off_middle};
-        if (rank.first > 0 && rank > steepest) steepest = rank, edge = {axis, k};
-      }
-    }
-    const double least = worth_cutting * piece.sum.deviation();
-    const bool by_gain = edge.second < 0 || most.first >= least;
-    const auto& cut = by_gain ? best : edge;
-    if (cut.second < 0) return;
-    piece.axis = cut.first;
-    piece.line = piece.block.low[cut.first] + cut.second;
-    piece.gain = std::max(most.first, least);
-  }
-
-  const PictureGrid& grid_;
-};
+std::size_t most_pieces(double tolerance, std::size_t lamps) {
+  const double more = std::pow(std::max(1., usual_lamp_tolerance / tolerance), growth);
+  const std::size_t each = std::max(few_pieces, most_in_all / std::max<std::size_t>(lamps, 1));
+  return std::min(each, static_cast<std::size_t>(more * few_pieces));
+}
 
 class Cutter {
  public:
-  explicit Cutter(SceneDraft& draft) : draft_(draft), scene_(draft.scene) {}
+  Cutter(SceneDraft& draft, const LampOptions& options)
+      : draft_(draft), scene_(draft.scene), options_(options) {}
 
-  void run(const std::vector<PaintedEmitter>& lamps) {
-    for (const PaintedEmitter& lamp : lamps) cut(lamp);
+  LampPictures run(const std::vector<PaintedEmitter>& given) {
+    std::vector<Lamp> lamps;
+    lamps.reserve(given.size());  // grids are referred to
+    for (const PaintedEmitter& one : given) prepare(one, lamps);
+    divide(lamps);
+    for (const Lamp& lamp : lamps) replace(lamp);
     name_materials();
     say();
     draft_.picture_places.clear();  // pieces have none
+    return pictures_;
   }
 
  private:
@@ -174,30 +60,80 @@ class Cutter {
   /// What became of the faces of a material.
   struct Parted {
     std::vector<Part> parts;
-    int faces = 0;      ///< in the file
-    int worst = 0;      ///< the face on which the picture differs most from its pieces
-    double uneven = 0;  ///< there, over the picture's mean
+    int faces = 0;         ///< in the file
+    std::size_t most = 0;  ///< pieces of one of them
+    double error = 0;      ///< as LampError::squared
+    int worst = 0;         ///< the face on which the picture differs most from its pieces
+    double uneven = 0;     ///< there, over the picture's mean
   };
 
-  void cut(const PaintedEmitter& lamp) {
+  struct Lamp {
+    int face;
+    Paint paint;
+    std::vector<Vec3> corners;
+    std::unique_ptr<const PictureGrid> grid;  ///< of exitances
+    FaceCut cut;
+    double error = 0;  ///< as LampError::squared
+  };
+
+  void prepare(const PaintedEmitter& of, std::vector<Lamp>& lamps) {
+    std::vector<Vec3> corners = face_corners(scene_, of.face);
+    const GridFineness fineness = options_.tolerance < finest_below           ? GridFineness::finest
+                                  : options_.tolerance < usual_lamp_tolerance ? GridFineness::fine
+                                                                              : GridFineness::usual;
+    auto grid = std::make_unique<PictureGrid>(make_picture_grid(of.paint, corners, fineness));
+    const int material = scene_.faces[at(of.face)].material;
+    for (Rgb& value : grid->value) value *= scene_.materials[at(material)].exitance;
+    FaceCut cut(*grid);
+    if (!(cut.sum().area > 0)) return;
+    cut.cut_evenly();
+    lamps.push_back({of.face, of.paint, std::move(corners), std::move(grid), std::move(cut)});
+  }
+
+  /// Into as many pieces as the tolerance takes, of what can be told of the light they give.
+  void divide(std::vector<Lamp>& lamps) {
+    if (lamps.empty()) return;
+    pictures_.tolerance = options_.tolerance;
+    const Scene turned = options_.turned ? options_.turned(scene_) : scene_;
+    std::vector<ShiningFace> shining;
+    for (const Lamp& lamp : lamps) shining.push_back({lamp.face, lamp.cut.sum().mean()});
+    const LightReceivers receivers = light_receivers(turned, shining);
+    if (!(receivers.norm > 0)) return;
+    const double aimed = aimed_share * options_.tolerance * receivers.norm;
+    const double each = aimed * aimed / static_cast<double>(lamps.size());
+    const std::size_t most = most_pieces(options_.tolerance, lamps.size());
+    double squared = 0;
+    for (Lamp& lamp : lamps) {
+      const bool two_sided = scene_.materials[at(scene_.faces[at(lamp.face)].material)].two_sided;
+      const std::vector<Vec3> corners = face_corners(turned, lamp.face);
+      const LampError error(*lamp.grid, lamp.paint, corners, two_sided, receivers);
+      lamp.error = error.squared(lamp.cut.pieces());
+      while (lamp.error > each && lamp.cut.pieces().size() < most) {
+        const std::size_t now = lamp.cut.pieces().size();
+        if (!lamp.cut.cut_further(std::min(most, now + now / 2 + 1))) break;
+        lamp.error = error.squared(lamp.cut.pieces());
+      }
+      squared += lamp.error;
+    }
+    pictures_.error = std::sqrt(squared);
+    pictures_.relative_error = pictures_.error / receivers.norm;
+    pictures_.is_limited = pictures_.relative_error > allowed_share * options_.tolerance;
+  }
+
+  void replace(const Lamp& lamp) {
     const Face face = scene_.faces[at(lamp.face)];
-    const std::vector<Vec3> corners = face_corners(scene_, lamp.face);
-    PictureGrid grid = make_picture_grid(lamp.paint, corners);
-    for (Rgb& value : grid.value) value *= scene_.materials[at(face.material)].exitance;
-    const std::vector<Piece> pieces = FaceCut(grid).run();
-    Sum all;
-    for (const Piece& piece : pieces) all += piece.sum;
-    if (!(all.area > 0)) return;
+    const std::vector<PicturePiece>& pieces = lamp.cut.pieces();
+    const PictureSum all = lamp.cut.sum();
     Parted& parted = parted_[face.material];
-    note_unevenness(lamp.face, pieces, all.explained(), parted);
+    note_unevenness(lamp, all.explained(), parted);
     if (pieces.size() == 1) {
       parted.parts.push_back({lamp.face, all.mean()});
       return;
     }
     Corners known(scene_, face);
     bool is_first = true;
-    for (const Piece& piece : pieces) {
-      const std::vector<Vec3> polygon = part_in(piece.block, grid, lamp.paint, corners);
+    for (const PicturePiece& piece : pieces) {
+      const std::vector<Vec3> polygon = part_in(piece.block, *lamp.grid, lamp.paint, lamp.corners);
       if (polygon.empty()) continue;  // narrower than rounding
       Face part = face;
       part.vertices = known.of(polygon);
@@ -211,13 +147,12 @@ class Cutter {
     }
   }
 
-  static void note_unevenness(int face, const std::vector<Piece>& pieces, double explained,
-                              Parted& parted) {
-    double left = 0;
-    for (const Piece& piece : pieces) left += piece.sum.deviation();
-    const double uneven = explained > 0 ? std::sqrt(left / explained) : 0;
+  static void note_unevenness(const Lamp& lamp, double explained, Parted& parted) {
+    const double uneven = explained > 0 ? std::sqrt(lamp.cut.deviation() / explained) : 0;
     ++parted.faces;
-    if (uneven > parted.uneven) parted.uneven = uneven, parted.worst = face;
+    parted.most = std::max(parted.most, lamp.cut.pieces().size());
+    parted.error += lamp.error;
+    if (uneven > parted.uneven) parted.uneven = uneven, parted.worst = lamp.face;
   }
 
   /// Vertices of pieces of one face: those of the face, and new ones.
@@ -279,27 +214,48 @@ class Cutter {
     return static_cast<int>(scene_.materials.size()) - 1;
   }
 
+  /// Where nothing is known of what the lamps shine on, pieces that are not even are told of; else
+  /// only what irradiance is off, once, by the material that it is most of.
   void say() {
-    for (const auto& [material, parted] : parted_)
-      if (parted.uneven > even_enough)
-        draft_.warnings.push_back(fmt::format(
-            "{}: the picture that material {} shines with has more detail than even pieces show: "
-            "its {} faces were cut into {} pieces, at most {} each, from which it differs by up to "
-            "{:.2g} % of its mean (root mean square), most on {}; their power is right",
-            scene_.source, in_quotes(draft_.origins[at(material)].name), parted.faces,
-            parted.parts.size(), most_pieces, 100 * parted.uneven,
-            face_label(scene_, parted.worst)));
+    const bool is_known = pictures_.error > 0;
+    const auto worst = std::max_element(
+        parted_.begin(), parted_.end(),
+        [](const auto& a, const auto& b) { return a.second.error < b.second.error; });
+    for (auto entry = parted_.begin(); entry != parted_.end(); ++entry) {
+      const auto& [material, parted] = *entry;
+      const bool is_told =
+          is_known ? pictures_.is_limited && entry == worst : parted.uneven > even_enough;
+      if (!is_told) continue;
+      std::string text = fmt::format(
+          "{}: the picture that material {} shines with has more detail than even pieces show: "
+          "its {} faces were cut into {} pieces, at most {} each, from which it differs by up to "
+          "{:.2g} % of its mean (root mean square), most on {}; their power is right",
+          scene_.source, in_quotes(draft_.origins[at(material)].name), parted.faces,
+          parted.parts.size(), std::max(parted.most, few_pieces), 100 * parted.uneven,
+          face_label(scene_, parted.worst));
+      if (is_known) {
+        text += fmt::format(
+            ", but direct light may be off by {:.2g} of itself, where {:.2g} "
+            "is asked for",
+            pictures_.relative_error, options_.tolerance);
+        pictures_.limit = text;
+      }
+      draft_.warnings.push_back(std::move(text));
+    }
   }
 
   SceneDraft& draft_;
   Scene& scene_;
+  LampOptions options_;
+  LampPictures pictures_;
   std::map<int, Parted> parted_;  ///< by material
 };
 
 }  // namespace
 
-void cut_painted_lights(SceneDraft& draft, const std::vector<PaintedEmitter>& lamps) {
-  if (!lamps.empty()) Cutter(draft).run(lamps);
+LampPictures cut_painted_lights(SceneDraft& draft, const std::vector<PaintedEmitter>& lamps,
+                                const LampOptions& options) {
+  return lamps.empty() ? LampPictures{} : Cutter(draft, options).run(lamps);
 }
 
 }  // namespace halfshade::reading

@@ -8,13 +8,43 @@
 namespace halfshade::reading {
 namespace {
 
-constexpr int most_cells = 128;     // along an axis
-constexpr int fewest_cells = 32;    // the same, where the picture bends between texels
+/// Along an axis, at most, and at least where the picture bends between texels.
+struct CellCounts {
+  int most, fewest;
+};
+constexpr CellCounts usual_counts = {128, 32}, fine_counts = {256, 128}, finest_counts = {512, 256},
+                     stripe_counts = {128, 64};
 constexpr int finest_part = 1024;   // of a texel: what lies within it is one colour
 constexpr int most_samples = 64;    // of a cell, before a smaller copy of the picture is taken
 constexpr int most_in_line = 1024;  // the same where the copy would be too coarse across
+constexpr int few_texels = 8;       // in a cell: its ends matter
 constexpr double off_line = 1e-5;   // of a picture: files round places to six digits
 constexpr double far_away = 1e9;    // pictures away: doubles no longer know the texel
+
+/// Whether the picture changes along u and v.
+std::array<bool, 2> varies(const TextureLevel& level) {
+  std::array<bool, 2> found = {false, false};
+  const auto differ = [&](int a, int b) {
+    return (level.texels[at(a)] != level.texels[at(b)]).any();
+  };
+  for (int row = 0; row < level.height; ++row)
+    for (int column = 0; column < level.width; ++column) {
+      const int here = row * level.width + column;
+      found[0] = found[0] || (column > 0 && differ(here, here - 1));
+      found[1] = found[1] || (row > 0 && differ(here, here - level.width));
+    }
+  return found;
+}
+
+/// Stripes need the fineness across them alone, and can have more there.
+std::array<CellCounts, 2> counts_for(const Texture& texture, GridFineness fineness) {
+  if (fineness == GridFineness::usual) return {usual_counts, usual_counts};
+  const CellCounts counts = fineness == GridFineness::fine ? fine_counts : finest_counts;
+  const std::array<bool, 2> found = varies(texture.levels.front());
+  if (found[0] == found[1]) return {counts, counts};
+  const CellCounts across{4 * counts.most, 4 * counts.fewest};
+  return found[0] ? std::array{across, stripe_counts} : std::array{stripe_counts, across};
+}
 
 /// What a polygon covers along one axis of a picture.
 struct Extent {
@@ -36,17 +66,20 @@ struct Fit {
   double texels = 1;
 };
 
-Fit fit(const Extent& extent, int texels) {
+Fit fit(const Extent& extent, int texels, const CellCounts& counts) {
+  const auto [most_cells, fewest_cells] = counts;
   const double across = (extent.high - extent.low) * texels;
-  const auto lines = [&](double fineness) {
+  const auto lines = [&, most = most_cells](double fineness) {
     const double off = std::min(off_line * fineness, 0.25);
     GridLines result{fineness, std::floor(extent.low * fineness + off), 1};
     const double end = std::ceil(extent.high * fineness - off);
-    result.cells = static_cast<int>(std::clamp(end - result.first, 1., most_cells + 1.));
+    result.cells = static_cast<int>(std::clamp(end - result.first, 1., most + 1.));
     return result;
   };
   if (across < fewest_cells) {
-    const double parts = std::clamp(std::ceil(fewest_cells / across), 1., double{finest_part});
+    // Even: the picture bends in the middle of texels, too.
+    double parts = std::clamp(std::ceil(fewest_cells / across), 1., double{finest_part});
+    if (counts.fewest > usual_counts.fewest) parts = 2 * std::ceil(parts / 2);
     return {lines(across > 0 ? texels * parts : texels), 1};
   }
   for (double block = std::max(1., std::floor(across / most_cells));; ++block)
@@ -130,7 +163,10 @@ std::vector<Vec3> cut(const std::vector<Vec3>& polygon, const Paint& paint, int 
 
 }  // namespace
 
-PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon) {
+PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon,
+                              GridFineness fineness) {
+  const bool is_fine = fineness != GridFineness::usual;
+  const std::array<CellCounts, 2> counts = counts_for(*paint.texture, fineness);
   const std::vector<TextureLevel>& levels = paint.texture->levels;
   const std::array<Extent, 2> seen = extents(paint, polygon);
   PictureGrid grid;
@@ -143,11 +179,16 @@ PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon)
   std::array<int, 2> samples = {1, 1};
   std::size_t level = 0;
   for (;; ++level) {
-    const Fit u = fit(seen[0], levels[level].width), v = fit(seen[1], levels[level].height);
+    const Fit u = fit(seen[0], levels[level].width, counts[0]),
+              v = fit(seen[1], levels[level].height, counts[1]);
     grid.lines = {u.lines, v.lines};
     const bool is_line = std::min(u.texels, v.texels) < 2;
     const bool is_enough = u.texels * v.texels <= (is_line ? most_in_line : most_samples);
     if (is_enough) samples = {static_cast<int>(u.texels), static_cast<int>(v.texels)};
+    // A cell that ends between texels has halves in which the picture does not bend.
+    if (is_enough && is_fine)
+      for (int& count : samples)
+        if (count <= few_texels) count *= 2;
     if (is_enough || level + 1 == levels.size()) break;
   }
   sample(levels[level], seen, samples, grid);

@@ -31,9 +31,12 @@ struct PictureGrid {
   GridBlock whole() const { return {{0, 0}, {lines[0].cells, lines[1].cells}}; }
 };
 
+enum class GridFineness { usual, fine, finest };
+
 /// Cells are texels; where these are many, blocks of them, of a smaller copy of the picture if need
 /// be; where they are few, parts of them, for pictures are linear between the centres of texels.
-PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon);
+PictureGrid make_picture_grid(const Paint& paint, std::span<const Vec3> polygon,
+                              GridFineness fineness = GridFineness::usual);
 
 /// The part of a polygon that lies in a block. One that is not convex may be left with edges that
 /// run back and forth along the block's sides, where nothing lies between.

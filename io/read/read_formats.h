@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/read/read_scene.h"
 #include "meshing/core/scene.h"
 #include "solver/heat/heat.h"
 
@@ -91,11 +92,13 @@ struct PaintedEmitter {
 std::vector<PaintedEmitter> lay_pictures(SceneDraft& draft);
 
 /// Cuts lamps along lines of their pictures into pieces that shine evenly, each with the mean of
-/// the picture over it, until the picture differs little from them or there are many. The first
-/// piece takes the face's place, others come after all faces; parts of a material that differ in
-/// exitance become materials of their own. Faces no longer have `picture_places` then. Warns where
-/// the picture differs more.
-void cut_painted_lights(SceneDraft& draft, const std::vector<PaintedEmitter>& lamps);
+/// the picture over it, until the picture differs little from them or there are many, and then on
+/// until what the light of them is off is little beside the tolerance, or there are very many. The
+/// first piece takes the face's place, others come after all faces; parts of a material that differ
+/// in exitance become materials of their own. Faces no longer have `picture_places` then. Warns
+/// where that is not enough.
+LampPictures cut_painted_lights(SceneDraft& draft, const std::vector<PaintedEmitter>& lamps,
+                                const LampOptions& options);
 
 /// True for .gltf and .glb files.
 bool is_gltf(const std::filesystem::path& path);

@@ -125,7 +125,7 @@ std::vector<std::string> guesses_in(const SceneDraft& draft) {
 
 }  // namespace
 
-SceneFile read_scene(const path& file, const path& materials) {
+SceneFile read_scene(const path& file, const path& materials, const LampOptions& lamps) {
   SceneDraft draft = read_by_extension(file);
   if (draft.scene.faces.empty()) {
     check_libraries(draft);
@@ -136,14 +136,15 @@ SceneFile read_scene(const path& file, const path& materials) {
   check_libraries(draft);
   Heat heat = reading::apply_heat(draft);
   check_materials(draft);
-  reading::cut_painted_lights(draft, reading::lay_pictures(draft));
+  const std::vector<reading::PaintedEmitter> painted = reading::lay_pictures(draft);
+  LampPictures pictures = reading::cut_painted_lights(draft, painted, lamps);
   drop_unused_materials(draft);
   for (const reading::MissingFile& missing : draft.missing)
     draft.warnings.push_back(missing.place + ": " + missing.sentence);
   std::vector<std::string> guesses = guesses_in(draft);
   validate(draft.scene);
   return {std::move(draft.scene), std::move(draft.warnings), std::move(guesses),
-          std::move(draft.files), std::move(heat)};
+          std::move(draft.files), std::move(heat),           std::move(pictures)};
 }
 
 }  // namespace halfshade

@@ -4,10 +4,31 @@
 #include "solver/heat/heat.h"
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace halfshade {
+
+/// Of the irradiance: what lamps with pictures are cut for if nothing else is said.
+inline constexpr double usual_lamp_tolerance = 0.01;
+
+/// What lamps with pictures are cut for.
+struct LampOptions {
+  double tolerance = usual_lamp_tolerance;  ///< of the irradiance, as for solve; > 0
+  /// The scene as its faces are turned later on, one by one; none: they stay.
+  std::function<Scene(const Scene&)> turned;
+};
+
+/// How lamps with pictures were cut into pieces that shine evenly.
+struct LampPictures {
+  double tolerance = 0;  ///< that they were cut for; 0: there are none
+  /// What irradiance is off, L2 norm over all surfaces and channels, and that relative to direct
+  /// light's; estimated, as if nothing were in shadow.
+  double error = 0, relative_error = 0;
+  bool is_limited = false;  ///< that is too much, but there are as many pieces as there may be
+  std::string limit;        ///< what the warning says of that, else empty
+};
 
 /// A scene as read, and what of the file was not used.
 struct SceneFile {
@@ -17,6 +38,7 @@ struct SceneFile {
   std::vector<std::filesystem::path>
       files;  ///< read besides the scene: material libraries, buffers
   Heat heat;  ///< what is said of temperatures, bands and net fluxes
+  LampPictures lamps;
 };
 
 /// Reads a scene by its extension: .obj (+ .mtl), .ply, .off, .vs3, .msh and .stl as text in double
@@ -39,9 +61,11 @@ struct SceneFile {
 /// exitances. `bands` in a materials file name channels, with or without wavelengths_um; more than
 /// three are in the heat alone, and the scene has what they come to.
 ///
+/// Lamps with pictures become lamps that shine evenly, as many as their tolerance takes.
+///
 /// Throws Error(usage) for an unknown extension and Error(invalid_input) with file, line or face
 /// for anything that is not a sound scene.
-SceneFile read_scene(const std::filesystem::path& path,
-                     const std::filesystem::path& materials = {});
+SceneFile read_scene(const std::filesystem::path& path, const std::filesystem::path& materials = {},
+                     const LampOptions& lamps = {});
 
 }  // namespace halfshade

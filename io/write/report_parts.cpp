@@ -130,6 +130,10 @@ Json direct_json(const AdaptiveFieldReport& report, const ElementField& field) {
           {"estimated_relative_error", report.relative_error}};
 }
 
+Json straight_json(const StraightCut& cut) {
+  return {{"triangles", cut.pieces()}, {"relative_error_of_cutting", cut.relative_error}};
+}
+
 Json goal_json(const GoalResult& goal, const SoundScene& scene) {
   return {{"group", scene.groups.at(static_cast<std::size_t>(goal.group))},
           {"area", goal.area},

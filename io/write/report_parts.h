@@ -41,6 +41,8 @@ Json along_curves_json(const DiscontinuityMeshReport& report);
 Json exchange_json(const ExchangeReport& report);
 /// Of direct light as polynomials, and of reflected light on its own mesh.
 Json direct_json(const AdaptiveFieldReport& report, const ElementField& field);
+/// How polynomials were cut for files.
+Json straight_json(const StraightCut& cut);
 Json goal_json(const GoalResult& goal, const SoundScene& scene);
 Json reflected_json(const ReflectedReport& report);
 /// One channel where all are equal.

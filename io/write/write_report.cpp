@@ -5,6 +5,7 @@
 #include "io/write/report_parts.h"
 #include "io/write/write_curves.h"
 #include "solver/heat/heat.h"
+#include "solver/pipeline/straight_files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -142,7 +143,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
                   const std::filesystem::path& path) {
   require_consistent(result, "write_report");
   Json json = scene_head(result, run);
-  json["estimated_relative_error"] = result.relative_error;
+  json["estimated_relative_error"] = error_of_files(result);
   json["accuracy_not_reached_because"] = result.not_reached;
   if (result.goal) json["goal"] = goal_json(*result.goal, result.scene);
   json["scene"] = scene_json(result.scene, result.cameras);
@@ -161,6 +162,7 @@ void write_report(const SolveResult& result, const RunInfo& run,
     json["exchange"] = exchange_json(result.exchange);
   }
   if (result.subdivision.patches > 0) json["subdivision"] = subdivision_json(result.subdivision);
+  if (is_cut(result)) json["straight_triangles"] = straight_json(result.straight);
   json["radiosity"] = radiosity_json(result.radiosity);
   if (!result.bounces.empty()) json["bounces"] = bounces_json(result);
   json["groups"] = groups_json(result);

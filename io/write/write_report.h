@@ -14,15 +14,16 @@ namespace halfshade {
 /// keys do not say so), scene (counts and names), repairs, warnings (kind and
 /// sentence), discontinuities (how they were found, kept and culled), mesh (elements, points,
 /// min_angle_degrees and a histogram of the elements' minimum angles), stages, exchange, radiosity
-/// (per channel), interrupted, estimated_relative_error, outputs, and groups (area, mean radiosity
-/// and irradiance, emitted and absorbed power of each, powers in W/m² times the square of the unit
-/// of length; the same in area_m2, emitted_power_w, absorbed_power_w if it is known how many metres
-/// that is); bounces (mean irradiance after each number of reflections), if told apart; where
-/// heat is given net_exchange (bands, unit_m, surroundings_temperature_k, surroundings_net_power_w,
-/// and area_m2, net_flux_w_per_m2, net_power_w, temperature_k of each group: SI units, what leaves
-/// net counts positive). Lists of channels have one entry where all three are equal, and in
-/// net_exchange one for each band. Faces count from 1, as in sentences; surfaces and elements from
-/// 0, as in the arrays of the result files. Throws Error(unwritable).
+/// (per channel), interrupted, estimated_relative_error (of what files hold), straight_triangles
+/// (how many, and what they add to the error), if polynomials were cut, outputs, and groups (area,
+/// mean radiosity and irradiance, emitted and absorbed power of each, powers in W/m² times the
+/// square of the unit of length; the same in area_m2, emitted_power_w, absorbed_power_w if it is
+/// known how many metres that is); bounces (mean irradiance after each number of reflections), if
+/// told apart; where heat is given net_exchange (bands, unit_m, surroundings_temperature_k,
+/// surroundings_net_power_w, and area_m2, net_flux_w_per_m2, net_power_w, temperature_k of each
+/// group: SI units, what leaves net counts positive). Lists of channels have one entry where all
+/// three are equal, and in net_exchange one for each band. Faces count from 1, as in sentences;
+/// surfaces and elements from 0, as in the arrays of the result files. Throws Error(unwritable).
 void write_report(const SolveResult& result, const RunInfo& run, const std::filesystem::path& path);
 
 /// Writes the same of a mesh, with sources, curves (total, by kind and order, with lengths), search

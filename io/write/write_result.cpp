@@ -6,6 +6,10 @@
 
 namespace halfshade {
 
+bool holds_straight(const std::filesystem::path& path, const ResultOptions& options) {
+  return has_format(path, result_formats) && (options.linear || extension_of(path) != ".vtu");
+}
+
 void write_result(const SolveResult& result, const Provenance& provenance,
                   const std::filesystem::path& path, const ResultOptions& options) {
   require_format(path, result_formats);

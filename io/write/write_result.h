@@ -21,10 +21,14 @@ struct ResultOptions {
 
 inline constexpr FileFormats result_formats = {"results", {".vtu", ".vtp", ".ply"}};
 
+/// Whether a file of that name holds straight triangles in place of polynomials.
+bool holds_straight(const std::filesystem::path& path, const ResultOptions& options);
+
 /// Writes a solved scene by extension: .vtu, .vtp (VTK XML, inline binary, compressed) or .ply.
 /// Elements of order 2 and more are VTK's quadratic and Lagrange triangles in .vtu, with points of
 /// their own, so that readers draw the polynomials themselves; in other files they are cut into
-/// straight triangles (linear_result).
+/// straight triangles (linear_result), whose errors are theirs: also with what they miss of the
+/// polynomials.
 /// VTK cell data: radiosity, irradiance, direct_irradiance, exitance, reflectance (3 components);
 /// error_estimate, order, region (0 lit, 1 penumbra, 2 umbra, 3 no emitter above the horizon; left
 /// out where direct light was not exact), regions (the same for each emitter, if asked for, in the

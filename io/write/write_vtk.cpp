@@ -114,14 +114,15 @@ void add_cell_data(const CellData& cells, std::size_t emitters, vtkFieldData* da
   add_element_data(cells.elements, data);
 }
 
-void add_field_data(const SolveResult& result, vtkFieldData* data) {
+void add_field_data(const SolveResult& result, double error, vtkFieldData* data) {
   add_interrupted(data, result.interrupted);
   if (result.most_bounces >= 0) add_integers(data, "bounces", {result.most_bounces});
   add_cameras(data, result.cameras);
   if (!result.regions.empty()) add_sources(data, result.emitters);
   add_numbers(data, "tolerance", {result.discontinuity_tolerance});
   add_numbers(data, "curve_deviation", {result.mesh.deviation});
-  add_numbers(data, "achieved_error", {result.relative_error});
+  add_numbers(data, "achieved_error", {error});
+  if (result.lamp_tolerance > 0) add_numbers(data, "lamp_tolerance", {result.lamp_tolerance});
   add_paints(used_paints(result.scene, result.elements).paints, data);
 }
 
@@ -155,7 +156,7 @@ std::string linear_bytes(const SolveResult& result, std::string_view extension,
   add_channels(grid->GetPointData(), "radiosity", linear.radiosity);
   add_channels(grid->GetPointData(), "irradiance", linear.irradiance);
   add_bounces(grid->GetPointData(), linear.bounces);
-  add_field_data(result, grid->GetFieldData());
+  add_field_data(result, linear.relative_error, grid->GetFieldData());
   add_stage(stage, grid->GetFieldData());
   return vtk_bytes(grid, "write_result");
 }
@@ -172,7 +173,7 @@ auto polynomial_result_grid(const SolveResult& result) {
   add_channels(grid->GetPointData(), "irradiance", nodes.irradiance);
   add_bounces(grid->GetPointData(), nodes.bounces);
   add_picture_places(used_paints(result.scene, result.elements), nodes, grid->GetPointData());
-  add_field_data(result, grid->GetFieldData());
+  add_field_data(result, result.relative_error, grid->GetFieldData());
   return grid;
 }
 

@@ -27,10 +27,10 @@ int pieces_along_edge(const ElementField& field, int element, double allowed) {
 }  // namespace
 
 LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
-                           const ElementField& field, double allowed) {
+                           const ElementField& field, std::span<const int> along_edge) {
   LinearPieces out;
   for (int e = 0; e < field.count(); ++e) {
-    const int n = pieces_along_edge(field, e, allowed);
+    const int n = along_edge[at(e)];
     const int first = static_cast<int>(out.points.size());
     const auto point = [&](int i, int j) { return first + j * (n + 1) - j * (j - 1) / 2 + i; };
     for (int j = 0; j <= n; ++j)
@@ -52,6 +52,14 @@ LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
     out.element.resize(out.corners.size(), e);
   }
   return out;
+}
+
+LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
+                           const ElementField& field, double allowed) {
+  std::vector<int> along_edge;
+  for (int e = 0; e < field.count(); ++e)
+    along_edge.push_back(pieces_along_edge(field, e, allowed));
+  return linear_pieces(triangles, field, along_edge);
 }
 
 }  // namespace halfshade

@@ -20,9 +20,13 @@ struct LinearPieces {
   std::vector<int> pieces;   ///< that each element has
 };
 
-/// Cuts each element evenly, so finely that straight lines between the corners are off by about
+/// Cuts each element evenly, its edges into so many pieces. Elements share no points.
+LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
+                           const ElementField& field, std::span<const int> along_edge);
+
+/// The same for the eye: so finely that straight lines between the corners are off by about
 /// `allowed` (root mean square, in the field's unit) at most, unless that takes more than 256
-/// pieces. Elements share no points.
+/// pieces. See straight_cut where an error is to be kept.
 LinearPieces linear_pieces(std::span<const std::array<Vec3, 3>> triangles,
                            const ElementField& field, double allowed);
 

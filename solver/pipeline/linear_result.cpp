@@ -4,6 +4,7 @@
 #include "solver/elements/linear_pieces.h"
 #include "solver/elements/solution_parts.h"
 #include "solver/elements/vertex_values.h"
+#include "solver/pipeline/straight_files.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,8 @@
 namespace halfshade {
 namespace {
 
-/// What lines may be off: no more than the result is, or than anybody sees.
-double allowed_error(const SolveResult& result) {
+/// What lines may be off in a picture: no more than the result is, or than anybody sees.
+double allowed_to_see(const SolveResult& result) {
   double area = 0;
   for (const double a : result.elements.area) area += a;
   const double square = square_integral(result.irradiance, result.elements);
@@ -53,16 +54,23 @@ std::vector<ChannelArray> bounces_at(const SolveResult& result, const std::vecto
   return values;
 }
 
-LinearResult cut(const SolveResult& result, const ElementField& irradiance) {
+std::vector<std::array<Vec3, 3>> triangles_of(const ElementTable& elements) {
   std::vector<std::array<Vec3, 3>> triangles;
-  for (int e = 0; e < result.elements.count(); ++e)
-    triangles.push_back(result.elements.triangle(e));
-  LinearPieces pieces = linear_pieces(triangles, irradiance, allowed_error(result));
+  for (int e = 0; e < elements.count(); ++e) triangles.push_back(elements.triangle(e));
+  return triangles;
+}
+
+/// `off` is what they miss of the polynomials, on each element.
+LinearResult of_pieces(const SolveResult& result, LinearPieces pieces, const Eigen::ArrayXd& off) {
   LinearResult out;
   out.bounces = bounces_at(result, pieces.element_of_point, pieces.points);
   out.elements = piece_table(result.elements, pieces);
   out.is_border = std::move(pieces.is_border);
   out.solution = solution_of_parts(result.solution, pieces.element);
+  for (Eigen::Index i = 0; i < out.solution.error_estimate.size(); ++i) {
+    double& error = out.solution.error_estimate[i];  // of the channels' mean
+    error = std::hypot(error, off[pieces.element[static_cast<std::size_t>(i)]] / std::sqrt(3.));
+  }
   const std::size_t emitters = result.emitters.size();
   for (const int e : pieces.element)
     if (!result.regions.empty())
@@ -109,21 +117,31 @@ NodeValues node_values(const SolveResult& result) {
 }
 
 LinearResult linear_result(const SolveResult& result) {
-  if (result.irradiance.count() > 0) return cut(result, result.irradiance);
+  if (result.irradiance.count() > 0) {
+    const StraightCut cut = is_cut(result) ? result.straight : cut_to(result, little_error(result));
+    LinearResult out = of_pieces(
+        result, linear_pieces(triangles_of(result.elements), result.irradiance, cut.along_edge),
+        cut.off);
+    out.relative_error = error_of_triangles(result, cut);
+    return out;
+  }
   return {result.elements,
           {},
           result.solution,
           values_at_points(result.elements, result.solution.irradiance),
           values_at_points(result.elements, result.solution.radiosity),
           {},
-          result.regions};
+          result.regions,
+          result.relative_error};
 }
 
 LinearResult joined_linear_result(const SolveResult& result) {
   if (result.irradiance.count() == 0) return linear_result(result);
   ElementField irradiance = result.irradiance;
   join(result.elements, result.solution.error_estimate, irradiance);
-  return cut(result, irradiance);
+  return of_pieces(result,
+                   linear_pieces(triangles_of(result.elements), irradiance, allowed_to_see(result)),
+                   Eigen::ArrayXd::Zero(irradiance.count()));
 }
 
 }  // namespace halfshade

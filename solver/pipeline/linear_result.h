@@ -17,6 +17,7 @@ struct LinearResult {
   /// There: direct light, that reflected once, twice, …; if SolveOptions::each_bounce.
   std::vector<ChannelArray> bounces;
   std::vector<Region> regions;  ///< as those of SolveResult
+  double relative_error = 0;    ///< of the polynomials and of what the triangles miss of them
 };
 
 /// A result with the polynomials of its elements, by their values at nodes.
@@ -30,12 +31,14 @@ struct NodeValues {
 /// Precondition: the result has polynomials.
 NodeValues node_values(const SolveResult& result);
 
-/// Cuts elements of higher order into triangles, so many that straight lines between their corners
-/// stay within the result's error or a thousandth of its light. Constant elements stay as they are;
-/// values at points are then means of the elements around them.
+/// Cuts elements of higher order into triangles, as SolveResult::straight has it, or else so many
+/// that straight lines between their corners add little to the result's error or a thousandth of
+/// its light. Errors are those of the triangles. Constant elements stay as they are; values at
+/// points are then means of the elements around them.
 LinearResult linear_result(const SolveResult& result);
 
-/// The same for somebody who looks at it: polynomials are made continuous first, see join.
+/// The same for somebody who looks at it, with no more triangles than that takes: polynomials are
+/// made continuous first, see join.
 LinearResult joined_linear_result(const SolveResult& result);
 
 }  // namespace halfshade

@@ -9,6 +9,7 @@
 #include "solver/adapt/adaptive_field.h"
 #include "solver/elements/element_field.h"
 #include "solver/elements/solution.h"
+#include "solver/elements/straight_cut.h"
 #include "solver/heat/heat.h"
 #include "solver/pipeline/goal.h"
 #include "solver/pipeline/solve_options.h"
@@ -72,6 +73,8 @@ struct SolveResult {
   /// Estimated, of the irradiance in the L2 norm: of the mesh, and of the solver's residual. With a
   /// goal: of that.
   double relative_error = 0;
+  double lamp_tolerance = 0;       ///< that lamps with pictures were cut for; 0: there are none
+  StraightCut straight;            ///< of `irradiance`, for files; empty before cut_for_files
   Heat heat;                       ///< what is known of temperatures; see solve_net_exchange
   FoundHeat found_heat;            ///< empty unless it was solved for
   std::optional<GoalResult> goal;  ///< if one was asked for

@@ -6,8 +6,10 @@
 #include "solver/pipeline/direct_field.h"
 #include "solver/pipeline/first_few.h"
 #include "solver/pipeline/goal_correction.h"
+#include "solver/pipeline/lamp_error.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/require_limits.h"
+#include "solver/pipeline/straight_files.h"
 #include "solver/pipeline/total_field.h"
 #include "solver/pipeline/weak_lights.h"
 #include "solver/reflected/reflected_mesh.h"
@@ -214,6 +216,9 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, const SolveOptio
       });
     const double mean = found.mean.matrix().norm();
     result.relative_error = mean > 0 ? error / mean : 1;
+    // The correction knows no other lamps, either.
+    const double of_lamps = relative_lamp_error(options, result.direct, result.elements);
+    result.relative_error = std::hypot(result.relative_error, of_lamps);
   }
   found.relative_error = result.relative_error;
   result.goal = found;
@@ -244,8 +249,10 @@ ReflectedOptions reflected_options(const SoundScene& scene, const Plan& plan,
   return result;
 }
 
-void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOptions& asked_for,
                   const Progress& progress, Stages& stages, SolveResult& result) {
+  SolveOptions options = asked_for;
+  options.tolerance = tolerance_of_polynomials(asked_for);
   const bool reflects = plan.no_factors.empty();
   if (reflects) require_limits(prepared, options.radiosity, progress);
   const std::optional<Goal> asked = find_goal(prepared.scene(), options, progress, stages);
@@ -255,12 +262,14 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     direct_options.tolerance = goal_tolerance(direct_share_of_goal, options);
   else if (reflects)
     direct_options.tolerance *= plan.rays.deviation > 0 ? direct_share_of_rays : direct_share;
+  direct_options.tolerance *= share_beside_lamps(options);
   const bool is_exact = plan.no_exact_direct_light.empty();
   stages.leave_out_if(!is_exact, "exact direct light", plan.no_exact_direct_light);
   stages.leave_out_if(!is_exact, "discontinuities", plan.no_discontinuities);
   DirectField direct =
       is_exact ? find_direct_field(prepared, plan, direct_options, progress, stages, goal)
                : no_direct_field(prepared.scene(), options, progress, stages);
+  if (is_exact) add_lamp_error(options, direct.light);
   result.discontinuities = direct.discontinuities;
   result.curves = direct.curves;
   add(direct.warnings, result.warnings);
@@ -309,9 +318,11 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     result.bounces.resize(at(options.radiosity.bounces),
                           zero_field(std::vector<int>(result.elements.corners.size(), 0)));
   if (asked) fill_goal(prepared, *asked, options, progress, stages, result);
-  result.not_reached = not_reached(
-      result, options, {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   fill_solution(prepared.scene(), error, result);
+  if (!is_exact) add_lamp_error(options, result);
+  result.not_reached =
+      not_reached(result, asked_for,
+                  {reason(result.refinement.limit), reason(result.reflected.end), of_values});
   if (reflects)
     if (std::string lost = weak_lights_lost(result); !lost.empty()) result.not_reached = lost;
   fill_powers(result);

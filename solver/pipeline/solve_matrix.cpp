@@ -3,6 +3,7 @@
 #include "solver/adapt/recovery_estimate.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/vertex_interpolation.h"
+#include "solver/pipeline/lamp_error.h"
 #include "solver/pipeline/require_limits.h"
 #include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
@@ -58,7 +59,8 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, S
 }
 
 /// `exchange_error` is independent of what the mesh does, in the mean.
-void estimate_error(const Eigen::ArrayXd& exchange_error, Stages& stages, SolveResult& result) {
+void estimate_error(const SolveOptions& options, const Eigen::ArrayXd& exchange_error,
+                    Stages& stages, SolveResult& result) {
   stages.run("error estimate", [&] {
     // Squares of light of any size must not over- or underflow.
     const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
@@ -69,6 +71,7 @@ void estimate_error(const Eigen::ArrayXd& exchange_error, Stages& stages, SolveR
             .binaryExpr(of_exchange, [](double a, double b) { return std::hypot(a, b); });
     result.solution.error_estimate = estimate / scale;
     result.relative_error = error_of_elements_and_solver(result);
+    add_lamp_error(options, result);
     return result.elements.corners.size();
   });
 }
@@ -134,7 +137,7 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
-  estimate_error(light.exchange_error, stages, result);
+  estimate_error(options, light.exchange_error, stages, result);
   if (options.interpolate) interpolate(result);
   add(exchange_warnings(result.exchange), result.warnings);
 }

@@ -53,6 +53,12 @@ struct SolveOptions {
   /// Of the irradiance's error, in the L2 norm, relative to the irradiance's; > 0 unless the method
   /// is the matrix, where curves whose effect is below this share of the mean are left out.
   double tolerance = 0.01;
+  /// Files will hold straight triangles instead of polynomials, see cut_for_files: polynomials
+  /// leave them a part of the tolerance.
+  bool straight = false;
+  /// What irradiance is off before it is found, because lamps shine evenly instead of as their
+  /// pictures do: L2 norm over all surfaces and channels. Counts as an error of direct light.
+  double lamp_error = 0;
   int order = -1;        ///< of all elements, 0…max_order; −1: chosen for each
   int max_unknowns = 0;  ///< per channel, ≥ 1; 0: see with_limits
   /// Name of a group: the tolerance is that of its mean irradiance, and effort goes where that

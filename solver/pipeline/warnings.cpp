@@ -169,6 +169,8 @@ const char* name_of(Warning::Kind kind) {
       return "backs_exchange";
     case Warning::Kind::lost_by_factors:
       return "lost_by_factors";
+    case Warning::Kind::lamps_uneven:
+      return "lamps_uneven";
   }
   return "";
 }

@@ -25,7 +25,8 @@ struct Warning {
     elements_exceeded,   ///< the geometry takes more elements than asked for
     exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
     backs_exchange,      ///< surfaces exchange heat with backs in closed parts of space
-    lost_by_factors      ///< light gets lost in a closed space, for factors are off
+    lost_by_factors,     ///< light gets lost in a closed space, for factors are off
+    lamps_uneven         ///< pictures that lamps shine with have more detail than their pieces
   };
   Kind kind;
   std::string sentence;  ///< without a full stop

@@ -145,10 +145,9 @@ void require_emitter(const Scene& scene) {
     return (scene.materials.at(static_cast<std::size_t>(face.material)).exitance > 0).any();
   });
   if (!any)
-    reject(
-        scene,
-        "no face emits light; give a material an exitance (Ke in an MTL file, or 'exitance' or "
-        "'temperature' in a materials file)");
+    reject(scene,
+           "no face emits light; give a material an exitance (Ke in an MTL file, or 'exitance' or "
+           "'temperature' in a materials file)");
 }
 
 }  // namespace halfshade

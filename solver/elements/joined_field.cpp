@@ -58,31 +58,44 @@ int edge_to(const ElementTable& elements, int element, int neighbour) {
   return static_cast<int>(std::find(all.begin(), all.end(), neighbour) - all.begin());
 }
 
-/// Points where a D0 line ends within a surface: both sides of it have the point in common.
-std::vector<bool> ends_of_lines(const ElementTable& elements) {
+/// Where borders turn back by more than so much (its sine), something stands at the corner.
+constexpr double turns_back = 0.1;
+
+/// Points where light depends on the direction one comes from: where a D0 line ends within a
+/// surface, for both sides of it have the point in common, and at corners round which a surface
+/// goes by more than half a turn, for shadows of what stands there begin at them.
+std::vector<bool> without_single_value(const ElementTable& elements) {
   // Borders that leave each point and that arrive at it, once they are known.
   std::vector<Vec3> leaving(elements.points.size(), Vec3::Zero());
-  std::vector<bool> has_left(elements.points.size(), false), is_end(elements.points.size(), false);
+  std::vector<bool> has_left(elements.points.size(), false), result(elements.points.size(), false);
   const auto each_border = [&](const auto& use) {
     for (int e = 0; e < elements.count(); ++e)
       for (int k = 0; k < 3; ++k)
-        if (elements.neighbours[at(e)][at(k)] < 0)
-          use(elements.corners[at(e)][at(k)], elements.corners[at(e)][at((k + 1) % 3)]);
+        if (elements.neighbours[at(e)][at(k)] < 0) use(e, k);
   };
-  each_border([&](int from, int to) {
-    leaving[at(from)] = elements.points[at(to)];
-    has_left[at(from)] = true;
+  const auto corner = [&](int e, int k) { return elements.corners[at(e)][at(k % 3)]; };
+  each_border([&](int e, int k) {
+    leaving[at(corner(e, k))] = elements.points[at(corner(e, k + 1))];
+    has_left[at(corner(e, k))] = true;
   });
-  each_border([&](int from, int to) {
-    if (has_left[at(to)] && leaving[at(to)] == elements.points[at(from)]) is_end[at(to)] = true;
+  each_border([&](int e, int k) {
+    const int point = corner(e, k + 1);
+    if (!has_left[at(point)]) return;
+    const Vec3 &from = elements.points[at(corner(e, k))], &here = elements.points[at(point)],
+               &apex = elements.points[at(corner(e, k + 2))];
+    const Vec3 arriving = (here - from).normalized(),
+               next = (leaving[at(point)] - here).normalized(),
+               normal = (here - from).cross(apex - from).normalized();
+    if (leaving[at(point)] == from || arriving.cross(next).dot(normal) < -turns_back)
+      result[at(point)] = true;
   });
-  return is_end;
+  return result;
 }
 
 class Joining {
  public:
   Joining(const ElementTable& elements, const Eigen::ArrayXd& error, const ElementField& field)
-      : elements_(elements), field_(field), is_end_(ends_of_lines(elements)) {
+      : elements_(elements), field_(field), has_many_(without_single_value(elements)) {
     const double largest = field.coefficients.abs().maxCoeff();
     // What is off by rounding alone is exact, and nothing is off by more than all there is.
     const Eigen::ArrayXd relative =
@@ -150,7 +163,7 @@ class Joining {
     ChannelArray change = ChannelArray::Zero(basis_size(q), 3);
     for (int k = 0; k < 3; ++k) {
       const int point = elements_.corners[at(element)][at(k)];
-      if (!is_end_[at(point)])
+      if (!has_many_[at(point)])
         change.row(k) = at_points.row(point) - at_corner(element, k).transpose();
     }
     for (int k = 0; k < 3; ++k) {
@@ -177,7 +190,7 @@ class Joining {
 
   const ElementTable& elements_;
   const ElementField& field_;
-  std::vector<bool> is_end_;
+  std::vector<bool> has_many_;   ///< values, see without_single_value
   Eigen::ArrayXd weight_;        ///< of what each element says
   Eigen::ArrayXd least_change_;  ///< of each that is worth making
   std::vector<int> order_;

@@ -169,6 +169,20 @@ TEST(JoinedField, WhereALineEndsLightHasManyValues) {
             0.01 * step(before, four, 0, 1, o, north));
 }
 
+TEST(JoinedField, AtACornerOfWhatStandsThereLightHasManyValues) {
+  // Something stands on the first: the other three go round its corner.
+  const ElementTable elements = table_of(four, orders_of_four({true, true, false, false}));
+  ElementField field = random_field({2, 2, 2, 2});
+  const ElementField before = field;
+  join(elements, Eigen::Array4d::Ones(), field);
+  for (int e = 1; e < 4; ++e)
+    EXPECT_LT((value_in_space(field, four[at(e)], e, o) - value_in_space(before, four[at(e)], e, o))
+                  .abs()
+                  .maxCoeff(),
+              1e-12);
+  EXPECT_LT(step(field, four, 1, 2, 0.999 * west, west), 0.01 * step(before, four, 1, 2, o, west));
+}
+
 TEST(JoinedField, TwoSidesOfASheetAreNotNeighbours) {
   std::vector<Triangle> sides = {{o, east, north}, {west, o, north}};
   for (const Triangle& t : {sides[0], sides[1]}) sides.push_back({t[0], t[2], t[1]});

@@ -200,8 +200,8 @@ ExitCode finish(const ProbeCommand& command, const PointTable& table, const Ligh
 std::string lamps_limit(const SceneFile& file) {
   if (!file.lamps.is_limited) return {};
   return fmt::format(
-      "pieces of lamps with pictures leave an error of about {:.2g} of direct light "
-      "instead of {:.2g}",
+      "lamps with pictures would have to be cut into more pieces: theirs leave about {:.2g} of "
+      "direct light, if nothing is in between, and may leave more where {:.2g} is asked for",
       file.lamps.relative_error, file.lamps.tolerance);
 }
 

@@ -235,8 +235,8 @@ class Cutter {
           face_label(scene_, parted.worst));
       if (is_known) {
         text += fmt::format(
-            ", but direct light may be off by {:.2g} of itself, where {:.2g} "
-            "is asked for",
+            ", but direct light is off by about {:.2g} of itself, if nothing is in between, and "
+            "may be by more, where {:.2g} is asked for",
             pictures_.relative_error, options_.tolerance);
         pictures_.limit = text;
       }

@@ -39,8 +39,9 @@ std::vector<Vec3> middle_and_around(const Surface& surface, double towards) {
   const Ring& ring = surface.rings.front();
   const std::size_t count = std::min(ring.size(), most_corners);
   for (std::size_t k = 0; k < count; ++k) {
-    const Vec3 corner = surface.frame.to_space(ring[k * ring.size() / count]),
-               next = surface.frame.to_space(ring[(k * ring.size() / count + 1) % ring.size()]);
+    const std::size_t of_ring = k * ring.size() / count;
+    const Vec3 corner = surface.frame.to_space(ring[of_ring]),
+               next = surface.frame.to_space(ring[(of_ring + 1) % ring.size()]);
     points.push_back(centre + towards * (corner - centre) + aside * (next - corner));
   }
   return points;

@@ -20,8 +20,9 @@ constexpr std::size_t most_corners = 8;
 /// to a wall comes from one side; of blockers, to share out their shadow. And so far on towards the
 /// next corner: lines of sight through symmetric places would end on edges of elements.
 constexpr double towards_corner = 0.893, half_way = 0.513, aside = 0.0371;
-/// The mean square of what a penumbra takes away, over the square of it in the middle: 4/3 of ramps,
-/// and places are few. And only half of a source is seen over the edge of a wall that stands below.
+/// The mean square of what a penumbra takes away, over the square of it in the middle: 4/3 of
+/// ramps, and places are few. And only half of a source is seen over the edge of a wall that stands
+/// below.
 constexpr double mean_square = 1.5, over_an_edge = 2;
 /// Cosines below this count as it: grazing shadows have no end.
 constexpr double least_cosine = 0.05;

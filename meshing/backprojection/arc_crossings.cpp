@@ -9,8 +9,11 @@
 namespace halfshade {
 namespace {
 
-/// A view with more crossings than these and these for each of its arcs is crowded.
+/// A view with more crossings than these and these for each of its arcs is crowded, unless so many
+/// of some that are tried are seen: cells have as many to look at then, and take four times as long
+/// for each.
 constexpr std::size_t few_crossings = 200, crossings_an_arc = 4;
+constexpr std::size_t tried_crossings = 12, seen_of_tried = 3;
 
 /// Where in [0, 1] the segment from `start` along `along` passes nearest to direction q, measured
 /// along the segment. `normal` is that of the segment's plane through the eye.
@@ -23,8 +26,7 @@ double along_segment(const Vec3& start, const Vec3& along, const Vec3& normal, c
 }  // namespace
 
 bool ShadowArrangement::find_crossings(bool unless_crowded) {
-  const std::size_t most =
-      unless_crowded ? few_crossings + crossings_an_arc * arcs_.size() : SIZE_MAX;
+  std::size_t most = unless_crowded ? few_crossings + crossings_an_arc * arcs_.size() : SIZE_MAX;
   crossings_.clear();
   sweep_.resize(arcs_.size());
   for (std::size_t i = 0; i < sweep_.size(); ++i) sweep_[i] = static_cast<int>(i);
@@ -45,9 +47,22 @@ bool ShadowArrangement::find_crossings(bool unless_crowded) {
     }
     active_.resize(kept);
     active_.push_back(i);
-    if (crossings_.size() > most) return false;
+    if (crossings_.size() <= most) continue;
+    if (!is_much_seen()) return false;
+    most = SIZE_MAX;
   }
   return true;
+}
+
+/// Whether no face lies over many of the crossings found so far, as some of them tell.
+bool ShadowArrangement::is_much_seen() const {
+  std::size_t seen = 0;
+  for (std::size_t k = 0; k < tried_crossings && seen < seen_of_tried; ++k) {
+    const Crossing& crossing = crossings_[k * crossings_.size() / tried_crossings];
+    const Vec3 there = position(arcs_[at(crossing.arc[0])], crossing.along[0]);
+    if (!view_->is_clearly_hidden(there - view_->point())) ++seen;
+  }
+  return seen == seen_of_tried;
 }
 
 bool ShadowArrangement::cross(int i, int j) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 // The first step of the arrangement: which edges are silhouettes seen from the point.
@@ -23,6 +24,26 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
   const double across = std::sqrt(std::max(0., offset.squaredNorm() - along * along));
   return along * cone.cosine - across * cone.sine >
          cone.thickness * cone.cosine + cone.radius * cone.sine + slack;
+}
+
+/// From where to where a segment lies in a box, as shares of it; nothing if it misses the box
+/// (Liang and Barsky 1984).
+std::optional<std::pair<double, double>> stretch_in_box(const Vec2& from, const Vec2& to,
+                                                        const Vec2& low, const Vec2& high) {
+  double first = 0, last = 1;
+  for (Eigen::Index k = 0; k < 2; ++k) {
+    const double along = to[k] - from[k], up_to_low = low[k] - from[k],
+                 up_to_high = high[k] - from[k];
+    if (along == 0) {
+      if (up_to_low > 0 || up_to_high < 0) return std::nullopt;
+      continue;
+    }
+    const double a = up_to_low / along, b = up_to_high / along;
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  if (first > last) return std::nullopt;
+  return std::pair(first, last);
 }
 
 }  // namespace
@@ -209,21 +230,27 @@ void ShadowArrangement::add_arc(int from, int to, int weight, EdgeId edge) {
   if (set_box(arc)) arcs_.push_back(arc);
 }
 
-/// The bounding box in the emitter's plane, a little enlarged; false if it misses the outline's.
+/// The bounding box in the emitter's plane of what lies in the outline's, both a little enlarged;
+/// false if nothing does. Long edges reach far beyond a small emitter, and cross there what does
+/// not matter.
 bool ShadowArrangement::set_box(Arc& arc) const {
   const Corner &a = view_->corners[at(arc.from)], &b = view_->corners[at(arc.to)];
   const SightPyramid& pyramid = outline_->pyramid;
   const double margin = margins::box_margin * (pyramid.high - pyramid.low).maxCoeff() +
                         margins::blur_margin * view_->blur();
-  if (a.is_ahead && b.is_ahead) {
-    arc.low = a.image.cwiseMin(b.image).array() - margin;
-    arc.high = a.image.cwiseMax(b.image).array() + margin;
-  } else {
-    arc.low = pyramid.low.array() - margin;
-    arc.high = pyramid.high.array() + margin;
+  const Vec2 low = pyramid.low.array() - margin, high = pyramid.high.array() + margin;
+  if (!(a.is_ahead && b.is_ahead)) {
+    arc.low = low;
+    arc.high = high;
+    return true;
   }
-  return (arc.low.array() <= pyramid.high.array()).all() &&
-         (arc.high.array() >= pyramid.low.array()).all();
+  const auto inside = stretch_in_box(a.image, b.image, low, high);
+  if (!inside) return false;
+  const Vec2 along = b.image - a.image, p = a.image + inside->first * along,
+             q = a.image + inside->second * along;
+  arc.low = p.cwiseMin(q).array() - margin;
+  arc.high = p.cwiseMax(q).array() + margin;
+  return true;
 }
 
 }  // namespace halfshade

@@ -56,6 +56,8 @@ inline constexpr double line_slack = 16 * std::numeric_limits<double>::epsilon()
 inline constexpr double near_parallel = 1e-6;
 // Crossings closer than this share of an arc are put in order by their arcs' ends where possible.
 inline constexpr double near_tie = 1e-8;
+// Sine of the angle to a face's border beyond which a direction does not meet it.
+inline constexpr double clearly_inside = 1e-9;
 // Corners nearer to the plane through the point than this share of the emitter's distance are not
 // projected.
 inline constexpr double nearest_image = 1e-4;

@@ -271,22 +271,24 @@ int PointView::layers_of(int triangle, const DirectionBeside& direction) {
   return sign * sum;
 }
 
-int PointView::layers_over(const DirectionBeside& direction) {
-  layer_surfaces_.clear();
+/// Calls visit(triangle) for all that may lie over a direction, and perhaps others, until it
+/// returns true.
+template <class Visit>
+void PointView::visit_faces_along(const Vec3& direction, const Visit& visit) {
   if (among_ != nullptr) {
-    int all = 0;
-    for (const int triangle : *among_) all += layers_of(triangle, direction);
-    return all;
+    std::find_if(among_->begin(), among_->end(), visit);
+    return;
   }
-  const Corner& target = corners[at(direction.from)];
-  const double last = std::max(1., distance_ / -emitter_->normal.dot(target.direction));
+  const double last = std::max(1., distance_ / -emitter_->normal.dot(direction));
   // The direction is off by its rounding, which grows along the ray; what reaches far is rounded as
   // far as it reaches.
   const Vec3 margin = Vec3::Constant(blur() * last);
   const double spread = 1 + margins::slack + 4 * jitter_;
-  const Vec3 inverse = target.direction.unaryExpr(
+  const Vec3 inverse = direction.unaryExpr(
       [](double d) { return 1 / (std::abs(d) > margins::least_slope ? d : margins::least_slope); });
+  bool is_done = false;
   const auto is_passed = [&](int index) {
+    if (is_done) return true;
     ++effort_.boxes;
     const Bounds& box = face_tree_.nodes[at(index)].box;
     const Vec3 low = (box.low - margin - point_).cwiseProduct(inverse);
@@ -295,9 +297,44 @@ int PointView::layers_over(const DirectionBeside& direction) {
     const double leave = std::min(low.cwiseMax(high).minCoeff(), last * (1 + margins::slack));
     return enter > leave * spread;
   };
+  walk_tree(face_tree_, is_passed, [&](int triangle) { is_done = is_done || visit(triangle); });
+}
+
+int PointView::layers_over(const DirectionBeside& direction) {
+  layer_surfaces_.clear();
+  // That of the corner may move while others are added.
+  const Vec3 along = corners[at(direction.from)].direction;
   int sum = 0;
-  walk_tree(face_tree_, is_passed, [&](int triangle) { sum += layers_of(triangle, direction); });
+  visit_faces_along(along, [&](int triangle) {
+    sum += layers_of(triangle, direction);
+    return false;
+  });
   return sum;
+}
+
+bool PointView::holds_clearly(int triangle, const Vec3& direction) {
+  const int sign = face_sign(triangle);
+  if (sign == 0) return false;
+  std::array<Vec3, 3> p;
+  for (std::size_t k = 0; k < 3; ++k)
+    p[k] = corners[at(corner_of_vertex(topology_.triangles[at(triangle)].corner[k]))].direction;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 normal = p[k].cross(p[(k + 1) % 3]);
+    // Corners that run counter-clockwise seen from the point turn the other way round its sight.
+    if (!(-sign * normal.dot(direction) >
+          margins::clearly_inside * normal.norm() * direction.norm()))
+      return false;
+  }
+  return true;
+}
+
+bool PointView::is_clearly_hidden(const Vec3& direction) {
+  bool hidden = false;
+  visit_faces_along(direction, [&](int triangle) {
+    hidden = holds_clearly(triangle, direction);
+    return hidden;
+  });
+  return hidden;
 }
 
 }  // namespace halfshade

@@ -122,6 +122,9 @@ class PointView {
   /// How many faces lie over a direction inside the pyramid, the emitter left out: Appel's
   /// quantitative invisibility (1967).
   int layers_over(const DirectionBeside& direction);
+  /// Whether a direction inside the pyramid is clearly inside a face, in doubles: not where it
+  /// meets the face's border. Only to tell what is worth doing.
+  bool is_clearly_hidden(const Vec3& direction);
   /// The surfaces that the last call of layers_over found, perhaps repeatedly.
   std::span<const int> layer_surfaces() const { return layer_surfaces_; }
   /// How often triangle abc, as it runs, winds round the direction: ±1 or 0.
@@ -138,6 +141,9 @@ class PointView {
   bool is_edge_on(int surface);
   bool touches(int surface) const;
   int layers_of(int triangle, const DirectionBeside& direction);
+  bool holds_clearly(int triangle, const Vec3& direction);
+  template <class Visit>
+  void visit_faces_along(const Vec3& direction, const Visit& visit);
   /// The same where it is known how the triangle runs; 0: it is not.
   int winding(int a, int b, int c, const DirectionBeside& direction, int sign) const;
   int add_corner(const Vec3& position, std::int64_t rank);

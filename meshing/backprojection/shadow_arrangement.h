@@ -30,8 +30,8 @@ class ShadowArrangement {
   std::size_t crossing_count() const { return crossings_.size(); }
   bool is_crossing(int junction) const { return junction < static_cast<int>(crossings_.size()); }
 
-  /// False, with nothing built, if there are more crossings than the view's arcs are `crowded`
-  /// with, see margins.
+  /// False, with nothing built, if many faces lie behind each other, or if there are many crossings
+  /// for the view's arcs and hardly any of them is seen.
   bool build(PointView& view, const EmitterOutline& outline, bool unless_crowded = false);
 
  private:
@@ -69,6 +69,7 @@ class ShadowArrangement {
   bool set_box(Arc& arc) const;
 
   bool find_crossings(bool unless_crowded);
+  bool is_much_seen() const;
   bool cross(int a, int b);
   void locate_crossing(Crossing& crossing) const;
   void sort_crossings();

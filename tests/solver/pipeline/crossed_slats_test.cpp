@@ -2,6 +2,7 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/direct_error.h"
 #include "tests/support/discontinuity_scenes.h"
+#include "tests/support/turned_slats.h"
 
 #include <gtest/gtest.h>
 
@@ -34,6 +35,29 @@ TEST(CrossedSlats, AreSolvedToTheToleranceWithoutCurvesAndRays) {
   EXPECT_FALSE(result.refinement.is_noisy);
   EXPECT_LE(result.relative_error, 0.02);
   EXPECT_LE(test::direct_error(prepared, result), 0.02);
+}
+
+SolveOptions directly(double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  options.radiosity.bounces = 0;
+  return options;
+}
+
+// Rays take about as long as exact looks there, and polynomials that are fitted to noise need many
+// more of them.
+TEST(TurnedSlats, AreLookedAtExactly) {
+  const PreparedScene prepared(test::turned_slats(50));
+  EXPECT_EQ(direct_rays(prepared, directly(0.01)).deviation, 0);
+  EXPECT_EQ(direct_rays(prepared, directly(0.03)).deviation, 0);
+}
+
+TEST(TurnedSlats, AreSolvedToTheTolerance) {
+  const PreparedScene prepared(test::turned_slats(50));
+  const SolveResult result = solve(prepared, directly(0.025));
+  EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
+  EXPECT_LE(result.relative_error, 0.025);
+  EXPECT_LE(test::direct_error(prepared, result), 0.025);
 }
 
 }  // namespace

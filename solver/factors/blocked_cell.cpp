@@ -29,6 +29,9 @@ constexpr int surely_dark = 100;  ///< instead of such a number: nothing can be 
 /// of it after each halving. Less only of smooth cells that three rules have looked at.
 constexpr double share_of_spread = 0.1;
 
+/// Where some point sees all or nothing but for this share, most may come from between the points
+/// and a corner.
+constexpr double nearly_nothing = 0.02;
 /// How much of a cell lies outside of the outermost points of its rules, about.
 constexpr double share_of_rim = 0.1;
 /// Corners are looked at this far in, relative to the cell: at the edges of surfaces, what touches
@@ -116,6 +119,7 @@ BlockedCells::Sum BlockedCells::sum_over(const Triangle3& corners, int degree) {
 
 /// Fills in all but corners, degree, and a first estimate: the difference of two rules.
 void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
+  cell.is_steep = false;
   const double area = area_of(cell.corners);
   cell.hidden = sum.hidden_range;
   cell.visible = sum.visible_range;
@@ -146,9 +150,11 @@ void BlockedCells::estimate(const Sum& sum, BlockedCell& cell) {
     cell.may_miss = unseen > 0;
     cell.error = std::max(cell.error, unseen);
   }
+  const double little = nearly_nothing * sum.unobstructed;
   if (cell.is_dark)
     estimate_dark(all, cell);
-  else if (cell.is_smooth && !cell.is_lit)
+  else if (!cell.is_lit &&
+           (cell.is_smooth || cell.hidden.least < little || cell.visible.least < little))
     look_at_corners(cell);
 }
 
@@ -194,7 +200,9 @@ double BlockedCells::missed(const BlockedCell& cell, double whole) {
 
 /// What all points see alike may still rise steeply towards an edge, as in a narrow gap between
 /// two surfaces, or be seen otherwise along it: less of that than lies before the outermost points.
+/// So may what few of them see a little of.
 void BlockedCells::look_at_corners(BlockedCell& cell) {
+  const bool was_smooth = cell.is_smooth;
   if (cell.hidden_at_corners.size() < 0)
     for (const Vec3& corner : cell.corners) {
       const HiddenFactor factor = factor_at(inset_corner(cell.corners, corner));
@@ -204,8 +212,12 @@ void BlockedCells::look_at_corners(BlockedCell& cell) {
     }
   const auto note = [&](const Range& range, const Range& at_corners) {
     const double beyond = range.beyond(at_corners);
-    if (beyond > range.size() || !cell.is_smooth)
-      cell.error = std::max(cell.error, share_of_rim * beyond * area_of(cell.corners));
+    const bool is_steep = beyond > range.size();
+    if (!is_steep && !(was_smooth && !cell.is_smooth)) return;
+    const double error = share_of_rim * beyond * area_of(cell.corners);
+    if (error <= cell.error) return;
+    cell.error = error;
+    cell.is_steep = is_steep;
   };
   note(cell.hidden, cell.hidden_at_corners);
   note(cell.visible, cell.visible_at_corners);
@@ -315,7 +327,8 @@ void BlockedCells::refine(const BlockedCell& cell, bool along_kinks,
   const bool is_unsure = cell.is_dark && cell.unsure > 0 && cell.unsure >= cell.error;
   const bool can_rise =
       cell.is_smooth || cell.is_dark ? cell.degree < degrees.back() : cell.degree < degrees[1];
-  if (!cell.is_lit && !cell.is_exact && !is_unsure && can_rise) return next.push_back(raise(cell));
+  if (!cell.is_lit && !cell.is_exact && !is_unsure && !cell.is_steep && can_rise)
+    return next.push_back(raise(cell));
   if (along_kinks && !cell.is_lit && !cell.is_smooth && add_sides_of_kink(cell, next)) return;
   add_halves(cell, next);
 }

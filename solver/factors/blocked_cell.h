@@ -49,6 +49,7 @@ struct BlockedCell {
   std::uint64_t signature = 0;  ///< of one of its points
   /// Of its points, and of its corners once they were looked at.
   Range hidden, visible, hidden_at_corners, visible_at_corners;
+  bool is_steep = false;  ///< what rises before its corners is most that it may be off by
 };
 
 /// Evaluates cells of one pair of surfaces.

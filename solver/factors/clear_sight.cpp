@@ -21,6 +21,7 @@ FormFactorOptions options_of(const SightTolerance& tolerance, std::size_t pairs)
   FormFactorOptions options;
   options.tolerance = tolerance.relative;
   options.floor = tolerance.absolute / static_cast<double>(pairs);
+  options.max_points = tolerance.max_points;
   return options;
 }
 

@@ -1,6 +1,7 @@
 #include "solver/factors/convex_bodies.h"
 
 #include "meshing/backprojection/opaque_topology.h"
+#include "meshing/core/plane_frame.h"
 #include "meshing/geometry/link.h"
 
 #include <algorithm>
@@ -123,6 +124,36 @@ class BodyFinder {
 /// not at all.
 constexpr double edge_on_side = 1e-12;
 
+/// What of a surface lies in a closed body.
+enum class Within { nothing, some, all };
+
+Within within(const ConvexBody& body, const std::vector<std::vector<Vec3>>& pieces) {
+  constexpr double rounding = 1e-12;  // relative to the largest coordinate
+  const double near = rounding * (body.ball.centre.norm() + body.ball.radius);
+  const auto all_lie = [&](const std::vector<Vec3>& polygon, const ConvexBody::Side& side,
+                           double sign) {
+    return std::all_of(polygon.begin(), polygon.end(), [&](const Vec3& p) {
+      return sign * side.normal.dot(p - side.corner) > -near;
+    });
+  };
+  bool is_any = false, is_all = true;
+  for (const std::vector<Vec3>& piece : pieces) {
+    const bool is_inside = std::all_of(body.sides.begin(), body.sides.end(),
+                                       [&](const auto& side) { return all_lie(piece, side, -1); });
+    is_all = is_all && is_inside;
+    const bool is_outside = std::any_of(body.sides.begin(), body.sides.end(), [&](const auto& s) {
+      return all_lie(piece, s, 1) && !all_lie(piece, s, -1);
+    });
+    if (is_outside) continue;
+    std::vector<Vec3> rest = piece;
+    for (const ConvexBody::Side& side : body.sides)
+      if (!rest.empty() && !all_lie(rest, side, -1))
+        rest = clip_to_front(rest, side.corner, -side.normal);
+    is_any = is_any || !rest.empty();
+  }
+  return !is_any ? Within::nothing : is_all ? Within::all : Within::some;
+}
+
 }  // namespace
 
 Ball ball_round(std::span<const Vec3> points) {
@@ -151,6 +182,14 @@ void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silh
 
 ConvexBodies find_convex_bodies(const SoundScene& scene, const OpaqueScene& opaque) {
   return BodyFinder(scene, opaque.topology()).run();
+}
+
+bool is_within_sight(const ConvexBody& body, const std::vector<std::vector<Vec3>>& looking,
+                     const std::vector<std::vector<Vec3>>& seen) {
+  const Within own = within(body, looking);
+  if (own == Within::nothing) return false;
+  const Within other = within(body, seen);
+  return own == Within::all ? other != Within::all : other != Within::nothing;
 }
 
 }  // namespace halfshade

@@ -34,6 +34,12 @@ struct ConvexBody {
   double width = 0;  ///< least distance from a side to the farthest vertex, scene units
 };
 
+/// Whether some point of one surface, in or on the body, may look through its inside at points of
+/// another one that lie outside, or on the body: no silhouette tells what its sides hide then.
+/// What lies outside looks at nothing inside. Both are of convex pieces.
+bool is_within_sight(const ConvexBody& body, const std::vector<std::vector<Vec3>>& looking,
+                     const std::vector<std::vector<Vec3>>& seen);
+
 /// The edges of a body between sides that a point sees and sides that it does not.
 struct Silhouette {
   struct Edge {

@@ -82,7 +82,8 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     }
     const ConvexBody& body = scene.bodies[at(blocker.body)];
     if (body.edges.size() < borders_of_shade &&
-        std::all_of(body.vertices.begin(), body.vertices.end(), is_before))
+        std::all_of(body.vertices.begin(), body.vertices.end(), is_before) &&
+        !is_within_sight(body, own.pieces, target_.pieces))
       solids_.push_back({blocker.body, &body, {&blocker}});
     else
       add(blocker);

@@ -8,6 +8,42 @@
 namespace halfshade {
 namespace {
 
+/// Of a sum of a row.
+constexpr double rounding = 1e-13;
+
+/// What rows sum to beside one, and what their entries together claim to be off by at most, as
+/// mutual areas.
+struct RowSums {
+  Eigen::ArrayXd missing, claimed;
+
+  RowSums(const FactorScene& scene, const RowExchange& exchange) {
+    const Eigen::Map<const Eigen::ArrayXd> area(scene.areas.data(), scene.rows());
+    missing =
+        (exchange.mutual.rowwise().sum().array() + exchange.space - area).abs() + rounding * area;
+    claimed = exchange.mutual_error.rowwise().sum().array() + exchange.space_error;
+  }
+  /// The most that an entry can be off by, so far as the others are what they claim to be.
+  double bound(Eigen::Index row, double error) const {
+    return missing[row] > claimed[row] ? HUGE_VAL
+                                       : missing[row] + std::max(0., claimed[row] - error);
+  }
+};
+
+/// Rows sum to one: so no entry is off by more than their sum is, and all the others together. That
+/// is sharp where one is worse than the others.
+void sharpen_errors(const RowSums& sums, RowExchange& exchange) {
+  RowMajorMatrix& errors = exchange.mutual_error;
+  for (Eigen::Index i = 0; i < errors.rows(); ++i) {
+    for (Eigen::Index j = i; j < errors.cols(); ++j) {
+      const double error = errors(i, j);
+      errors(i, j) = std::min({error, sums.bound(i, error), sums.bound(j, error)});
+      errors(j, i) = errors(i, j);
+    }
+    double& error = exchange.space_error[i];
+    error = std::min(error, sums.bound(i, error));
+  }
+}
+
 FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
   FactorMatrix result;
   result.names = scene.names;
@@ -26,15 +62,18 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
   return result;
 }
 
-void fill_report(double tolerance, FactorMatrix& result) {
+void fill_report(double tolerance, const RowSums& sums, FactorMatrix& result) {
   FactorReport& report = result.report;
   const auto entries = static_cast<double>(result.area.size() + 1);
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
     const double missing = std::abs(result.row_sum[i] - 1);
     // One entry at least is off by its part of what the sum is off.
     result.error[i] = std::max(result.error[i], missing / entries);
-    // Space is found on its own: what a sum of many good entries misses is in one that is not.
-    if (missing > 2 * tolerance) result.error[i] = std::max(result.error[i], missing);
+    // Space is found on its own: what a sum of many good entries misses is in one that is not. The
+    // others may make it look smaller than it is.
+    if (missing > 2 * tolerance ||
+        sums.missing[i] > sums.claimed[i] + 2 * rounding * result.area[i])
+      result.error[i] += missing;
     const bool is_off = result.error[i] > tolerance;
     report.rows_not_reached += is_off ? 1 : 0;
     report.row_sum_error_max = std::max(report.row_sum_error_max, missing);
@@ -113,9 +152,12 @@ FactorMatrix finished_matrix(const FactorScene& scene, RowExchange exchange, dou
   // Nothing sends less than nothing, whatever it is off by.
   exchange.mutual = exchange.mutual.cwiseMax(0);
   exchange.space = exchange.space.max(0);
+  const RowSums sums(scene, exchange);
+  if (exchange.report.is_complete && options.method == FactorMethod::exact)
+    sharpen_errors(sums, exchange);
   FactorMatrix result = matrix_of(scene, exchange);
   if (!result.report.is_complete) return result;
-  fill_report(tolerance, result);
+  fill_report(tolerance, sums, result);
   if (options.sparse_below > 0) make_sparse(options.sparse_below, exchange, result);
   if (options.enforce) enforce(exchange, result);
   return result;

@@ -21,6 +21,14 @@ constexpr double least_share = 0.75;
 /// much where half as many do. What few points find may rise steeply between them.
 constexpr double few_points = 30;
 
+/// Fewer than this say nothing.
+constexpr std::size_t too_few_points = 4;
+
+/// Nor is the estimate less than what the lattices before differ by, from the last one on, times
+/// this: more than a lattice gains on the one before, for what they differ by may be little by
+/// chance.
+constexpr std::array<double, 3> share_of_change = {1.6, 0.8, 0.4};
+
 /// The estimate shrinks with this power of the number of points, at least.
 constexpr double decay = 1.25;
 
@@ -100,23 +108,24 @@ class PairOnLattices {
   /// All places of a lattice have been looked at: whether that is enough, or ever will be.
   void settle(const SquareLattice& lattice, bool is_last) {
     const double count = static_cast<double>(lattice.places.size());
-    const double before = mean_;
-    mean_ = sum_of_values() / count;
+    means_.push_back(sum_of_values() / count);
     if (lattice.places.size() < fewest_) {
       goes_on_ = goes_on_ && !is_last;
       return;
     }
     double error = share_of_residuals() * std::sqrt(sum_of_squares(lattice)) / count;
-    if (count > static_cast<double>(square_lattices().front().places.size()))
-      error = std::max(error, std::abs(mean_ - before));
-    sight_.value = std::max(0., whole_.value - mean_);
+    for (std::size_t k = 0; k < share_of_change.size() && k + 1 < means_.size(); ++k)
+      error = std::max(
+          error, share_of_change[k] * std::abs(means_.back() - means_[means_.size() - 2 - k]));
+    sight_.value = std::max(0., whole_.value - means_.back());
     sight_.error = whole_.error + error;
     const double allowed =
         std::max(hidden_allowed_.absolute, hidden_allowed_.relative * sight_.value);
-    const bool tells = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
+    const bool tells = goes_on_ && std::min(not_lit_, not_dark_) >= too_few_points;
     sight_.is_reached = tells && error <= allowed;
     const double needed = count * std::pow(error / allowed, 1 / decay);
-    goes_on_ = tells && !sight_.is_reached && !is_last && needed <= most();
+    const bool may_tell = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
+    goes_on_ = may_tell && !sight_.is_reached && !is_last && needed <= most();
   }
 
  private:
@@ -164,7 +173,7 @@ class PairOnLattices {
   bool goes_on_;
   std::size_t not_lit_ = 0, not_dark_ = 0;  // points that find something hidden, or seen
   std::vector<Values> values_;              // by quadrilateral
-  double mean_ = 0;
+  std::vector<double> means_;               // by lattice
 };
 
 /// Looks at all of some pairs from one lattice after the other.

@@ -6,6 +6,10 @@
 namespace halfshade {
 namespace {
 
+/// Of what a pair may be off by: what the two without anything between them take little for, and
+/// what is hidden, whose estimate is no bound to the letter.
+constexpr double share_of_unhidden = 0.02, share_of_hidden = 0.5;
+
 /// At how many points each of the two surfaces is tried before the better one is gone on with.
 constexpr std::size_t points_to_try = 150;
 
@@ -94,6 +98,12 @@ MutualSight unhidden(const SightScene& scene, int a, int b, const FacingTriangle
   return sum;
 }
 
+SightTolerance share_of(SightTolerance tolerance, double share) {
+  tolerance.absolute *= share;
+  tolerance.relative *= share;
+  return tolerance;
+}
+
 /// One side of a pair: what it sees unhidden, and what of that is hidden.
 struct OneSide {
   MutualSight whole;
@@ -119,9 +129,9 @@ struct OneSide {
  private:
   OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const FacingTriangles& facing,
           const SightTolerance& asked)
-      : whole(unhidden(scene, a, b, facing, asked)),
+      : whole(unhidden(scene, a, b, facing, share_of(asked, share_of_unhidden))),
         hidden(scene, looks, a, b, facing, asked),
-        tolerance(asked) {}
+        tolerance(share_of(asked, share_of_hidden)) {}
 };
 
 }  // namespace
@@ -134,15 +144,12 @@ MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTole
 
 MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int b,
                           const SightTolerance& tolerance, const std::stop_token& stop) {
-  SightTolerance half = tolerance;  // for what is unhidden, and for what is hidden of it
-  half.absolute *= 0.5;
-  half.relative *= 0.5;
   const auto most = static_cast<std::size_t>(tolerance.max_points);
-  OneSide first(scene, looks, a, b, half);
+  OneSide first(scene, looks, a, b, tolerance);
   first.refine_to(std::min(points_to_try, most), stop);
   std::optional<OneSide> second;
   if (!first.is_reached()) {
-    second.emplace(scene, looks, b, a, half);
+    second.emplace(scene, looks, b, a, tolerance);
     second->refine_to(std::min(points_to_try, most), stop);
   }
   const bool is_second_better = second && second->error() < first.error();

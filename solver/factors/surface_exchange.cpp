@@ -22,6 +22,12 @@ double parts_of_row(double entries) {
   return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
 
+/// So few clear pairs are found to rounding in half a second, and are then, whatever is asked for:
+/// what rules say that they are off by is far more than they are. None takes more points for that.
+constexpr std::size_t few_clear_pairs = 10000;
+constexpr int points_to_rounding = 5000;
+constexpr double about_rounding = 1e-13;
+
 /// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
 /// entries are off independently of each other, hardly by more.
 class ErrorShares {
@@ -117,7 +123,9 @@ class ExactPairs {
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       found_[a].resize(pairs_[a].size());
       for (std::size_t k = 0; k < pairs_[a].size(); ++k)
-        if (pairs_[a][k].sight == Sight::partial)
+        if (pairs_[a][k].sight == Sight::clear)
+          ++clear_pairs_;
+        else
           hard_.push_back(hard_pair(sight, static_cast<int>(a), pairs_[a][k].other, k));
     }
   }
@@ -127,7 +135,7 @@ class ExactPairs {
     const auto see = [&](std::size_t a) {
       for (std::size_t k = 0; k < pairs_[a].size(); ++k)
         if (pairs_[a][k].sight == Sight::clear)
-          found_[a][k] = clear_sight(sight_, static_cast<int>(a), pairs_[a][k].other, for_clear_);
+          found_[a][k] = see_clear(static_cast<int>(a), pairs_[a][k].other);
     };
     return parallel_for(pairs_.size(), see, progress_, "form factors");
   }
@@ -179,6 +187,16 @@ class ExactPairs {
   }
 
  private:
+  MutualSight see_clear(int a, int b) const {
+    const MutualSight seen = clear_sight(sight_, a, b, for_clear_);
+    const double area = std::min(sight_.surfaces[at(a)].area, sight_.surfaces[at(b)].area);
+    if (clear_pairs_ > few_clear_pairs || seen.error <= about_rounding * area) return seen;
+    const SightTolerance fine{about_rounding, about_rounding * area,
+                              std::min(points_to_rounding, for_clear_.max_points)};
+    const MutualSight better = clear_sight(sight_, a, b, fine);
+    return better.error < seen.error ? better : seen;
+  }
+
   SightTolerance tolerance_of(const HardPair& pair) const {
     const int row = scene_.row[at(pair.low)], other = scene_.row[at(pair.high)];
     SightTolerance tolerance = for_partial_;
@@ -194,7 +212,8 @@ class ExactPairs {
   std::vector<std::vector<SightPair>> pairs_;
   ErrorShares shares_;
   std::vector<std::vector<MutualSight>> found_;  // of pairs_
-  std::vector<HardPair> hard_;                   // that are not found yet
+  std::size_t clear_pairs_ = 0;
+  std::vector<HardPair> hard_;  // that are not found yet
 };
 
 }  // namespace

@@ -35,6 +35,19 @@ FieldAt values_of(const ReflectedLight& reflected) {
   };
 }
 
+/// The middles of its elements: where they are small it changes within lengths that samples on
+/// those of direct light may overlook, as above a lamp close below a ceiling.
+Watched middles_of(const ReflectedLight& reflected) {
+  const ElementTable& elements = reflected.elements();
+  Watched watched;
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto [a, b, c] = elements.triangle(e);
+    const SurfacePoint middle{(a + b + c) / 3, elements.normal[at(e)]};
+    watched.places.push_back({{middle, elements.surface[at(e)]}, elements.area[at(e)]});
+  }
+  return watched;
+}
+
 /// Order with which direct light is told where it went through the operator.
 constexpr int told_order = 2;
 
@@ -187,8 +200,8 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
     AdaptiveFieldOptions fit = options.values;
     fit.norm = std::isfinite(norm) ? norm : 0;
     // Quick, and without it nothing found so far would be told: an interrupt has to wait.
-    on_elements =
-        fit_adaptively(*direct.patches, values_of(*total.reflected), fit, {{}, progress.report});
+    on_elements = fit_adaptively(*direct.patches, values_of(*total.reflected), fit,
+                                 {{}, progress.report}, middles_of(*total.reflected));
     return on_elements.elements.corners.size();
   });
   if (gathers(options.final_gather, report))

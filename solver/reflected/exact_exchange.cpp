@@ -46,6 +46,7 @@ bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) 
   if (fits(mesh)) return true;
   const RowMaker maker(sight_, mesh, accuracy_);
   rows_.assign(at(mesh.count()), {});
+  shadows_.assign(at(mesh.count()), {});
   return parallel_for(
       at(mesh.count()), [&](std::size_t e) { make_rows(maker, mesh, static_cast<int>(e)); },
       progress, "exact parts of reflected light");
@@ -57,6 +58,7 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
   const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
   for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
     rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
+  shadows_[at(element)] = backs_.shadow(mesh, element);
 }
 
 ElementField ExactExchange::source(const ReflectedMesh& mesh) const {
@@ -72,7 +74,10 @@ ElementField ExactExchange::apply(const ReflectedMesh& mesh, const ElementField&
     for (std::size_t k = 0; k < rows.size(); ++k)
       values.row(static_cast<Eigen::Index>(k)) = irradiance(rows[k], quick).matrix().transpose();
     const int order = mesh.order[at(mesh.triangle[e])];
-    result.of(static_cast<int>(e)) = (element_nodes_of(order).fit * values).array();
+    auto coefficients = result.of(static_cast<int>(e));
+    coefficients = (element_nodes_of(order).fit * values).array();
+    if (const Eigen::RowVectorXd& missed = shadows_[e].of_nodes; missed.size() > 0)
+      coefficients.row(0) += (missed * values).array();
   });
   return result;
 }

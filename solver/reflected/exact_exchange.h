@@ -3,6 +3,7 @@
 #include "solver/reflected/direct_projection.h"
 #include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/irradiance_row.h"
+#include "solver/reflected/near_backs.h"
 
 #include <stop_token>
 #include <vector>
@@ -15,7 +16,12 @@ class ExactExchange : public IrradianceOperator {
   /// All must outlive it; `direct` must be up to date with the mesh.
   ExactExchange(const ExactSight& sight, const ReflectingScene& scene, const FirstLight& light,
                 const DirectProjection& direct, const RowAccuracy& accuracy)
-      : sight_(sight), scene_(scene), light_(light), direct_(direct), accuracy_(accuracy) {}
+      : sight_(sight),
+        scene_(scene),
+        light_(light),
+        direct_(direct),
+        accuracy_(accuracy),
+        backs_(scene) {}
 
   bool update(const ReflectedMesh& mesh, const Progress& progress) override;
   ElementField source(const ReflectedMesh& mesh) const override;
@@ -23,6 +29,7 @@ class ExactExchange : public IrradianceOperator {
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
   bool stopped() const override { return stop_.stop_requested(); }
   double unsure(int element) const override;
+  const BackShadow* shadow(int element) const override { return &shadows_[at(element)]; }
 
   /// The most that moments of a row missed its form factors by, before they were put right; in
   /// closed cells also what form factors miss 1 by.
@@ -40,8 +47,10 @@ class ExactExchange : public IrradianceOperator {
   const FirstLight& light_;
   const DirectProjection& direct_;
   RowAccuracy accuracy_;
+  NearBacks backs_;
   std::stop_token stop_;                          ///< of the last update
   std::vector<std::vector<IrradianceRow>> rows_;  ///< of each element's nodes
+  std::vector<BackShadow> shadows_;               ///< of each element
 };
 
 /// A row for a point of a part of a root; in a closed cell it is scaled to sum to one, and `off`

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "meshing/core/progress.h"
+#include "solver/reflected/near_backs.h"
 #include "solver/reflected/reflected_mesh.h"
 
 #include <vector>
@@ -31,6 +32,10 @@ class IrradianceOperator {
   /// Form factor from an element of which it is not known where it leads, in the root of the mean
   /// square; 0 where that shows as noise.
   virtual double unsure(int /*element*/) const { return 0; }
+
+  /// How much darker backs close before an element make it than its nodes see, where that is put
+  /// right; null where it is not.
+  virtual const BackShadow* shadow(int /*element*/) const { return nullptr; }
 };
 
 }  // namespace halfshade

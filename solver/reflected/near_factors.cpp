@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/exchange/form_factor.h"
+#include "solver/reflected/near_backs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,14 @@ Rgb share_lost(const Rgb& rho, double gap) {
   return (4 * s / (1 + 3 * s)).min(1);
 }
 
+/// Of what nodes miss of backs so much is not known where it is put right: what arrives past them
+/// is not quite even.
+constexpr double unsure_shadow = 0.2;
+
 class GapSearch {
  public:
   GapSearch(const ReflectedSystem& system, const ReflectingScene& scene)
-      : system_(system), scene_(scene) {
+      : system_(system), scene_(scene), backs_(scene) {
     const std::vector<int>& surface = system.light.surface;
     for (std::size_t r = 0; r < surface.size(); ++r) {
       if (at(surface[r]) >= roots_.size()) roots_.resize(at(surface[r]) + 1);
@@ -62,6 +67,7 @@ class GapSearch {
       if (absorbed <= hardly_absorbed && size > long_gaps * height) loss.within = grow_within;
       loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(height, least_gap * size)));
     }
+    add_shadow(element, size, loss);
     return loss;
   }
 
@@ -116,8 +122,19 @@ class GapSearch {
     return mean - by_nodes;
   }
 
+  void add_shadow(int element, double size, UnsureLoss& loss) const {
+    const BackShadow* known = system_.exchange.shadow(element);
+    const BackShadow shadow = known ? *known : backs_.shadow(system_.mesh, element);
+    if (shadow.share == 0) return;
+    loss.factor +=
+        (shadow.of_nodes.size() > 0 && known ? unsure_shadow : 1) * std::abs(shadow.share);
+    loss.parts =
+        std::max(loss.parts, size / (seen_gaps * std::max(shadow.height, least_gap * size)));
+  }
+
   const ReflectedSystem& system_;
   const ReflectingScene& scene_;
+  NearBacks backs_;
   std::vector<std::vector<int>> roots_;  ///< of each surface
 };
 

@@ -12,8 +12,9 @@ namespace halfshade {
 /// What is not known of the light that elements lose through gaps narrower than half of what they
 /// are long: it gets out within a few times the gap's width of the border, where nodes hardly ever
 /// lie, and what these see is taken for the mean. The mean form factor to the surface opposite is
-/// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen. If
-/// stopped, the rest is zero.
+/// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen. Of
+/// backs that swallow light close before elements, what the exchange does not put right
+/// (NearBacks). If stopped, the rest is zero.
 std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene,
                                        const Progress& progress);
 

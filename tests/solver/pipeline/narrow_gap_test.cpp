@@ -155,31 +155,32 @@ Scene lamp_below_a_ceiling(double gap, double rho) {
   return scene;
 }
 
-/// Where light changes within a hand's breadth, coarse triangles that stand for what is seen of
-/// them beside the dark made the room a tenth too dark, where .7 % was claimed. The claim is still
-/// too small, see reflected.md: what is held to here is twice the tolerance.
-TEST(NarrowGap, WhatIsDarkBehindALampDarkensNothingBesideIt) {
-  SolveOptions options;
-  options.tolerance = 0.01;
-  options.visibility = ReflectedVisibility::exact;
-  const SolveResult result = solve(lamp_below_a_ceiling(0.01, 0.995), options);
-  std::vector<ReferenceTriangle> triangles;
-  Rgb sum = Rgb::Zero(), found = Rgb::Zero(), variance = Rgb::Zero();
-  double all = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
-    triangles.push_back(result.elements.triangle(e));
-    sum += result.elements.area[at(e)] * result.solution.irradiance.row(e).transpose();
-    all += result.elements.area[at(e)];
+/// Light changes within some gaps' width of the lamp's border, and what gets in above it is lost,
+/// which nodes of elements hardly ever see: the room of .995 was 1.7 % too bright, that of .999 by
+/// 6.6 %, where .7 % was claimed. Of what arrives on the ceiling above the lamp, elements of the
+/// result may show nothing if no sample falls there: .5 % of the mean at a gap of .003. Means of
+/// the walls by 2 million random walks of a program that shares no code with this one (for .01,
+/// walks from the walls find the same), which are sure to .025, .08 and .013 %.
+TEST(NarrowGap, WhatGetsLostBehindALampIsAsMuchAsIsClaimed) {
+  struct Case {
+    double gap, rho, walked;
+  };
+  for (const auto& [gap, rho, walked] :
+       {Case{0.01, 0.995, 3.61913}, {0.01, 0.999, 14.8606}, {0.003, 0.99, 1.89603}}) {
+    SolveOptions options;
+    options.tolerance = 0.01;
+    const SolveResult result = solve(lamp_below_a_ceiling(gap, rho), options);
+    EXPECT_TRUE(result.not_reached.empty());
+    EXPECT_LE(result.relative_error, 0.01);
+    double sum = 0, area = 0;
+    for (int e = 0; e < result.elements.count(); ++e) {
+      if (result.scene.materials[at(result.elements.material[at(e)])].exitance[0] > 0) continue;
+      area += result.elements.area[at(e)];
+      sum += result.elements.area[at(e)] * result.solution.irradiance(e, 0);
+    }
+    EXPECT_NEAR(area, 52, 1e-9);
+    EXPECT_NEAR(sum / area, walked, 0.4 * result.relative_error * walked) << gap << ", " << rho;
   }
-  ReferenceOptions walks;
-  walks.samples = 60000 / static_cast<int>(triangles.size());
-  const ReferenceLight reference = reference_means(result.scene, triangles, walks);
-  for (std::size_t e = 0; e < triangles.size(); ++e) {
-    found += result.elements.area[e] * reference.values[e].total;
-    variance += (result.elements.area[e] * reference.standard_errors[e].total).square();
-  }
-  EXPECT_NEAR(sum[0] / all, found[0] / all,
-              0.02 * found[0] / all + 3 * std::sqrt(variance[0]) / all);
 }
 
 TEST(NarrowGap, ElementsOfTheMatrixThatAreTooLongTellSo) {

@@ -1,0 +1,154 @@
+#include "solver/reflected/near_backs.h"
+
+#include "solver/elements/polynomial.h"
+#include "solver/exchange/form_factor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// Gaps up to this many times an element's size are near: of those nodes may miss a thousandth.
+constexpr double nearest = 1.5;
+constexpr double least_gap = 1e-9;  // of an element's size
+/// Light changes within the distance from a border: parts of an element are at most this share of
+/// it long, or have this share of the area of all: what is narrower hardly counts.
+constexpr double share_of_distance = 0.93, least_part = 1e-7;
+/// Where nodes see less than this of what is not hidden, they do not tell how bright that is.
+constexpr double hardly_seen = 1e-3;
+
+double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 along = b - a;
+  const double square = along.squaredNorm();
+  const double share = square > 0 ? std::clamp(along.dot(p - a) / square, 0., 1.) : 0;
+  return (a + share * along - p).norm();
+}
+
+/// ∫ ω and ∫ ω (ω − π) over an element, in the mean.
+class ShadowIntegrals {
+ public:
+  ShadowIntegrals(const std::array<Vec3, 3>& corners, const Vec3& normal, int order,
+                  const std::vector<std::vector<Vec3>>& backs)
+      : corners_(corners), normal_(normal), order_(order), backs_(backs) {
+    const ElementNodes& nodes = element_nodes_of(order);
+    at_nodes.resize(static_cast<Eigen::Index>(nodes.places.size()));
+    for (std::size_t n = 0; n < nodes.places.size(); ++n)
+      at_nodes[static_cast<Eigen::Index>(n)] = seen_past(position(corners_, nodes.places[n]));
+    polynomial_ = nodes.fit * at_nodes;
+    add({TrianglePlace(0, 0), TrianglePlace(1, 0), TrianglePlace(0, 1)}, 1);
+  }
+
+  Eigen::VectorXd at_nodes;  ///< ω
+  double all = 0, missed = 0;
+
+ private:
+  double seen_past(const Vec3& p) const {
+    double hidden = 0;
+    for (const auto& back : backs_) hidden += point_to_polygon(p, normal_, back);
+    return std::clamp(1 - hidden, 0., 1.);
+  }
+
+  double distance(const Vec3& p) const {
+    double least = HUGE_VAL;
+    for (const auto& back : backs_)
+      for (std::size_t k = 0; k < back.size(); ++k)
+        least = std::min(least, distance_to_edge(p, back[k], back[(k + 1) % back.size()]));
+    return least;
+  }
+
+  void add(const std::array<TrianglePlace, 3>& part, double share) {
+    const std::array<Vec3, 3> at_corners = {
+        position(corners_, part[0]), position(corners_, part[1]), position(corners_, part[2])};
+    const auto& [a, b, c] = at_corners;
+    const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    if (share > least_part && length > share_of_distance * distance((a + b + c) / 3)) {
+      const TrianglePlace ab = (part[0] + part[1]) / 2, bc = (part[1] + part[2]) / 2,
+                          ca = (part[2] + part[0]) / 2;
+      add({part[0], ab, ca}, share / 4);
+      add({ab, part[1], bc}, share / 4);
+      add({ca, bc, part[2]}, share / 4);
+      add({bc, ca, ab}, share / 4);
+      return;
+    }
+    Eigen::VectorXd basis(basis_size(order_));
+    for (const TriangleNode& node : triangle_rule(4)) {
+      const TrianglePlace place =
+          part[0] + node.u * (part[1] - part[0]) + node.v * (part[2] - part[0]);
+      const double past = seen_past(position(corners_, place));
+      basis_at(order_, place, basis);
+      all += share * node.weight * past;
+      missed += share * node.weight * past * (past - basis.dot(polynomial_));
+    }
+  }
+
+  const std::array<Vec3, 3>& corners_;
+  const Vec3& normal_;
+  int order_;
+  const std::vector<std::vector<Vec3>>& backs_;
+  Eigen::VectorXd polynomial_;
+};
+
+}  // namespace
+
+NearBacks::NearBacks(const ReflectingScene& scene) : scene_(scene) {
+  std::vector<Bounds> boxes;
+  for (int r = 0; r < scene.roots.count(); ++r) {
+    const int behind = scene.cells.of_side[at(r)][1];
+    if (scene.two_sided[at(r)] || scene.cells.closed[at(behind)]) continue;
+    backs_.push_back(r);
+    Bounds box;
+    for (const Vec3& p : scene.roots.triangle(r)) box.include(p);
+    boxes.push_back(box);
+  }
+  boxes_ = make_flat_tree(boxes, 1);
+}
+
+NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
+  Near result;
+  const int root = mesh.root(element), cell = scene_.cells.before(root);
+  if (scene_.cells.swallowing[at(cell)] < 0 || backs_.empty()) return result;
+  const std::array<Vec3, 3>& corners = mesh.forest.corners(mesh.triangle[at(element)]);
+  const Vec3& normal = scene_.roots.normal[at(root)];
+  const double size = std::sqrt(mesh.area(element));
+  Bounds box;
+  for (const Vec3& p : corners) box.include(p);
+  result.height = HUGE_VAL;
+  visit_overlaps(boxes_, box.grown(nearest * size), [&](int k) {
+    const int r = backs_[at(k)];
+    const Vec3& looks = scene_.roots.normal[at(r)];
+    if (scene_.cells.of_side[at(r)][1] != cell || !(looks.dot(normal) > 0)) return;
+    const std::array<Vec3, 3> back = scene_.roots.triangle(r);
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const Vec3& p : corners) {
+      low = std::min(low, -looks.dot(p - back[0]));
+      high = std::max(high, -looks.dot(p - back[0]));
+    }
+    if (low < least_gap * size || high > nearest * size) return;
+    result.backs.push_back({back[0], back[2], back[1]});
+    result.height = std::min(result.height, low);
+  });
+  return result;
+}
+
+BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
+  BackShadow shadow;
+  const Near found = near(mesh, element);
+  if (found.backs.empty()) return shadow;
+  const int order = mesh.order[at(mesh.triangle[at(element)])];
+  const ShadowIntegrals integrals(mesh.forest.corners(mesh.triangle[at(element)]),
+                                  scene_.roots.normal[at(mesh.root(element))], order, found.backs);
+  const Eigen::VectorXd& past = integrals.at_nodes;
+  const Eigen::RowVectorXd weights = element_nodes_of(order).fit.row(0);
+  shadow.height = found.height;
+  if (!(integrals.all > 0)) return shadow;
+  const double missed = integrals.missed / integrals.all;
+  shadow.share = missed / std::max(integrals.all, hardly_seen);
+  // What arrives past the backs if nothing were hidden: least squares over the nodes.
+  const double seen = weights * past.cwiseAbs2();
+  if (seen > hardly_seen * hardly_seen)
+    shadow.of_nodes = (missed / seen) * weights.cwiseProduct(past.transpose());
+  return shadow;
+}
+
+}  // namespace halfshade

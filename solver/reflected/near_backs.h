@@ -1,0 +1,44 @@
+#pragma once
+
+#include "meshing/geometry/flat_tree.h"
+#include "solver/reflected/reflected_mesh.h"
+#include "solver/reflected/reflecting_scene.h"
+
+#include <vector>
+
+namespace halfshade {
+
+/// What an element's nodes miss of how backs close before it darken it.
+struct BackShadow {
+  /// Adds what is missing to the mean, such that what of it gets out is right: a share of what
+  /// arrives at each node. Empty if no back is near.
+  Eigen::RowVectorXd of_nodes;
+  double share = 0;   ///< the same as a share of what arrives in the mean, with its sign
+  double height = 0;  ///< of the element above the back
+};
+
+/// Backs that swallow light close before elements. Light changes within some gaps' width of their
+/// borders, where nodes hardly ever lie, and as much as comes in there gets lost.
+class NearBacks {
+ public:
+  /// The scene must outlive it. Cost: n log n.
+  explicit NearBacks(const ReflectingScene& scene);
+
+  /// With what an element sees of backs in closed form, as if all else that arrives were even and
+  /// nothing came between: ω = 1 − F of what leaves a place gets out, and as much arrives there.
+  /// Nodes take π for ω, so that ∫ ω (ω − π) too little gets out.
+  BackShadow shadow(const ReflectedMesh& mesh, int element) const;
+
+ private:
+  struct Near {
+    std::vector<std::vector<Vec3>> backs;  ///< counter-clockwise seen from behind
+    double height = 0;
+  };
+  Near near(const ReflectedMesh& mesh, int element) const;
+
+  const ReflectingScene& scene_;
+  std::vector<int> backs_;  ///< roots whose backs swallow light
+  FlatTree boxes_;          ///< of them
+};
+
+}  // namespace halfshade

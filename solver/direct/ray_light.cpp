@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 namespace halfshade {
@@ -325,21 +326,25 @@ RayLight::RayLight(const SoundScene& scene, const DirectLightIndex& exact,
 RayLight::~RayLight() = default;
 RayLight::RayLight(RayLight&&) noexcept = default;
 
-std::vector<NoisyValue> RayLight::irradiance(std::span<const FieldPoint> places,
-                                             std::span<const double> slack,
-                                             const Progress& progress) const {
+RayIrradiance RayLight::irradiance(std::span<const FieldPoint> places,
+                                   std::span<const double> slack, const Progress& progress) const {
   if (!slack.empty() && slack.size() != places.size())
     throw Error(ErrorCode::contract, "RayLight",
                 fmt::format("{} places and {} slacks", places.size(), slack.size()));
-  std::vector<NoisyValue> result(places.size());
-  parallel_for((places.size() + places_of_task - 1) / places_of_task,
-               [&](std::size_t c) {
-                 RayWork work;
-                 const std::size_t end = std::min(places.size(), (c + 1) * places_of_task);
-                 for (std::size_t k = c * places_of_task; k < end; ++k)
-                   result[k] = impl_->gather(places[k], slack.empty() ? 1 : slack[k], work);
-               },
-               progress, "direct light by rays");
+  RayIrradiance result{std::vector<NoisyValue>(places.size())};
+  std::vector<std::size_t> rays((places.size() + places_of_task - 1) / places_of_task);
+  parallel_for(
+      rays.size(),
+      [&](std::size_t c) {
+        RayWork work;
+        const std::size_t end = std::min(places.size(), (c + 1) * places_of_task);
+        for (std::size_t k = c * places_of_task; k < end; ++k) {
+          result.at[k] = impl_->gather(places[k], slack.empty() ? 1 : slack[k], work);
+          rays[c] += work.segments.size();
+        }
+      },
+      progress, "direct light by rays");
+  result.rays = std::accumulate(rays.begin(), rays.end(), std::size_t{0});
   return result;
 }
 

@@ -18,6 +18,11 @@ struct RayLightOptions {
   double most_rays = 0;
 };
 
+struct RayIrradiance {
+  std::vector<NoisyValue> at;  ///< each place, W/m²
+  std::size_t rays = 0;        ///< that were traced for all of them
+};
+
 /// Direct light with rays to emitters, as many as a tolerance needs, where exactly visible parts
 /// take longer. What an emitter would give unobstructed is exact; rays tell the share of it that
 /// arrives. So light without a shadow is exact, and what is wholly hidden is dark. Of many weak
@@ -44,9 +49,8 @@ class RayLight {
   /// Irradiance in W/m², twice by rays of its own, with the deviation asked for or less; with
   /// `slack`, one a place and ≥ 1, so many times that. On all threads; if stopped, places not
   /// reached are dark.
-  std::vector<NoisyValue> irradiance(std::span<const FieldPoint> places,
-                                     std::span<const double> slack = {},
-                                     const Progress& progress = {}) const;
+  RayIrradiance irradiance(std::span<const FieldPoint> places, std::span<const double> slack = {},
+                           const Progress& progress = {}) const;
 
   /// Irradiance (mean of the channels) if nothing were in between: no less than there is, and more
   /// by a fifth at most, and a few hundredths of the deviation for each group of emitters.

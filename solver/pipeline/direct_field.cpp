@@ -6,6 +6,7 @@
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
+#include "solver/pipeline/direct_work.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/near_features.h"
 #include "solver/pipeline/shadow_places.h"
@@ -35,31 +36,6 @@ constexpr double share_at_first = 0.5;
 /// of elements that are large because direct light is dark or even there, and reflected light is
 /// not.
 constexpr double share_of_direct = 0.85;
-
-/// Looks at faces and crossings for each unknown that there may be, where very many faces lie
-/// before an emitter: by default some ten to twenty seconds on two cores.
-constexpr double crowd_work_for_one = 60;
-
-/// Adds to `crowd_work`.
-FieldAt direct_light_at(const DirectLightIndex& index, double& crowd_work) {
-  return [&](std::span<const FieldPoint> points, const Progress& progress) {
-    std::vector<SurfacePoint> places;
-    places.reserve(points.size());
-    for (const FieldPoint& point : points) places.push_back(point.point);
-    std::vector<Rgb> values;
-    values.reserve(points.size());
-    for (const DirectLight& light : index.irradiance(places, progress)) {
-      values.push_back(light.irradiance);
-      crowd_work += static_cast<double>(light.crowd_work);
-    }
-    return values;
-  };
-}
-
-NoisyFieldAt direct_light_at(const RayLight& light) {
-  return [&](std::span<const FieldPoint> points, std::span<const double> slack,
-             const Progress& progress) { return light.irradiance(points, slack, progress); };
-}
 
 double length_of(const SoundScene& scene, const SolveOptions& options) {
   if (options.refine == Refinement::adaptive) return 0;
@@ -132,7 +108,7 @@ class DirectFieldSearch {
         goal_(goal),
         blockers_(
             blocking_surfaces(prepared.scene(), plan.lit, prepared.direct_light().emitters())),
-        direct_light_(direct_light_at(prepared.direct_light(), crowd_work_)),
+        direct_light_(direct_light_at(prepared.direct_light(), work_)),
         rays_(rays_of(prepared, plan)) {}
 
   DirectField run() {
@@ -296,13 +272,13 @@ class DirectFieldSearch {
       fit.max_elements = std::max(1, static_cast<int>(share_of_direct * fit.max_elements));
       fit.max_unknowns = std::max(1, static_cast<int>(share_of_direct * fit.max_unknowns));
     }
-    fit.is_too_much = [this] { return crowd_work_ > crowd_work_for_one * options_.max_unknowns; };
+    fit.is_too_much = [this] { return is_too_much(work_, options_.max_unknowns); };
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;
     stages_.run("direct light", [&] {
       if (rays_)
         found_.light = fit_noisy(
-            *found_.patches, direct_light_at(*rays_),
+            *found_.patches, direct_light_at(*rays_, work_),
             [this](const FieldPoint& place) { return rays_->unobstructed(place.point); }, fit,
             progress_);
       else
@@ -347,7 +323,7 @@ class DirectFieldSearch {
   Stages& stages_;
   const GoalWeights* goal_;
   const std::vector<int> blockers_;  ///< but for those that light hardly reaches
-  double crowd_work_ = 0;            ///< see DirectLight
+  DirectWork work_;
   FieldAt direct_light_;
   std::optional<RayLight> rays_;    ///< that look at direct light instead
   std::optional<Watched> watched_;  ///< once it is known

@@ -40,14 +40,15 @@ constexpr double slack_of_goal = 0.5 / adjoint_tolerance;
 constexpr double share_of_deviation = 0.2, share_of_gathering = 0.1;
 constexpr double deviations_claimed = 2;
 
-std::string reason(FieldLimit limit) {
+std::string reason(FieldLimit limit, bool by_rays = false) {
   switch (limit) {
     case FieldLimit::elements:
       return "more elements than --max-elements allows";
     case FieldLimit::unknowns:
       return "more unknowns than --max-unknowns allows";
     case FieldLimit::work:
-      return "more looks through faces behind faces than --max-unknowns allows";
+      return by_rays ? "more rays to emitters than --max-unknowns allows, 100 for each"
+                     : "more looks through faces behind faces than --max-unknowns allows";
     case FieldLimit::rounds:
       return "more rounds of refinement than it pays to make";
     default:
@@ -320,9 +321,9 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   if (asked) fill_goal(prepared, *asked, options, progress, stages, result);
   fill_solution(prepared.scene(), error, result);
   if (!is_exact) add_lamp_error(options, result);
-  result.not_reached =
-      not_reached(result, asked_for,
-                  {reason(result.refinement.limit), reason(result.reflected.end), of_values});
+  result.not_reached = not_reached(result, asked_for,
+                                   {reason(result.refinement.limit, result.refinement.is_noisy),
+                                    reason(result.reflected.end), of_values});
   if (reflects)
     if (std::string lost = weak_lights_lost(result); !lost.empty()) result.not_reached = lost;
   fill_powers(result);

@@ -86,7 +86,7 @@ TEST(ManyLamps, HaveTheMeanAndTheDeviationAskedForWithFewRays) {
   for (const double share : {0.2, 0.05}) {
     const double deviation = share * reference().mean;
     const RayLight light = lit_hall().rays(deviation);
-    const auto found = light.irradiance(places);
+    const auto found = light.irradiance(places).at;
     double off = 0, square = 0, product = 0, half_square = 0, rays = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double a = found[k].a.mean() - reference().light[k];
@@ -120,14 +120,14 @@ TEST(ManyLamps, AreTheSameInAnyUnitAndBatch) {
   for (Vec3& p : scaled.vertices) p *= odd;
   const LitHall in_odd(scaled);
   const RayLight light = lit_hall().rays(deviation), other = in_odd.rays(deviation);
-  const auto found = light.irradiance(places);
+  const auto found = light.irradiance(places).at;
   int by_chance = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
-    const NoisyValue alone = light.irradiance(std::span(&places[k], 1))[0];
+    const NoisyValue alone = light.irradiance(std::span(&places[k], 1)).at[0];
     EXPECT_TRUE((alone.a == found[k].a).all() && (alone.b == found[k].b).all());
     FieldPoint place = places[k];
     place.point.position *= odd;
-    const NoisyValue there = other.irradiance(std::span(&place, 1))[0];
+    const NoisyValue there = other.irradiance(std::span(&place, 1)).at[0];
     EXPECT_TRUE(there.a.isApprox(found[k].a, 1e-9) || found[k].a.isZero(1e-12));
     by_chance += (found[k].a != found[k].b).any();
   }
@@ -156,7 +156,7 @@ TEST(ManyLamps, AreNearlyExactWithoutShadows) {
   const auto places = open.places(300);
   const double deviation = 0.1 * open.unobstructed({{10, 10, 0}, Vec3::UnitZ()});
   const RayLight light = open.rays(deviation);
-  const auto found = light.irradiance(places);
+  const auto found = light.irradiance(places).at;
   double square = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const double exact = open.exact.irradiance(places[k].point).irradiance.mean();

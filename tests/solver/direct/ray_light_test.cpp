@@ -58,7 +58,7 @@ TEST(RayLight, HasTheMeanAndTheDeviationAskedFor) {
     const Lit lit(test::family(kind, 300), deviation);
     const auto places = random_places(lit.scene, 30000, 5);
     const auto exact = lit.exact.irradiance(points_of(places));
-    const auto found = lit.rays.irradiance(places);
+    const auto found = lit.rays.irradiance(places).at;
     double off = 0, square = 0, product = 0, half_square = 0;
     for (std::size_t k = 0; k < places.size(); ++k) {
       const double a = found[k].a.mean() - exact[k].irradiance.mean();
@@ -80,7 +80,7 @@ TEST(RayLight, HasTheMeanAndTheDeviationAskedFor) {
 TEST(RayLight, IsExactWithoutShadowsAndInTheDark) {
   const Lit lit(test::cluttered_room(300), 0.1 * light_of_room);
   const auto places = random_places(lit.scene, 3000, 6);
-  const auto found = lit.rays.irradiance(places);
+  const auto found = lit.rays.irradiance(places).at;
   int lit_places = 0, dark = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const DirectLight exact = lit.exact.irradiance(places[k].point);
@@ -101,7 +101,7 @@ TEST(RayLight, IsExactWithoutShadowsAndInTheDark) {
 TEST(RayLight, LooksExactlyWhereThatTakesLess) {
   const Lit lit(test::furnished_room(300), 1e-6 * light_of_room, 50);
   const auto places = random_places(lit.scene, 300, 7);
-  const auto found = lit.rays.irradiance(places);
+  const auto found = lit.rays.irradiance(places).at;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Rgb exact = lit.exact.irradiance(places[k].point).irradiance;
     EXPECT_TRUE(found[k].a.isApprox(exact, 1e-12) || exact.isZero(1e-300));
@@ -121,13 +121,13 @@ TEST(RayLight, DoesNotDependOnUnitOrBatch) {
   const Lit in_odd(in_unit(odd), 0.1 * light_of_room);
   const Lit in_power(in_unit(power_of_two), 0.1 * light_of_room);
   const auto places = random_places(lit.scene, 4000, 8);
-  const auto found = lit.rays.irradiance(places);
+  const auto found = lit.rays.irradiance(places).at;
   int by_chance = 0;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto alone = [&](const Lit& other, double unit) {
       FieldPoint place = places[k];
       place.point.position *= unit;
-      return other.rays.irradiance(std::span(&place, 1))[0];
+      return other.rays.irradiance(std::span(&place, 1)).at[0];
     };
     EXPECT_TRUE((alone(lit, 1).a == found[k].a).all() && (alone(lit, 1).b == found[k].b).all());
     EXPECT_TRUE((alone(in_power, power_of_two).a == found[k].a).all());

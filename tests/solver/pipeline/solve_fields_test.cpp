@@ -344,5 +344,17 @@ TEST(SolveFields, EndsWithASentenceWhereTooMuchLiesBeforeTheLight) {
   EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
 }
 
+TEST(SolveFields, EndsWithASentenceWhereRaysToEmittersAreTooMany) {
+  SolveOptions options;
+  options.max_unknowns = 3000;
+  const SolveResult result =
+      solve(PreparedScene(test::unit_soup(150, 2), {}, {.contacts = false}), options);
+  EXPECT_TRUE(result.refinement.is_noisy);
+  EXPECT_EQ(result.refinement.limit, FieldLimit::work);
+  EXPECT_GT(result.relative_error, options.tolerance);
+  EXPECT_NE(result.not_reached.find("rays to emitters"), std::string::npos) << result.not_reached;
+  EXPECT_TRUE(result.solution.irradiance.allFinite());
+}
+
 }  // namespace
 }  // namespace halfshade

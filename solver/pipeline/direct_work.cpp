@@ -1,0 +1,41 @@
+#include "solver/pipeline/direct_work.h"
+
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+/// For each unknown that there may be.
+constexpr double crowd_work_for_one = 60, rays_for_one = 100;
+
+}  // namespace
+
+bool is_too_much(const DirectWork& work, int unknowns) {
+  return work.crowd > crowd_work_for_one * unknowns || work.rays > rays_for_one * unknowns;
+}
+
+FieldAt direct_light_at(const DirectLightIndex& index, DirectWork& work) {
+  return [&](std::span<const FieldPoint> points, const Progress& progress) {
+    std::vector<SurfacePoint> places;
+    places.reserve(points.size());
+    for (const FieldPoint& point : points) places.push_back(point.point);
+    std::vector<Rgb> values;
+    values.reserve(points.size());
+    for (const DirectLight& light : index.irradiance(places, progress)) {
+      values.push_back(light.irradiance);
+      work.crowd += static_cast<double>(light.crowd_work);
+    }
+    return values;
+  };
+}
+
+NoisyFieldAt direct_light_at(const RayLight& light, DirectWork& work) {
+  return [&](std::span<const FieldPoint> points, std::span<const double> slack,
+             const Progress& progress) {
+    RayIrradiance found = light.irradiance(points, slack, progress);
+    work.rays += static_cast<double>(found.rays);
+    return std::move(found.at);
+  };
+}
+
+}  // namespace halfshade

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "solver/adapt/noisy_field.h"
+#include "solver/direct/direct_light.h"
+#include "solver/direct/ray_light.h"
+
+namespace halfshade {
+
+/// What direct light has taken so far.
+struct DirectWork {
+  double crowd = 0;  ///< looks at faces and crossings, see DirectLight::crowd_work
+  double rays = 0;   ///< to emitters
+};
+
+/// More than so many unknowns are worth: where very many faces lie before emitters, the accuracy
+/// asked for may take hours. By default some ten to twenty seconds of exact looks on two cores, and
+/// up to a minute of rays in scenes of up to some thousand surfaces.
+bool is_too_much(const DirectWork& work, int unknowns);
+
+/// Direct light in W/m²; adds what it takes to `work`. All are referred to.
+FieldAt direct_light_at(const DirectLightIndex& index, DirectWork& work);
+NoisyFieldAt direct_light_at(const RayLight& light, DirectWork& work);
+
+}  // namespace halfshade

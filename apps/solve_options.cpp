@@ -45,9 +45,10 @@ void add_size(CLI::App& app, SolveOptions& options) {
   add_whole(app, "--max-elements", options.max_elements, {1, 10000000},
             "Make no more elements than this (default: 400 for each polygon, at least 40000, at\n"
             "most 1000000, or 16 for each if that is more; with --method matrix 40000)");
-  add_whole(app, "--max-unknowns", options.max_unknowns, {1, 100000000},
-            "Make no more coefficients than this, for each channel (default: 4 for each of these\n"
-            "elements, at least 1000000)");
+  add_whole(
+      app, "--max-unknowns", options.max_unknowns, {1, 100000000},
+      "Make no more coefficients than this, for each channel (default: 4 for each of these\n"
+      "elements, at least 1000000), nor trace more than 75 rays to emitters for each of them");
 }
 
 void add_light(CLI::App& app, SolveCommand& command) {

@@ -29,6 +29,9 @@ constexpr std::size_t too_few_points = 4;
 /// chance.
 constexpr std::array<double, 3> share_of_change = {1.6, 0.8, 0.4};
 
+/// Points of a trial.
+constexpr double few_to_try = 64;
+
 /// The estimate shrinks with this power of the number of points, at least.
 constexpr double decay = 1.25;
 
@@ -93,6 +96,8 @@ class PairOnLattices {
 
   bool goes_on() const { return goes_on_; }
   const MutualSight& sight() const { return sight_; }
+  /// Whether its error tells something, small enough or not.
+  bool tells() const { return tells_; }
 
   /// The next place on a quadrilateral; corners apart.
   void look(Silhouettes& silhouettes, double weight, std::size_t quad, bool is_corner) {
@@ -121,8 +126,8 @@ class PairOnLattices {
     sight_.error = whole_.error + error;
     const double allowed =
         std::max(hidden_allowed_.absolute, hidden_allowed_.relative * sight_.value);
-    const bool tells = goes_on_ && std::min(not_lit_, not_dark_) >= too_few_points;
-    sight_.is_reached = tells && error <= allowed;
+    tells_ = goes_on_ && std::min(not_lit_, not_dark_) >= too_few_points;
+    sight_.is_reached = tells_ && error <= allowed;
     const double needed = count * std::pow(error / allowed, 1 / decay);
     const bool may_tell = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
     goes_on_ = may_tell && !sight_.is_reached && !is_last && needed <= most();
@@ -136,7 +141,9 @@ class PairOnLattices {
 
   /// Points on a quadrilateral.
   double most() const {
-    return std::min(static_cast<double>(square_lattices().back().places.size()),
+    return std::min(hidden_allowed_.is_trial
+                        ? few_to_try
+                        : static_cast<double>(square_lattices().back().places.size()),
                     static_cast<double>(hidden_allowed_.max_points));
   }
 
@@ -170,7 +177,7 @@ class PairOnLattices {
   SightTolerance hidden_allowed_;
   MutualSight whole_, sight_;
   std::size_t fewest_ = 0;
-  bool goes_on_;
+  bool goes_on_, tells_ = false;
   std::size_t not_lit_ = 0, not_dark_ = 0;  // points that find something hidden, or seen
   std::vector<Values> values_;              // by quadrilateral
   std::vector<double> means_;               // by lattice
@@ -246,9 +253,11 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
   }
   look_at(from_all, all, silhouettes);
   std::vector<std::optional<MutualSight>> result;
-  for (const auto& look : looks) {
+  for (std::size_t k = 0; k < looks.size(); ++k) {
+    const PairOnLattices* look = looks[k].get();
     result.emplace_back();
-    if (look && look->sight().is_reached) result.back() = look->sight();
+    if (look && (pairs[k].tolerance.is_trial ? look->tells() : look->sight().is_reached))
+      result.back() = look->sight();
   }
   return result;
 }

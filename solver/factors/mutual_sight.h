@@ -13,6 +13,7 @@ struct SightTolerance {
   double relative = 1e-9;    ///< of it, in (0, 1)
   double absolute = 0;       ///< what is good enough in any case, squared scene units, ≥ 0
   int max_points = 1000000;  ///< at which a pair is looked at, ≥ 1
+  bool is_trial = false;     ///< what few points tell is enough, of what something may hide
 };
 
 /// Mutual area of what two surfaces see of each other.

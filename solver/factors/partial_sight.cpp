@@ -154,7 +154,7 @@ MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int
   }
   const bool is_second_better = second && second->error() < first.error();
   OneSide& better = is_second_better ? *second : first;
-  better.refine_to(most, stop);
+  if (!tolerance.is_trial) better.refine_to(most, stop);
   MutualSight result = better.whole;
   result.is_reached = result.is_reached && better.is_reached();
   result.value = better.value();

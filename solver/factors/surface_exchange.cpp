@@ -1,26 +1,18 @@
 #include "solver/factors/surface_exchange.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/factors/error_shares.h"
 #include "solver/factors/lattice_sight.h"
 #include "solver/factors/pair_search.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <tuple>
 #include <utility>
 
 namespace halfshade {
 namespace {
-
-/// What entries are off by adds up like the root of their number, if there are many; of that,
-/// estimates of lattices are at least this many times as much. Where there are few, they count as
-/// more.
-double parts_of_row(double entries) {
-  constexpr double few = 0.25, many = 0.5, overestimated = 5.5;
-  return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
-}
 
 /// So few clear pairs are found to rounding in half a second, and are then, whatever is asked for:
 /// what rules say that they are off by is far more than they are. None takes more points for that.
@@ -28,53 +20,14 @@ constexpr std::size_t few_clear_pairs = 10000;
 constexpr int points_to_rounding = 5000;
 constexpr double about_rounding = 1e-13;
 
-/// How errors are shared out so that no entry is off by more than the tolerance, and rows, whose
-/// entries are off independently of each other, hardly by more.
-class ErrorShares {
- public:
-  ErrorShares(const FactorScene& scene, const std::vector<std::vector<SightPair>>& pairs)
-      : scene_(scene), of_row_(at(scene.rows())), of_entry_(at(scene.rows())) {
-    for (std::size_t a = 0; a < pairs.size(); ++a)
-      for (const SightPair& pair : pairs[a]) {
-        if (pair.sight != Sight::partial) continue;
-        const int row = scene.row[a], other = scene.row[at(pair.other)];
-        of_row_[at(row)] += 1;
-        if (other >= 0 && other != row) of_row_[at(other)] += 1;
-        entry(row, other) += 1;
-      }
-  }
-
-  /// Mutual area that a pair may be off by.
-  double share(int row, int other, double tolerance) const {
-    double area = scene_.areas[at(row)], in_row = of_row_[at(row)];
-    if (other >= 0) {
-      area = std::min(area, scene_.areas[at(other)]);
-      in_row = std::max(in_row, of_row_[at(other)]);
-    }
-    const auto found = of_entry_[at(key(row, other)[0])].find(key(row, other)[1]);
-    const double in_entry = found == of_entry_[at(key(row, other)[0])].end() ? 1 : found->second;
-    return tolerance * area / std::max({1., in_entry, parts_of_row(in_row)});
-  }
-
- private:
-  /// Surroundings and backs are one entry.
-  static std::array<int, 2> key(int row, int other) {
-    return other < 0 ? std::array{row, -1} : std::array{std::min(row, other), std::max(row, other)};
-  }
-  double& entry(int row, int other) {
-    return of_entry_[at(key(row, other)[0])][key(row, other)[1]];
-  }
-
-  const FactorScene& scene_;
-  std::vector<double> of_row_;
-  std::vector<std::map<int, double>> of_entry_;
-};
-
 /// A pair that something may come between, and where its result belongs.
 struct HardPair {
   int low, high;
   std::size_t place;
   int own, other;  ///< the same two: what is integrated over first, and what it looks at
+  SightTolerance tolerance = {};
+  bool is_done = false;
+  double need = HUGE_VAL;  ///< ErrorShares::claim, once few points were looked at
 };
 
 HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place) {
@@ -83,6 +36,9 @@ HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place
   const bool is_swapped = sight.surfaces[at(high)].area < clearly * sight.surfaces[at(low)].area;
   return {low, high, place, is_swapped ? high : low, is_swapped ? low : high};
 }
+
+/// From which of the two surfaces of a pair lattices look.
+enum class Side { own, other };
 
 /// So many surfaces of one plane are looked from at another plane before what was seen is
 /// forgotten: what these look back at is then found once for all of them.
@@ -118,7 +74,7 @@ class ExactPairs {
         for_partial_{0.8 * options.tolerance, 0, options.max_points},
         progress_(progress),
         pairs_(find_pairs(scene, sight, progress)),
-        shares_(scene, pairs_),
+        shares_(scene, pairs_, for_partial_.relative),
         found_(pairs_.size()) {
     for (std::size_t a = 0; a < pairs_.size(); ++a) {
       found_[a].resize(pairs_[a].size());
@@ -127,6 +83,10 @@ class ExactPairs {
           ++clear_pairs_;
         else
           hard_.push_back(hard_pair(sight, static_cast<int>(a), pairs_[a][k].other, k));
+    }
+    for (HardPair& pair : hard_) {
+      pair.tolerance = for_partial_;
+      pair.tolerance.absolute = shares_.even_share(row(pair), other_row(pair));
     }
   }
 
@@ -140,43 +100,9 @@ class ExactPairs {
     return parallel_for(pairs_.size(), see, progress_, "form factors");
   }
 
-  /// Partial pairs that lattices of points are enough for, on the surface of each pair that is
-  /// looked from first, or on the other one; those are done then.
-  bool see_by_lattices(bool looks_back) {
-    std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
-    for (std::size_t h = 0; h < hard_.size(); ++h)
-      from[at(looks_back ? hard_[h].other : hard_[h].own)].push_back(h);
-    std::vector<char> is_done(hard_.size(), 0);
-    const auto see = [&](std::size_t s) {
-      std::vector<LatticePair> some;
-      for (const std::size_t h : from[s])
-        some.push_back({looks_back ? hard_[h].own : hard_[h].other, tolerance_of(hard_[h]),
-                        pairs_[at(hard_[h].low)][hard_[h].place].blockers});
-      const auto seen = lattice_sight(sight_, static_cast<int>(s), some);
-      for (std::size_t k = 0; k < seen.size(); ++k) {
-        if (!seen[k]) continue;
-        sight_of(hard_[from[s][k]]) = *seen[k];
-        is_done[from[s][k]] = 1;
-      }
-    };
-    const bool is_complete = parallel_for(from.size(), see, progress_, "hidden form factors");
-    std::size_t left = 0;
-    for (std::size_t h = 0; h < hard_.size(); ++h)
-      if (!is_done[h]) hard_[left++] = hard_[h];
-    hard_.resize(left);
-    return is_complete;
-  }
-
-  /// The other partial pairs.
-  bool see_by_cells() {
-    const std::vector<std::size_t> ends = sort_into_tasks(sight_, hard_);
-    const auto see = [&](std::size_t task) {
-      PointLooks looks(sight_);
-      for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h)
-        sight_of(hard_[h]) = partial_sight(sight_, looks, hard_[h].own, hard_[h].other,
-                                           tolerance_of(hard_[h]), progress_.stop);
-    };
-    return parallel_for(ends.size(), see, progress_, "hidden form factors") && !progress_.stopped();
+  bool see_partial() {
+    return try_shared() && see_by_lattices(Side::own) && see_by_lattices(Side::other) &&
+           see_by_cells();
   }
 
   void add_to(RowExchange& exchange) const {
@@ -197,13 +123,82 @@ class ExactPairs {
     return better.error < seen.error ? better : seen;
   }
 
-  SightTolerance tolerance_of(const HardPair& pair) const {
-    const int row = scene_.row[at(pair.low)], other = scene_.row[at(pair.high)];
-    SightTolerance tolerance = for_partial_;
-    tolerance.absolute = shares_.share(row, other, tolerance.relative);
-    return tolerance;
-  }
+  int row(const HardPair& pair) const { return scene_.row[at(pair.low)]; }
+  int other_row(const HardPair& pair) const { return scene_.row[at(pair.high)]; }
   MutualSight& sight_of(const HardPair& pair) { return found_[at(pair.low)][pair.place]; }
+
+  /// Where many pairs share what an entry may be off by, few points of each tell which of them need
+  /// more of it.
+  bool try_shared() {
+    for (HardPair& pair : hard_)
+      pair.tolerance.is_trial = shares_.is_shared(row(pair), other_row(pair));
+    const auto are_all = std::stable_partition(
+        hard_.begin(), hard_.end(), [](const HardPair& pair) { return pair.tolerance.is_trial; });
+    std::vector<HardPair> untried(are_all, hard_.end());
+    hard_.erase(are_all, hard_.end());
+    const bool is_complete = hard_.empty() || (see_by_lattices(Side::own) &&
+                                               see_by_lattices(Side::other) && see_by_cells());
+    for (HardPair& pair : hard_) pair.tolerance.is_trial = false;
+    share_out();
+    hard_.insert(hard_.end(), untried.begin(), untried.end());
+    return is_complete;
+  }
+
+  void note(const MutualSight& seen, HardPair& pair) {
+    sight_of(pair) = seen;
+    pair.is_done = seen.is_reached;
+    pair.need = std::min(pair.need, seen.error * static_cast<double>(seen.points));
+  }
+
+  void drop_done() {
+    for (const HardPair& pair : hard_)
+      if (pair.is_done) shares_.spend(row(pair), other_row(pair), sight_of(pair).error);
+    std::erase_if(hard_, [](const HardPair& pair) { return pair.is_done; });
+  }
+
+  /// What those that are done leave to those that have been tried.
+  void share_out() {
+    shares_.forget_claims();
+    for (const HardPair& pair : hard_) shares_.claim(row(pair), other_row(pair), pair.need);
+    for (HardPair& pair : hard_)
+      pair.tolerance.absolute = shares_.share(row(pair), other_row(pair), pair.need);
+  }
+
+  /// Partial pairs that lattices of points are enough for; those are done then.
+  bool see_by_lattices(Side side) {
+    std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
+    for (std::size_t h = 0; h < hard_.size(); ++h)
+      from[at(side == Side::own ? hard_[h].own : hard_[h].other)].push_back(h);
+    const auto see = [&](std::size_t s) {
+      std::vector<LatticePair> some;
+      for (const std::size_t h : from[s])
+        some.push_back({side == Side::own ? hard_[h].other : hard_[h].own, hard_[h].tolerance,
+                        pairs_[at(hard_[h].low)][hard_[h].place].blockers});
+      const auto seen = lattice_sight(sight_, static_cast<int>(s), some);
+      for (std::size_t k = 0; k < seen.size(); ++k)
+        if (seen[k]) note(*seen[k], hard_[from[s][k]]);
+    };
+    const bool is_complete = parallel_for(from.size(), see, progress_, "hidden form factors");
+    drop_done();
+    return is_complete;
+  }
+
+  /// The other partial pairs; in a trial those that lattices say nothing of.
+  bool see_by_cells() {
+    const std::vector<std::size_t> ends = sort_into_tasks(sight_, hard_);
+    const auto see = [&](std::size_t task) {
+      PointLooks looks(sight_);
+      for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h) {
+        HardPair& pair = hard_[h];
+        if (pair.tolerance.is_trial && pair.need < HUGE_VAL) continue;
+        note(partial_sight(sight_, looks, pair.own, pair.other, pair.tolerance, progress_.stop),
+             pair);
+      }
+    };
+    const bool is_complete = parallel_for(ends.size(), see, progress_, "hidden form factors");
+    drop_done();
+    return is_complete && !progress_.stopped();
+  }
 
   const FactorScene& scene_;
   const SightScene& sight_;
@@ -242,8 +237,7 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
                            const FactorOptions& options, const Progress& progress) {
   ExactPairs pairs(scene, sight, options, progress);
   RowExchange exchange(scene.rows());
-  exchange.report.is_complete = pairs.see_clear() && pairs.see_by_lattices(false) &&
-                                pairs.see_by_lattices(true) && pairs.see_by_cells();
+  exchange.report.is_complete = pairs.see_clear() && pairs.see_partial();
   pairs.add_to(exchange);
   return exchange;
 }

@@ -10,8 +10,8 @@ namespace halfshade {
 namespace {
 
 /// Gaps up to this many times an element's size are near: of those nodes may miss a thousandth.
-constexpr double nearest = 1.5;
-constexpr double least_gap = 1e-9;  // of an element's size
+constexpr double nearest_back = 1.5;
+constexpr double least_height = 1e-9;  // of an element's size
 /// Light changes within the distance from a border: parts of an element are at most this share of
 /// it long, or have this share of the area of all: what is narrower hardly counts.
 constexpr double share_of_distance = 0.93, least_part = 1e-7;
@@ -114,7 +114,7 @@ NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
   Bounds box;
   for (const Vec3& p : corners) box.include(p);
   result.height = HUGE_VAL;
-  visit_overlaps(boxes_, box.grown(nearest * size), [&](int k) {
+  visit_overlaps(boxes_, box.grown(nearest_back * size), [&](int k) {
     const int r = backs_[at(k)];
     const Vec3& looks = scene_.roots.normal[at(r)];
     if (scene_.cells.of_side[at(r)][1] != cell || !(looks.dot(normal) > 0)) return;
@@ -124,7 +124,7 @@ NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
       low = std::min(low, -looks.dot(p - back[0]));
       high = std::max(high, -looks.dot(p - back[0]));
     }
-    if (low < least_gap * size || high > nearest * size) return;
+    if (low < least_height * size || high > nearest_back * size) return;
     result.backs.push_back({back[0], back[2], back[1]});
     result.height = std::min(result.height, low);
   });

@@ -60,7 +60,7 @@ bool ShadowArrangement::is_much_seen() const {
   for (std::size_t k = 0; k < tried_crossings && seen < seen_of_tried; ++k) {
     const Crossing& crossing = crossings_[k * crossings_.size() / tried_crossings];
     const Vec3 there = position(arcs_[at(crossing.arc[0])], crossing.along[0]);
-    if (!view_->is_clearly_hidden(there - view_->point())) ++seen;
+    if (view_->clear_sight(there - view_->point()) != ClearSight::hidden) ++seen;
   }
   return seen == seen_of_tried;
 }

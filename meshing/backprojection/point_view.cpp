@@ -312,29 +312,38 @@ int PointView::layers_over(const DirectionBeside& direction) {
   return sum;
 }
 
-bool PointView::holds_clearly(int triangle, const Vec3& direction) {
+ClearSight PointView::clear_sight_past(int triangle, const Vec3& direction) {
   const int sign = face_sign(triangle);
-  if (sign == 0) return false;
+  if (sign == 0) return ClearSight::seen;
   std::array<Vec3, 3> p;
-  for (std::size_t k = 0; k < 3; ++k)
-    p[k] = corners[at(corner_of_vertex(topology_.triangles[at(triangle)].corner[k]))].direction;
+  bool is_before = true;
+  double nearest = HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner& c = corners[at(corner_of_vertex(topology_.triangles[at(triangle)].corner[k]))];
+    p[k] = c.direction;
+    is_before = is_before && c.side == PlaneSide::before;
+    nearest = std::min(nearest, c.direction.norm());
+  }
+  const double margin = (margins::clearly_inside + 4 * blur() / nearest) * direction.norm();
+  bool is_inside = true;
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 normal = p[k].cross(p[(k + 1) % 3]);
     // Corners that run counter-clockwise seen from the point turn the other way round its sight.
-    if (!(-sign * normal.dot(direction) >
-          margins::clearly_inside * normal.norm() * direction.norm()))
-      return false;
+    const double depth = -sign * normal.dot(direction), border = margin * normal.norm();
+    if (depth < -border) return ClearSight::seen;
+    is_inside = is_inside && depth > border;
   }
-  return true;
+  return is_inside && is_before ? ClearSight::hidden : ClearSight::unsure;
 }
 
-bool PointView::is_clearly_hidden(const Vec3& direction) {
-  bool hidden = false;
+ClearSight PointView::clear_sight(const Vec3& direction) {
+  ClearSight sight = ClearSight::seen;
   visit_faces_along(direction, [&](int triangle) {
-    hidden = holds_clearly(triangle, direction);
-    return hidden;
+    if (const ClearSight past = clear_sight_past(triangle, direction); past != ClearSight::seen)
+      sight = past;
+    return sight == ClearSight::hidden;
   });
-  return hidden;
+  return sight;
 }
 
 }  // namespace halfshade

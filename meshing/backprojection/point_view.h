@@ -28,6 +28,9 @@ struct Corner : SeenPoint {
   int next_on_outline = -1;   ///< the corner that follows it on the emitter's outline
 };
 
+/// What comes before the emitter in some direction, in doubles; unsure near borders of faces.
+enum class ClearSight { seen, hidden, unsure };
+
 /// A direction just beside an edge and just after its start.
 struct DirectionBeside {
   int from, to;  ///< corners
@@ -122,9 +125,8 @@ class PointView {
   /// How many faces lie over a direction inside the pyramid, the emitter left out: Appel's
   /// quantitative invisibility (1967).
   int layers_over(const DirectionBeside& direction);
-  /// Whether a direction inside the pyramid is clearly inside a face, in doubles: not where it
-  /// meets the face's border. Only to tell what is worth doing.
-  bool is_clearly_hidden(const Vec3& direction);
+  /// In a direction inside the pyramid, without exact signs.
+  ClearSight clear_sight(const Vec3& direction);
   /// The surfaces that the last call of layers_over found, perhaps repeatedly.
   std::span<const int> layer_surfaces() const { return layer_surfaces_; }
   /// How often triangle abc, as it runs, winds round the direction: ±1 or 0.
@@ -141,7 +143,7 @@ class PointView {
   bool is_edge_on(int surface);
   bool touches(int surface) const;
   int layers_of(int triangle, const DirectionBeside& direction);
-  bool holds_clearly(int triangle, const Vec3& direction);
+  ClearSight clear_sight_past(int triangle, const Vec3& direction);
   template <class Visit>
   void visit_faces_along(const Vec3& direction, const Visit& visit);
   /// The same where it is known how the triangle runs; 0: it is not.

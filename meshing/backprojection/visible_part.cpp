@@ -26,6 +26,17 @@ void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal
                             point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()));
 }
 
+/// Directions that tell penumbra; where they agree, they hardly ever tell more.
+constexpr int tried_directions = 8;
+
+/// The k-th point of a triangle in a sequence of low discrepancy (Roberts 2018).
+Vec3 spread_point(const Vec3& a, const Vec3& b, const Vec3& c, int k) {
+  constexpr double step = 0.7548776662466927, other_step = 0.5698402909980532;
+  double s = std::fmod((k + 0.5) * step, 1.), t = std::fmod((k + 0.5) * other_step, 1.);
+  if (s + t > 1) s = 1 - s, t = 1 - t;
+  return a + s * (b - a) + t * (c - a);
+}
+
 }  // namespace
 
 struct VisiblePartFinder::Impl {
@@ -33,12 +44,26 @@ struct VisiblePartFinder::Impl {
     everything = all_candidates(scene.face_tree());
   }
 
+  /// Of an emitter.
+  const std::vector<int>& triangles_of(int surface) {
+    const OpaqueTopology& topology = scene.topology();
+    if (triangles.empty()) {
+      triangles.resize(topology.surfaces.size());
+      for (std::size_t t = 0; t < topology.triangles.size(); ++t)
+        triangles[at(topology.triangles[t].surface)].push_back(static_cast<int>(t));
+    }
+    return triangles[at(surface)];
+  }
+  bool is_surely_penumbra(const Vec3& point, const Vec3& normal, int surface);
+
   const OpaqueScene& scene;
   PartSearch search;
   VisibleCells cells;
   SightCandidates everything;
   SightShaft shaft;
   CandidateSearch candidate_search;
+  VisiblePart part;                         ///< of which only the region is asked for
+  std::vector<std::vector<int>> triangles;  ///< of surfaces; once they are asked for
 
   bool find(const Vec3& point, const Vec3& normal, int surface, const SightCandidates* candidates,
             bool unless_crowded, VisiblePart& part);
@@ -70,6 +95,29 @@ bool VisiblePartFinder::Impl::find(const Vec3& point, const Vec3& normal, int su
   return true;
 }
 
+/// Some direction shows the emitter and another one does not.
+bool VisiblePartFinder::Impl::is_surely_penumbra(const Vec3& point, const Vec3& normal,
+                                                 int surface) {
+  PointView& view = search.view;
+  check(view.topology(), point, normal, surface);
+  view.start(point, normal, surface);
+  if (!(view.distance() > view.slack()) || !search.outline.make(view, point, normal, surface))
+    return false;
+  const std::vector<int>& emitter = triangles_of(surface);
+  bool is_seen = false, is_hidden = false;
+  for (int k = 0; k < tried_directions && !emitter.empty() && !(is_seen && is_hidden); ++k) {
+    const auto& [a, b, c] = view.topology().triangles[at(emitter[at(k) % emitter.size()])].corner;
+    const auto& vertices = view.topology().vertices;
+    const Vec3 direction =
+        spread_point(vertices[at(a)], vertices[at(b)], vertices[at(c)], k) - point;
+    if (!(normal.dot(direction) > margins::clearly_inside * direction.norm())) continue;
+    const ClearSight sight = view.clear_sight(direction);
+    is_seen = is_seen || sight == ClearSight::seen;
+    is_hidden = is_hidden || sight == ClearSight::hidden;
+  }
+  return is_seen && is_hidden;
+}
+
 VisiblePartFinder::VisiblePartFinder(const OpaqueScene& scene)
     : impl_(std::make_unique<Impl>(scene)) {}
 
@@ -80,6 +128,12 @@ VisiblePartFinder& VisiblePartFinder::operator=(VisiblePartFinder&&) noexcept = 
 void VisiblePartFinder::find(const Vec3& point, const Vec3& normal, int surface,
                              VisiblePart& part) {
   impl_->find(point, normal, surface, nullptr, false, part);
+}
+
+Region VisiblePartFinder::region(const Vec3& point, const Vec3& normal, int surface) {
+  if (impl_->is_surely_penumbra(point, normal, surface)) return Region::penumbra;
+  impl_->find(point, normal, surface, nullptr, false, impl_->part);
+  return impl_->part.region;
 }
 
 bool VisiblePartFinder::find_unless_crowded(const Vec3& point, const Vec3& normal, int surface,

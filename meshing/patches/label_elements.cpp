@@ -31,8 +31,7 @@ class Labeller {
       : scene_(scene), elements_(elements), finder_(opaque) {}
 
   Region look(int element, const LightSource& source) {
-    finder_.find(centre(element), elements_.normal[at(element)], source.surface, part_);
-    return part_.region;
+    return finder_.region(centre(element), elements_.normal[at(element)], source.surface);
   }
 
   /// The same for all elements of a cell; `label` takes the element and its region.
@@ -82,7 +81,6 @@ class Labeller {
   const SoundScene& scene_;
   const ElementTable& elements_;
   VisiblePartFinder finder_;
-  VisiblePart part_;
   std::vector<int> in_front_;
 };
 

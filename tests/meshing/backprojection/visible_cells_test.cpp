@@ -43,6 +43,9 @@ class Views {
   bool find_unless_crowded(const Vec3& point, const Vec3& normal, int emitter) {
     return finder_.find_unless_crowded(point, normal, emitter, part_);
   }
+  Region region(const Vec3& point, const Vec3& normal, int emitter) {
+    return finder_.region(point, normal, emitter);
+  }
   const VisiblePart& part() const { return part_; }
   const SightEffort& effort() const { return finder_.effort(); }
   int emitter() const {
@@ -121,6 +124,35 @@ TEST(VisibleCells, AreNotForWhatIsSeen) {
     EXPECT_GT(views.part().pieces.size(), 900U);
     EXPECT_NEAR(views.in_cells(point, Vec3::UnitZ(), emitter).factor, factor, 1e-14);
   }
+}
+
+// A few directions often tell the region: what they tell must be so, also where many corners, edges
+// and planes are the same.
+TEST(VisiblePart, RegionIsThatOfTheWholePart) {
+  test::Random random(7);
+  const auto blinds = [&] { return Vec3(random(-4, 4), random(-4, 4), 0); };
+  const auto cube = [&] { return random.point(0, 1); };
+  const auto grid = [&] {
+    const auto half = [&] { return 0.5 * random.integer(0, 8); };
+    const double x = half(), y = half(), z = half();
+    return Vec3(x, y, z);
+  };
+  const auto expect_same = [&](const Scene& scene, const auto& place) {
+    Views views(scene);
+    const int emitter = views.emitter();
+    int penumbra = 0;
+    for (int k = 0; k < 2000; ++k) {
+      const Vec3 point = place();
+      const Vec3 normal = k % 2 == 0 ? Vec3(Vec3::UnitZ()) : random.point(-1, 1).normalized();
+      const Region whole = views.whole(point, normal, emitter).region;
+      EXPECT_EQ(views.region(point, normal, emitter), whole) << point.transpose();
+      penumbra += whole == Region::penumbra;
+    }
+    EXPECT_GT(penumbra, 50);
+  };
+  expect_same(test::turned_slats(10), blinds);
+  expect_same(test::unit_soup(20, 3), cube);
+  expect_same(test::grid_soup(20, 4, 5), grid);
 }
 
 // Most slats of the turned layer pass beside the light, and there cross all of the other one.

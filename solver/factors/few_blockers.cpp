@@ -9,7 +9,7 @@ namespace halfshade {
 namespace {
 
 constexpr std::size_t most_shades = 400;
-constexpr std::size_t most_parts = 128;
+constexpr std::size_t most_parts = 1024;
 /// Parts for which it pays to know where a shadow lies before it is cut off.
 constexpr std::size_t worth_a_reach = 8;
 /// What is nearer to a line lies on it: relative to the target.
@@ -127,6 +127,28 @@ void FewBlockers::forget_found() {
   looks_ = 0;
 }
 
+double FewBlockers::points_across(std::span<const Vec3> sides) const {
+  const auto most = [&](auto square) {
+    double most = 0;
+    for (const Vec3& side : sides) most = std::max(most, square(side));
+    return most;
+  };
+  const double longest = most([](const Vec3& side) { return side.squaredNorm(); });
+  double points = longest / (target_ball_.radius * target_ball_.radius);
+  for (const Solid& solid : solids_)
+    points = std::max(points, longest / (solid.shape->width * solid.shape->width));
+  for (const Shade& shade : shades_) {
+    const Blocker& blocker = *shade.blocker;
+    points = std::max(points, most([&](const Vec3& side) {
+                        const double along = side.dot(blocker.along) / blocker.length;
+                        return side.cross(blocker.along).squaredNorm() /
+                                   (blocker.width * blocker.width) +
+                               along * along;
+                      }));
+  }
+  return points;
+}
+
 double FewBlockers::hidden_by(std::size_t thing, const Vec3& point) {
   if (!(target_.frame.height(point) > 0) || parts_.is_nothing()) return 0;
   stand_at(point);
@@ -210,15 +232,28 @@ void FewBlockers::add_hidden(std::span<const Corner> part, HiddenFactor& factor)
   }
 }
 
-/// Where the shadow of some corners' hull lies: everywhere, if that tells little or takes too long.
-FlatParts::Box FewBlockers::reach_of_shadow(std::span<const Vec3> corners) const {
+/// Where the shadow of a convex polygon or body lies: everywhere, if that tells little or takes too
+/// long. Of polygons what is not nearer to the target than the point casts none; corners of bodies
+/// are in no order.
+FlatParts::Box FewBlockers::reach_of_shadow(std::span<const Vec3> corners, bool is_polygon) const {
   if (parts_.count() < worth_a_reach) return FlatParts::everywhere();
   FlatParts::Box reach;
+  const auto is_ahead = [&](const Vec3& to) { return to.z() < -nearness_; };
+  const auto extend = [&](const Vec3& to, double height) {
+    reach.extend(in_frame_.head<2>() - in_frame_.z() / height * to.head<2>());
+  };
+  Vec3 from = turned(target_.frame, corners.back() - point_);
   for (const Vec3& corner : corners) {
     const Vec3 to = turned(target_.frame, corner - point_);
-    if (!(to.z() < -nearness_)) return FlatParts::everywhere();
-    reach.extend(in_frame_.head<2>() - in_frame_.z() / to.z() * to.head<2>());
+    if (!is_polygon && !is_ahead(to)) return FlatParts::everywhere();
+    if (is_polygon && is_ahead(from) != is_ahead(to)) {
+      const double part = (from.z() + nearness_) / (from.z() - to.z());
+      extend(from + part * (to - from), -nearness_);
+    }
+    if (is_ahead(to)) extend(to, to.z());
+    from = to;
   }
+  if (reach.isEmpty()) return FlatParts::everywhere();
   return {reach.min().array() - nearness_, reach.max().array() + nearness_};
 }
 
@@ -261,7 +296,7 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
   const auto can_go_on = [&] { return parts_.count() > 0 && parts_.count() <= most_parts; };
   const auto cut_off = [&](std::size_t thing, std::span<const Vec3> corners) {
     const double before = factor.hidden;
-    parts_.cut_off(shadow_, reach_of_shadow(corners),
+    parts_.cut_off(shadow_, reach_of_shadow(corners, thing >= solids_.size()),
                    [&](std::span<const Corner> part) { add_hidden(part, factor); });
     found_[thing] += factor.hidden - before;
   };

@@ -62,14 +62,10 @@ class FewBlockers {
   FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers);
 
   bool is_applicable() const { return is_applicable_; }
-  /// Width of the narrowest thing in between, or radius of the target: what the hidden part may
-  /// vary over, scene units.
-  double narrowest() const {
-    double narrowest = target_ball_.radius;
-    for (std::size_t thing = 0; thing < things(); ++thing)
-      narrowest = std::min(narrowest, width(thing));
-    return narrowest;
-  }
+  /// How many points of a lattice over a parallelogram or less it takes for none of the things in
+  /// between, nor the target, to lie between them: what is long and narrow passes between points
+  /// only across.
+  double points_across(std::span<const Vec3> sides) const;
   /// Whether all that is in between are closed convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
 
@@ -130,7 +126,7 @@ class FewBlockers {
   bool is_beside(const Ball& ball) const;
   template <class SilhouetteOf>
   bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);
-  FlatParts::Box reach_of_shadow(std::span<const Vec3> corners) const;
+  FlatParts::Box reach_of_shadow(std::span<const Vec3> corners, bool is_polygon) const;
   void add_hidden(std::span<const Corner> part, HiddenFactor& factor) const;
   double sum_over(std::span<const Corner> part) const;
   double sum_over_parts() const;

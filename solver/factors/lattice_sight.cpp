@@ -47,12 +47,11 @@ void add_quads(const Polygon3& polygon, std::vector<Quad>& quads) {
   }
 }
 
-/// The longest side.
-double size_of(std::span<const Quad> quads) {
-  double size = 0;
+std::vector<Vec3> sides_of(std::span<const Quad> quads) {
+  std::vector<Vec3> sides;
   for (const Quad& q : quads)
-    for (std::size_t k = 0; k < 4; ++k) size = std::max(size, (q[(k + 1) % 4] - q[k]).norm());
-  return size;
+    for (std::size_t k = 0; k < 4; ++k) sides.push_back(q[(k + 1) % 4] - q[k]);
+  return sides;
 }
 
 /// A place in a quadrilateral, bilinear in (u, v), and the area of the square's image there.
@@ -86,12 +85,13 @@ class PairOnLattices {
   }
 
   /// Needs a lattice that neither the other surface nor anything in between is too narrow for:
-  /// shadows are wider than what casts them. `size` is that of the largest quadrilateral.
-  void begin(double size) {
-    const double across = size / few_.narrowest();
-    goes_on_ = goes_on_ && across * across <= most() &&
-               static_cast<double>(square_lattices().front().places.size()) <= most();
-    if (goes_on_) fewest_ = static_cast<std::size_t>(across * across);
+  /// shadows are wider than what casts them.
+  void begin(std::span<const Quad> quads) {
+    if (!goes_on_) return;
+    const double across = few_.points_across(sides_of(quads));
+    goes_on_ =
+        across <= most() && static_cast<double>(square_lattices().front().places.size()) <= most();
+    if (goes_on_) fewest_ = static_cast<std::size_t>(across);
   }
 
   bool goes_on() const { return goes_on_; }
@@ -245,7 +245,7 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
     looks.back() = std::make_unique<PairOnLattices>(scene, a, pair);
     PairOnLattices* look = looks.back().get();
     const PartBefore part = part_before(own, scene.surfaces[at(pair.other)]);
-    look->begin(size_of(part.quads));
+    look->begin(part.quads);
     if (part.is_all)
       from_all.push_back(look);
     else

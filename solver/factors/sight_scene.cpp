@@ -78,15 +78,22 @@ VisibilityIndex index_of(TriangleSoup soup) {
 /// What corners may be off a plane, of their largest coordinate.
 constexpr double off_plane = 1e-13;
 
-double width_of(const Polygon3& convex) {
-  double width = HUGE_VAL;
-  for (std::size_t k = 0; k < convex.size(); ++k) {
-    const Vec3 along = (convex[(k + 1) % convex.size()] - convex[k]).normalized();
-    double farthest = 0;
-    for (const Vec3& p : convex) farthest = std::max(farthest, along.cross(p - convex[k]).norm());
-    width = std::min(width, farthest);
+void measure(Blocker& blocker) {
+  const Polygon3& corners = blocker.corners;
+  blocker.width = HUGE_VAL;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vec3 along = (corners[(k + 1) % corners.size()] - corners[k]).normalized();
+    double width = 0, least = 0, most = 0;
+    for (const Vec3& p : corners) {
+      width = std::max(width, along.cross(p - corners[k]).norm());
+      least = std::min(least, along.dot(p - corners[k]));
+      most = std::max(most, along.dot(p - corners[k]));
+    }
+    if (width >= blocker.width) continue;
+    blocker.width = width;
+    blocker.along = along;
+    blocker.length = most - least;
   }
-  return width;
 }
 
 /// A joined surface, or each of its triangles where it is not convex.
@@ -108,7 +115,7 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
       else
         for (const int k : soup.triangles[t]) blocker.corners.push_back(soup.points[at(k)]);
       blocker.ball = ball_round(blocker.corners);
-      blocker.width = width_of(blocker.corners);
+      measure(blocker);
       blocker.area = area_vector(blocker.corners).norm();
       scene.blockers.push_back(std::move(blocker));
       if (is_convex(surface)) known = static_cast<int>(scene.blockers.size()) - 1;

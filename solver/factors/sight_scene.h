@@ -47,7 +47,9 @@ struct Blocker {
   Vec3 normal;          ///< unit length
   double rounding = 0;  ///< of heights above its plane
   Ball ball;            ///< round it
-  double width = 0;     ///< least distance from a side to the farthest corner
+  double width = 0;     ///< least distance from a side to the farthest corner,
+  Vec3 along;           ///< direction of that side, unit length,
+  double length = 0;    ///< and how far it reaches along it
   double area = 0;      ///< squared scene units
   int body = -1;        ///< that it is a side of; −1: none
 };

@@ -101,8 +101,12 @@ class ExactPairs {
   }
 
   bool see_partial() {
-    return try_shared() && see_by_lattices(Side::own) && see_by_lattices(Side::other) &&
-           see_by_cells();
+    if (!try_shared()) return false;
+    for (const Side side : {Side::own, Side::other}) {
+      if (!see_by_lattices(side)) return false;
+      share_out();
+    }
+    return see_by_cells();
   }
 
   void add_to(RowExchange& exchange) const {

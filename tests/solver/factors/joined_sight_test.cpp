@@ -309,7 +309,8 @@ TEST(JoinedSight, LatticesDoNotSayWhatTheyDidNotSee) {
   };
   EXPECT_TRUE(says_something({.5, .7, .6}, {.8, .9, .7}, 300000));
   EXPECT_FALSE(says_something({.5, .7, .6}, {.8, .9, .7}, 15));
-  EXPECT_FALSE(says_something({.5, .7, .6}, {.04, .04, .04}, 300000));
+  EXPECT_FALSE(says_something({.5, .7, .6}, {.03, .03, .03}, 300000));
+  EXPECT_FALSE(says_something({.5, .7, .6}, {.04, .04, .04}, 2000));
   EXPECT_FALSE(says_something({-5, -5, .6}, {12, 12, .7}, 300000));
 }
 

@@ -1,0 +1,84 @@
+#include "solver/factors/error_shares.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// What entries are off by adds up like the root of their number, if there are many; of that,
+/// estimates of lattices are at least this many times as much. Where there are few, they count as
+/// more.
+double parts_of_row(double entries) {
+  constexpr double few = 0.25, many = 0.5, overestimated = 5.5;
+  return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
+}
+
+/// Points go like `need` over the share, about: the sum of them is least where shares go like the
+/// root of it.
+double claim_of(double need) { return std::sqrt(need); }
+
+}  // namespace
+
+ErrorShares::ErrorShares(const FactorScene& scene, const std::vector<std::vector<SightPair>>& pairs,
+                         double tolerance)
+    : scene_(scene), tolerance_(tolerance), of_row_(at(scene.rows())), entries_(at(scene.rows())) {
+  for (std::size_t a = 0; a < pairs.size(); ++a)
+    for (const SightPair& pair : pairs[a]) {
+      if (pair.sight != Sight::partial) continue;
+      const int row = scene.row[a], other = scene.row[at(pair.other)];
+      of_row_[at(row)] += 1;
+      if (other >= 0 && other != row) of_row_[at(other)] += 1;
+      entry(row, other).pairs += 1;
+    }
+}
+
+/// Surroundings and backs are one entry.
+std::array<int, 2> ErrorShares::key(int row, int other) {
+  return other < 0 ? std::array{row, -1} : std::array{std::min(row, other), std::max(row, other)};
+}
+
+const ErrorShares::Entry& ErrorShares::entry(int row, int other) const {
+  return entries_[at(key(row, other)[0])].at(key(row, other)[1]);
+}
+
+double ErrorShares::allowed(int row, int other) const {
+  const double area = scene_.areas[at(row)];
+  return tolerance_ * (other < 0 ? area : std::min(area, scene_.areas[at(other)]));
+}
+
+double ErrorShares::parts_of_rows(int row, int other) const {
+  const double in_row = of_row_[at(row)];
+  return std::max(1., parts_of_row(other < 0 ? in_row : std::max(in_row, of_row_[at(other)])));
+}
+
+double ErrorShares::even_share(int row, int other) const {
+  return allowed(row, other) / std::max(entry(row, other).pairs, parts_of_rows(row, other));
+}
+
+bool ErrorShares::is_shared(int row, int other) const {
+  return entry(row, other).pairs > parts_of_rows(row, other);
+}
+
+void ErrorShares::forget_claims() {
+  for (auto& of_row : entries_)
+    for (auto& [other, entry] : of_row) entry.left = entry.claims = 0;
+}
+
+void ErrorShares::claim(int row, int other, double need) {
+  Entry& own = entry(row, other);
+  own.left += 1;
+  own.claims += claim_of(need);
+}
+
+double ErrorShares::share(int row, int other, double need) const {
+  const double even = even_share(row, other), all = allowed(row, other);
+  if (!is_shared(row, other)) return even;
+  const Entry& own = entry(row, other);
+  const double more = std::max(0., all - own.spent - own.left * even);
+  if (!(own.claims > 0)) return even;
+  return std::clamp(even + more * claim_of(need) / own.claims, even,
+                    std::max(even, all / parts_of_rows(row, other)));
+}
+
+}  // namespace halfshade

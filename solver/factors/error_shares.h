@@ -1,0 +1,57 @@
+#pragma once
+
+#include "solver/factors/factor_scene.h"
+#include "solver/factors/pair_search.h"
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace halfshade {
+
+/// How errors are shared out among partial pairs so that no entry is off by more than the
+/// tolerance, and rows, whose entries are off independently of each other, hardly by more. At first
+/// all pairs of an entry get as much; what those that are done leave goes to the others.
+class ErrorShares {
+ public:
+  /// `scene` must outlive it; `tolerance` is that of form factors.
+  ErrorShares(const FactorScene& scene, const std::vector<std::vector<SightPair>>& pairs,
+              double tolerance);
+
+  /// Mutual area that a pair may be off by, whatever the others are; surroundings and backs are one
+  /// entry.
+  double even_share(int row, int other) const;
+  /// Whether its entry has so many pairs that less to do for some means more for others.
+  bool is_shared(int row, int other) const;
+
+  /// A pair is done, and off by no more than this.
+  void spend(int row, int other, double error) { entry(row, other).spent += error; }
+
+  /// What is left is shared out again: every pair that is not done claims something. `need` is what
+  /// it is off by after few points, times their number.
+  void forget_claims();
+  void claim(int row, int other, double need);
+  /// Of a pair that claimed: no less than its even share.
+  double share(int row, int other, double need) const;
+
+ private:
+  struct Entry {
+    double pairs = 0, spent = 0;
+    double left = 0, claims = 0;  ///< pairs that claimed, and the sum of their claims
+  };
+
+  static std::array<int, 2> key(int row, int other);
+  Entry& entry(int row, int other) { return entries_[at(key(row, other)[0])][key(row, other)[1]]; }
+  const Entry& entry(int row, int other) const;
+  /// Mutual area that an entry may be off by.
+  double allowed(int row, int other) const;
+  /// Which part of that a pair may be at most, for the sake of rows.
+  double parts_of_rows(int row, int other) const;
+
+  const FactorScene& scene_;
+  double tolerance_;
+  std::vector<double> of_row_;  // pairs
+  std::vector<std::map<int, Entry>> entries_;
+};
+
+}  // namespace halfshade

@@ -1,0 +1,96 @@
+#include "solver/factors/error_shares.h"
+
+#include "solver/factors/factor_matrix.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace halfshade {
+namespace {
+
+/// One row of ten surfaces, each of which sees the surroundings past something.
+struct OneRow {
+  static constexpr int count = 10;
+  FactorScene scene;
+  std::vector<std::vector<SightPair>> pairs;
+
+  OneRow() {
+    scene.names = {"all"};
+    scene.areas = {2};
+    scene.row.assign(count, 0);
+    scene.row.push_back(surroundings);
+    for (int k = 0; k < count; ++k) pairs.push_back({{count, Sight::partial, {}}});
+    pairs.emplace_back();
+  }
+};
+
+TEST(ErrorShares, WhatIsLeftGoesToThoseThatNeedIt) {
+  const OneRow row;
+  ErrorShares shares(row.scene, row.pairs, 1e-3);
+  const double all = 2e-3, even = shares.even_share(0, surroundings);
+  EXPECT_DOUBLE_EQ(even, all / OneRow::count);
+  ASSERT_TRUE(shares.is_shared(0, surroundings));
+  double spent = 0;
+  for (int k = 0; k < OneRow::count - 3; ++k, spent += 0.1 * even)
+    shares.spend(0, surroundings, 0.1 * even);
+  const std::array<double, 3> needs = {1, 4, 0.01};
+  for (const double need : needs) shares.claim(0, surroundings, need);
+  double sum = spent, before = 0;
+  for (const double need : {0.01, 1., 4.}) {
+    const double share = shares.share(0, surroundings, need);
+    EXPECT_GT(share, even);
+    EXPECT_GT(share, before);
+    before = share;
+    sum += share;
+  }
+  EXPECT_LE(sum, all * (1 + 1e-12));
+  EXPECT_GT(sum, 0.9 * all);
+}
+
+/// Whoever spent more than was allowed takes nothing from the others.
+TEST(ErrorShares, NoPairGetsLessThanItsEvenShare) {
+  const OneRow row;
+  ErrorShares shares(row.scene, row.pairs, 1e-3);
+  shares.spend(0, surroundings, 1);
+  shares.claim(0, surroundings, 2);
+  EXPECT_DOUBLE_EQ(shares.share(0, surroundings, 2), shares.even_share(0, surroundings));
+}
+
+/// The side of a cylinder round the z axis.
+void add_side(Scene& scene, double radius, int faces, bool inwards) {
+  const auto corner = [&](int k, double z) {
+    const double angle = 2 * std::numbers::pi * k / faces;
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), z);
+  };
+  for (int k = 0; k < faces; ++k) {
+    std::vector<Vec3> face = {corner(k, 0), corner(k + 1, 0), corner(k + 1, 3), corner(k, 3)};
+    if (inwards) std::reverse(face.begin(), face.end());
+    test::add_polygon(scene, face, inwards ? 1 : 0);
+  }
+}
+
+/// Two open cylinders, one in the other, by material: of some hundred pairs of an entry most see
+/// nothing, and leave what they may be off by to those that do. (When all had as much, 4.4 million
+/// points were looked at.)
+TEST(ErrorShares, GroupsOfManyFacesTakeFewPoints) {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  test::add_material(scene, 0.5, 0);
+  add_side(scene, 1, 16, false);
+  add_side(scene, 2, 16, true);
+  FactorOptions options;
+  options.unit = FactorUnit::material;
+  const FactorMatrix matrix = form_factor_matrix(scene, options);
+  EXPECT_LT(matrix.report.points, 1000000u);
+  EXPECT_EQ(matrix.report.rows_not_reached, 0);
+  EXPECT_LT(matrix.report.row_sum_error_max, 2e-5);
+  EXPECT_LT(matrix.error.maxCoeff(), options.tolerance);
+}
+
+}  // namespace
+}  // namespace halfshade

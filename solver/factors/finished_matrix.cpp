@@ -9,7 +9,7 @@ namespace halfshade {
 namespace {
 
 /// Of a sum of a row.
-constexpr double rounding = 1e-13;
+constexpr double sum_rounding = 1e-13;
 
 /// What rows sum to beside one, and what their entries together claim to be off by at most, as
 /// mutual areas.
@@ -18,8 +18,8 @@ struct RowSums {
 
   RowSums(const FactorScene& scene, const RowExchange& exchange) {
     const Eigen::Map<const Eigen::ArrayXd> area(scene.areas.data(), scene.rows());
-    missing =
-        (exchange.mutual.rowwise().sum().array() + exchange.space - area).abs() + rounding * area;
+    missing = (exchange.mutual.rowwise().sum().array() + exchange.space - area).abs() +
+              sum_rounding * area;
     claimed = exchange.mutual_error.rowwise().sum().array() + exchange.space_error;
   }
   /// The most that an entry can be off by, so far as the others are what they claim to be.
@@ -72,7 +72,7 @@ void fill_report(double tolerance, const RowSums& sums, FactorMatrix& result) {
     // Space is found on its own: what a sum of many good entries misses is in one that is not. The
     // others may make it look smaller than it is.
     if (missing > 2 * tolerance ||
-        sums.missing[i] > sums.claimed[i] + 2 * rounding * result.area[i])
+        sums.missing[i] > sums.claimed[i] + 2 * sum_rounding * result.area[i])
       result.error[i] += missing;
     const bool is_off = result.error[i] > tolerance;
     report.rows_not_reached += is_off ? 1 : 0;

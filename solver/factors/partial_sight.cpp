@@ -8,7 +8,7 @@ namespace {
 
 /// Of what a pair may be off by: what the two without anything between them take little for, and
 /// what is hidden, whose estimate is no bound to the letter.
-constexpr double share_of_unhidden = 0.02, share_of_hidden = 0.5;
+constexpr double share_of_whole = 0.02, share_of_hidden = 0.5;
 
 /// At how many points each of the two surfaces is tried before the better one is gone on with.
 constexpr std::size_t points_to_try = 150;
@@ -129,7 +129,7 @@ struct OneSide {
  private:
   OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const FacingTriangles& facing,
           const SightTolerance& asked)
-      : whole(unhidden(scene, a, b, facing, share_of(asked, share_of_unhidden))),
+      : whole(unhidden(scene, a, b, facing, share_of(asked, share_of_whole))),
         hidden(scene, looks, a, b, facing, asked),
         tolerance(share_of(asked, share_of_hidden)) {}
 };

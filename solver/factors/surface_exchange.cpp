@@ -38,7 +38,7 @@ HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place
 }
 
 /// From which of the two surfaces of a pair lattices look.
-enum class Side { own, other };
+enum class LookFrom { own, other };
 
 /// So many surfaces of one plane are looked from at another plane before what was seen is
 /// forgotten: what these look back at is then found once for all of them.
@@ -102,8 +102,8 @@ class ExactPairs {
 
   bool see_partial() {
     if (!try_shared()) return false;
-    for (const Side side : {Side::own, Side::other}) {
-      if (!see_by_lattices(side)) return false;
+    for (const LookFrom from : {LookFrom::own, LookFrom::other}) {
+      if (!see_by_lattices(from)) return false;
       share_out();
     }
     return see_by_cells();
@@ -140,8 +140,8 @@ class ExactPairs {
         hard_.begin(), hard_.end(), [](const HardPair& pair) { return pair.tolerance.is_trial; });
     std::vector<HardPair> untried(are_all, hard_.end());
     hard_.erase(are_all, hard_.end());
-    const bool is_complete = hard_.empty() || (see_by_lattices(Side::own) &&
-                                               see_by_lattices(Side::other) && see_by_cells());
+    const bool is_complete = hard_.empty() || (see_by_lattices(LookFrom::own) &&
+                                               see_by_lattices(LookFrom::other) && see_by_cells());
     for (HardPair& pair : hard_) pair.tolerance.is_trial = false;
     share_out();
     hard_.insert(hard_.end(), untried.begin(), untried.end());
@@ -169,14 +169,14 @@ class ExactPairs {
   }
 
   /// Partial pairs that lattices of points are enough for; those are done then.
-  bool see_by_lattices(Side side) {
+  bool see_by_lattices(LookFrom side) {
     std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
     for (std::size_t h = 0; h < hard_.size(); ++h)
-      from[at(side == Side::own ? hard_[h].own : hard_[h].other)].push_back(h);
+      from[at(side == LookFrom::own ? hard_[h].own : hard_[h].other)].push_back(h);
     const auto see = [&](std::size_t s) {
       std::vector<LatticePair> some;
       for (const std::size_t h : from[s])
-        some.push_back({side == Side::own ? hard_[h].other : hard_[h].own, hard_[h].tolerance,
+        some.push_back({side == LookFrom::own ? hard_[h].other : hard_[h].own, hard_[h].tolerance,
                         pairs_[at(hard_[h].low)][hard_[h].place].blockers});
       const auto seen = lattice_sight(sight_, static_cast<int>(s), some);
       for (std::size_t k = 0; k < seen.size(); ++k)

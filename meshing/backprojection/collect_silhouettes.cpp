@@ -1,9 +1,9 @@
 #include "meshing/backprojection/margins.h"
 #include "meshing/backprojection/shadow_arrangement.h"
+#include "meshing/geometry/stretch_in_box.h"
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 // The first step of the arrangement: which edges are silhouettes seen from the point.
@@ -24,26 +24,6 @@ bool look_one_way(const NormalCone& cone, const Vec3& eye, double slack) {
   const double across = std::sqrt(std::max(0., offset.squaredNorm() - along * along));
   return along * cone.cosine - across * cone.sine >
          cone.thickness * cone.cosine + cone.radius * cone.sine + slack;
-}
-
-/// From where to where a segment lies in a box, as shares of it; nothing if it misses the box
-/// (Liang and Barsky 1984).
-std::optional<std::pair<double, double>> stretch_in_box(const Vec2& from, const Vec2& to,
-                                                        const Vec2& low, const Vec2& high) {
-  double first = 0, last = 1;
-  for (Eigen::Index k = 0; k < 2; ++k) {
-    const double along = to[k] - from[k], up_to_low = low[k] - from[k],
-                 up_to_high = high[k] - from[k];
-    if (along == 0) {
-      if (up_to_low > 0 || up_to_high < 0) return std::nullopt;
-      continue;
-    }
-    const double a = up_to_low / along, b = up_to_high / along;
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
-  }
-  if (first > last) return std::nullopt;
-  return std::pair(first, last);
 }
 
 }  // namespace

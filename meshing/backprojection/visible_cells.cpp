@@ -155,7 +155,6 @@ void VisibleCells::split(const Query& query, const Cell& cell, std::size_t depth
           depth + 1);
 }
 
-/// Also of backs, which have no triangles of their own in the topology.
 const std::vector<std::array<int, 3>>& VisibleCells::triangles_of(int id) {
   const OpaqueTopology& topology = search_.view.topology();
   triangles_.resize(topology.surfaces.size());

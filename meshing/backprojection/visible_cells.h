@@ -21,6 +21,10 @@ class VisibleCells {
   /// Whether the face that hid something last hides the whole outline, which must be made.
   bool is_hidden_as_before();
 
+  /// The vertices of triangles that make up an emitter. Also of backs, which have no triangles of
+  /// their own in the topology.
+  const std::vector<std::array<int, 3>>& triangles_of(int surface);
+
  private:
   /// A triangle of the emitter, counter-clockwise seen from the front.
   struct Cell {
@@ -44,7 +48,6 @@ class VisibleCells {
   void look_at(const Query& query, const Cell& cell, std::size_t depth);
   void arrange(const Query& query, const Cell& cell, std::size_t depth);
   void split(const Query& query, const Cell& cell, std::size_t depth);
-  const std::vector<std::array<int, 3>>& triangles_of(int surface);
 
   PartSearch& search_;
   int last_cover_ = -1;  ///< a triangle

@@ -6,6 +6,7 @@
 #include "meshing/backprojection/sight_shaft.h"
 #include "meshing/backprojection/visible_cells.h"
 #include "meshing/core/error.h"
+#include "meshing/geometry/spread_pairs.h"
 
 #include <fmt/format.h>
 
@@ -27,32 +28,13 @@ void check(const OpaqueTopology& topology, const Vec3& point, const Vec3& normal
 }
 
 /// Directions that tell penumbra; where they agree, they hardly ever tell more.
-constexpr int tried_directions = 8;
-
-/// The k-th point of a triangle in a sequence of low discrepancy (Roberts 2018).
-Vec3 spread_point(const Vec3& a, const Vec3& b, const Vec3& c, int k) {
-  constexpr double step = 0.7548776662466927, other_step = 0.5698402909980532;
-  double s = std::fmod((k + 0.5) * step, 1.), t = std::fmod((k + 0.5) * other_step, 1.);
-  if (s + t > 1) s = 1 - s, t = 1 - t;
-  return a + s * (b - a) + t * (c - a);
-}
+constexpr std::size_t tried_directions = 8;
 
 }  // namespace
 
 struct VisiblePartFinder::Impl {
   explicit Impl(const OpaqueScene& scene) : scene(scene), search(scene), cells(search) {
     everything = all_candidates(scene.face_tree());
-  }
-
-  /// Of an emitter.
-  const std::vector<int>& triangles_of(int surface) {
-    const OpaqueTopology& topology = scene.topology();
-    if (triangles.empty()) {
-      triangles.resize(topology.surfaces.size());
-      for (std::size_t t = 0; t < topology.triangles.size(); ++t)
-        triangles[at(topology.triangles[t].surface)].push_back(static_cast<int>(t));
-    }
-    return triangles[at(surface)];
   }
   bool is_surely_penumbra(const Vec3& point, const Vec3& normal, int surface);
 
@@ -62,8 +44,7 @@ struct VisiblePartFinder::Impl {
   SightCandidates everything;
   SightShaft shaft;
   CandidateSearch candidate_search;
-  VisiblePart part;                         ///< of which only the region is asked for
-  std::vector<std::vector<int>> triangles;  ///< of surfaces; once they are asked for
+  VisiblePart part;  ///< of which only the region is asked for
 
   bool find(const Vec3& point, const Vec3& normal, int surface, const SightCandidates* candidates,
             bool unless_crowded, VisiblePart& part);
@@ -103,13 +84,16 @@ bool VisiblePartFinder::Impl::is_surely_penumbra(const Vec3& point, const Vec3& 
   view.start(point, normal, surface);
   if (!(view.distance() > view.slack()) || !search.outline.make(view, point, normal, surface))
     return false;
-  const std::vector<int>& emitter = triangles_of(surface);
+  const auto& triangles = cells.triangles_of(surface);
+  const std::vector<Vec3>& vertices = view.topology().vertices;
+  SpreadPairs pairs(0);
   bool is_seen = false, is_hidden = false;
-  for (int k = 0; k < tried_directions && !emitter.empty() && !(is_seen && is_hidden); ++k) {
-    const auto& [a, b, c] = view.topology().triangles[at(emitter[at(k) % emitter.size()])].corner;
-    const auto& vertices = view.topology().vertices;
+  for (std::size_t k = 0; k < tried_directions && !triangles.empty() && !(is_seen && is_hidden);
+       ++k) {
+    const auto& [a, b, c] = triangles[k % triangles.size()];
+    const auto [s, t] = pairs.next();
     const Vec3 direction =
-        spread_point(vertices[at(a)], vertices[at(b)], vertices[at(c)], k) - point;
+        point_of({vertices[at(a)], vertices[at(b)], vertices[at(c)]}, s, t) - point;
     if (!(normal.dot(direction) > margins::clearly_inside * direction.norm())) continue;
     const ClearSight sight = view.clear_sight(direction);
     is_seen = is_seen || sight == ClearSight::seen;

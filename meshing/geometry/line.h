@@ -2,6 +2,8 @@
 
 #include "meshing/core/types.h"
 
+#include <algorithm>
+
 namespace halfshade {
 
 /// An infinite straight line.
@@ -22,6 +24,14 @@ struct Span3 {
 inline double distance_to_line(const Vec3& p, const Span3& span) {
   const Vec3 along = span.direction().normalized();
   return (p - span.from - along.dot(p - span.from) * along).norm();
+}
+
+/// Distance of a point from the span itself, which may have no length.
+inline double distance_to_span(const Vec3& p, const Span3& span) {
+  const double square = span.direction().squaredNorm();
+  const double s =
+      square > 0 ? std::clamp(span.direction().dot(p - span.from) / square, 0., 1.) : 0;
+  return (span.at(s) - p).norm();
 }
 
 /// Whether a point is one of a span's ends, to within `slack` (a length).

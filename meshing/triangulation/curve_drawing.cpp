@@ -2,6 +2,7 @@
 
 #include "meshing/arrangement/arrangement.h"
 #include "meshing/arrangement/triangles_inside.h"
+#include "meshing/geometry/stretch_in_box.h"
 #include "meshing/triangulation/margins.h"
 
 #include <algorithm>
@@ -30,22 +31,13 @@ double largest_coordinate(const Box2& box) {
   return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).maxCoeff();
 }
 
-// The part of a segment in a box (Liang and Barsky 1984); ends inside stay as they are.
+// The part of a segment in a box; ends inside stay as they are.
 std::optional<Segment2> clip(const Segment2& segment, const Box2& box) {
+  const auto stretch = stretch_in_box(segment[0], segment[1], box.low, box.high);
+  if (!stretch || !(stretch->first < stretch->second)) return {};
   const Vec2 d = segment[1] - segment[0];
-  double enter = 0, leave = 1;
-  for (int k = 0; k < 2; ++k) {
-    const double to_low = box.low[k] - segment[0][k], to_high = box.high[k] - segment[0][k];
-    if (d[k] == 0) {
-      if (to_low > 0 || to_high < 0) return {};
-      continue;
-    }
-    enter = std::max(enter, std::min(to_low / d[k], to_high / d[k]));
-    leave = std::min(leave, std::max(to_low / d[k], to_high / d[k]));
-  }
-  if (!(enter < leave)) return {};
-  return Segment2{enter > 0 ? Vec2(segment[0] + enter * d) : segment[0],
-                  leave < 1 ? Vec2(segment[0] + leave * d) : segment[1]};
+  return Segment2{stretch->first > 0 ? Vec2(segment[0] + stretch->first * d) : segment[0],
+                  stretch->second < 1 ? Vec2(segment[0] + stretch->second * d) : segment[1]};
 }
 
 void add_rings(CurveDrawing& drawing, std::span<const Ring> rings, double weld) {

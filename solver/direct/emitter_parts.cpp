@@ -1,6 +1,7 @@
 #include "solver/direct/emitter_parts.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "meshing/geometry/spread_pairs.h"
 #include "solver/direct/ray_emitter.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "solver/direct/ray_emitter.h"
 
 #include "meshing/geometry/mix_bits.h"
+#include "meshing/geometry/spread_pairs.h"
 #include "meshing/triangulation/ring_triangles.h"
 
 #include <algorithm>
@@ -19,11 +20,6 @@ constexpr double same_direction = 0x1p-24;
 /// the mean by .067 at most.
 constexpr double far_away = 10, alike_heights = 0.2;
 
-double step(double from, double width) {
-  const double to = from + width;
-  return to < 1 ? to : to - 1;
-}
-
 void find_sphere(const std::vector<Vec3>& corners, RayEmitter& emitter) {
   if (emitter.triangles.empty()) return;
   Vec3 sum = Vec3::Zero();
@@ -39,11 +35,6 @@ void find_sphere(const std::vector<Vec3>& corners, RayEmitter& emitter) {
 }
 
 }  // namespace
-
-Vec3 point_of(const std::array<Vec3, 3>& triangle, double s, double t) {
-  const auto& [a, b, c] = triangle;
-  return a + std::sqrt(s) * (b - a + t * (c - b));
-}
 
 Vec3 RayEmitter::point(double s, double t) const {
   const double along = s * area();
@@ -87,16 +78,6 @@ double far_factor(const SurfacePoint& point, const RayEmitter& emitter) {
       of_box + half_box > (1 + alike_heights) * height || !(height > 0) || !(facing > 0))
     return -1;
   return emitter.area() * height * facing / (std::numbers::pi * square * square);
-}
-
-SpreadPairs::SpreadPairs(std::uint64_t seed)
-    : s_(unit_share(mix_bits(seed))), t_(unit_share(mix_bits(seed + splitmix_step))) {}
-
-std::array<double, 2> SpreadPairs::next() {
-  constexpr double root = 1.32471795724474602596;  // of x³ = x + 1
-  s_ = step(s_, 1 / root);
-  t_ = step(t_, 1 / (root * root));
-  return {s_, t_};
 }
 
 std::uint64_t seed_of(const Vec3& position, const EmitterTarget& target) {

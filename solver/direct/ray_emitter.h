@@ -31,19 +31,6 @@ RayEmitter make_ray_emitter(const SoundScene& scene, int id);
 double far_factor(const SurfacePoint& point, const RayEmitter& emitter);
 inline constexpr double far_error = 0.1;
 
-/// Evenly over a triangle, for s and t in [0, 1].
-Vec3 point_of(const std::array<Vec3, 3>& triangle, double s, double t);
-
-/// Places in a square that fill it evenly, however many are drawn (Roberts 2018).
-class SpreadPairs {
- public:
-  explicit SpreadPairs(std::uint64_t seed);
-  std::array<double, 2> next();
-
- private:
-  double s_, t_;
-};
-
 /// Random bits for rays from a position to an emitter: they follow from the direction of its
 /// centre, in any unit of length.
 std::uint64_t seed_of(const Vec3& position, const EmitterTarget& target);

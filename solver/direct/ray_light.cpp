@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
+#include "meshing/geometry/spread_pairs.h"
 #include "solver/direct/emitter_parts.h"
 #include "solver/direct/ray_looks.h"
 #include "solver/direct/ray_shares.h"

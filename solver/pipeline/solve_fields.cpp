@@ -47,7 +47,7 @@ std::string reason(FieldLimit limit, bool by_rays = false) {
     case FieldLimit::unknowns:
       return "more unknowns than --max-unknowns allows";
     case FieldLimit::work:
-      return by_rays ? "more rays to emitters than --max-unknowns allows, 75 for each"
+      return by_rays ? "more rays to emitters than --max-unknowns allows"
                      : "more looks through faces behind faces than --max-unknowns allows";
     case FieldLimit::rounds:
       return "more rounds of refinement than it pays to make";

@@ -1,5 +1,6 @@
 #include "solver/reflected/near_backs.h"
 
+#include "meshing/geometry/line.h"
 #include "solver/elements/polynomial.h"
 #include "solver/exchange/form_factor.h"
 
@@ -17,13 +18,6 @@ constexpr double least_height = 1e-9;  // of an element's size
 constexpr double share_of_distance = 0.93, least_part = 1e-7;
 /// Where nodes see less than this of what is not hidden, they do not tell how bright that is.
 constexpr double hardly_seen = 1e-3;
-
-double distance_to_edge(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = b - a;
-  const double square = along.squaredNorm();
-  const double share = square > 0 ? std::clamp(along.dot(p - a) / square, 0., 1.) : 0;
-  return (a + share * along - p).norm();
-}
 
 /// ∫ ω and ∫ ω (ω − π) over an element, in the mean.
 class ShadowIntegrals {
@@ -53,7 +47,7 @@ class ShadowIntegrals {
     double least = HUGE_VAL;
     for (const auto& back : backs_)
       for (std::size_t k = 0; k < back.size(); ++k)
-        least = std::min(least, distance_to_edge(p, back[k], back[(k + 1) % back.size()]));
+        least = std::min(least, distance_to_span(p, {back[k], back[(k + 1) % back.size()]}));
     return least;
   }
 

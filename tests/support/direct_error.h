@@ -9,6 +9,13 @@
 
 namespace halfshade::test {
 
+inline SolveOptions directly(double tolerance) {
+  SolveOptions options;
+  options.tolerance = tolerance;
+  options.radiosity.bounces = 0;
+  return options;
+}
+
 /// Relative L2 error of a solution of direct light, at so many random points of each element.
 inline double direct_error(const PreparedScene& prepared, const SolveResult& result,
                            int points = 1) {

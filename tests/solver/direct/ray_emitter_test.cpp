@@ -1,6 +1,7 @@
 #include "solver/direct/ray_emitter.h"
 
 #include "meshing/backprojection/edge_sum.h"
+#include "meshing/geometry/spread_pairs.h"
 #include "tests/support/random_scenes.h"
 #include "tests/support/scene_maker.h"
 

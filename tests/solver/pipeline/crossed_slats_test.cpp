@@ -26,9 +26,7 @@ Scene crossed_slats(int count) {
 
 TEST(CrossedSlats, AreSolvedToTheToleranceWithoutCurvesAndRays) {
   const PreparedScene prepared(crossed_slats(50));
-  SolveOptions options;
-  options.tolerance = 0.02;
-  options.radiosity.bounces = 0;
+  const SolveOptions options = test::directly(0.02);
   EXPECT_EQ(direct_rays(prepared, options).deviation, 0);
   const SolveResult result = solve(prepared, options);
   EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
@@ -37,24 +35,17 @@ TEST(CrossedSlats, AreSolvedToTheToleranceWithoutCurvesAndRays) {
   EXPECT_LE(test::direct_error(prepared, result), 0.02);
 }
 
-SolveOptions directly(double tolerance) {
-  SolveOptions options;
-  options.tolerance = tolerance;
-  options.radiosity.bounces = 0;
-  return options;
-}
-
 // Rays take about as long as exact looks there, and polynomials that are fitted to noise need many
 // more of them.
 TEST(TurnedSlats, AreLookedAtExactly) {
   const PreparedScene prepared(test::turned_slats(50));
-  EXPECT_EQ(direct_rays(prepared, directly(0.01)).deviation, 0);
-  EXPECT_EQ(direct_rays(prepared, directly(0.03)).deviation, 0);
+  EXPECT_EQ(direct_rays(prepared, test::directly(0.01)).deviation, 0);
+  EXPECT_EQ(direct_rays(prepared, test::directly(0.03)).deviation, 0);
 }
 
 TEST(TurnedSlats, AreSolvedToTheTolerance) {
   const PreparedScene prepared(test::turned_slats(50));
-  const SolveResult result = solve(prepared, directly(0.025));
+  const SolveResult result = solve(prepared, test::directly(0.025));
   EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
   EXPECT_LE(result.relative_error, 0.025);
   EXPECT_LE(test::direct_error(prepared, result), 0.025);

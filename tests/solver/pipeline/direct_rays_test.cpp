@@ -22,29 +22,23 @@ Scene room_with_lights() {
   return maker.scene;
 }
 
-SolveOptions loosely(double tolerance) {
-  SolveOptions options;
-  options.tolerance = tolerance;
-  options.radiosity.bounces = 0;
-  return options;
-}
-
 TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
   const PreparedScene crowded(room_with_lights());
-  EXPECT_GT(direct_rays(crowded, loosely(0.05)).deviation, 0);
-  EXPECT_EQ(direct_rays(crowded, loosely(0.002)).deviation, 0);
-  SolveOptions exact = loosely(0.05);
+  EXPECT_GT(direct_rays(crowded, test::directly(0.05)).deviation, 0);
+  EXPECT_EQ(direct_rays(crowded, test::directly(0.002)).deviation, 0);
+  SolveOptions exact = test::directly(0.05);
   exact.visibility = ReflectedVisibility::exact;
   EXPECT_EQ(direct_rays(crowded, exact).deviation, 0);
-  SolveOptions forced = loosely(0.05);
+  SolveOptions forced = test::directly(0.05);
   forced.force.exact_direct_light = true;
   EXPECT_EQ(direct_rays(crowded, forced).deviation, 0);
-  EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(50)), loosely(0.05)).deviation, 0);
+  EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(50)), test::directly(0.05)).deviation,
+            0);
 }
 
 TEST(DirectRays, SolveToTheToleranceAsked) {
   const PreparedScene prepared(room_with_lights());
-  const SolveResult result = solve(prepared, loosely(0.05));
+  const SolveResult result = solve(prepared, test::directly(0.05));
   ASSERT_TRUE(result.refinement.is_noisy);
   EXPECT_TRUE(result.not_reached.empty()) << result.not_reached;
   EXPECT_LE(result.relative_error, 0.05);
@@ -58,7 +52,7 @@ TEST(DirectRays, GiveTheSameOnAnyNumberOfThreads) {
   const PreparedScene prepared(room_with_lights());
   const auto solve_on = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return solve(prepared, loosely(0.1)).irradiance.coefficients;
+    return solve(prepared, test::directly(0.1)).irradiance.coefficients;
   };
   const ChannelArray one = solve_on(1), two = solve_on(2);
   ASSERT_EQ(one.rows(), two.rows());

@@ -25,10 +25,7 @@ Scene floor_and_lamp(double height, double width) {
 }
 
 SolveResult direct_light(const Scene& scene, double tolerance) {
-  SolveOptions options;
-  options.radiosity.bounces = 0;
-  options.tolerance = tolerance;
-  return solve(scene, options);
+  return solve(scene, test::directly(tolerance));
 }
 
 TEST(NarrowShadows, APlateThrowsOneHoweverLargeAndFarTheSunIs) {

@@ -134,7 +134,9 @@ struct EmbreeScene::Handles {
 };
 
 EmbreeScene::EmbreeScene(const TriangleSoup& soup, std::span<const int> triangles)
-    : space_(make_ray_space(soup, triangles)), handles_(std::make_unique<Handles>()) {
+    : space_(make_ray_space(soup, triangles)),
+      box_(space_.box()),
+      handles_(std::make_unique<Handles>()) {
   triangles_.reserve(triangles.size());
   for (const int t : triangles) triangles_.emplace_back(soup, t);
   auto& [device, scene] = *handles_;

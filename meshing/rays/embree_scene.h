@@ -23,6 +23,9 @@ class EmbreeScene {
   EmbreeScene(EmbreeScene&&) noexcept;
   ~EmbreeScene();
 
+  /// Whether what lies in a box may meet one of the triangles.
+  bool may_meet(const Bounds& box) const { return box_.meets(box); }
+
   bool blocked(const Segment& segment) const;
 
   /// Of up to packet_size segments: `result[k]` becomes 1 where one is blocked.
@@ -40,6 +43,7 @@ class EmbreeScene {
 
   std::vector<SoupTriangle> triangles_;
   RaySpace space_;
+  Bounds box_;
   std::unique_ptr<Handles> handles_;
 };
 

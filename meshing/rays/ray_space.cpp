@@ -1,7 +1,5 @@
 #include "meshing/rays/ray_space.h"
 
-#include "meshing/geometry/flat_tree.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -16,19 +14,19 @@ constexpr double relative_enlargement = 0x1p-18;
 constexpr double lengthening = 0x1p-12;
 
 constexpr double largest_coordinate = 0.75;  // clear of the cube
+constexpr double half_of_cube = 1 + 2 * lengthening;
 
 /// Cuts a ray to the cube that holds all triangles, so that far end points cost no precision.
 /// False if nothing is left.
 bool clip_to_cube(Ray& ray) {
-  const double half = 1 + 2 * lengthening;
   double enter = 0, leave = ray.length;
   for (int axis = 0; axis < 3; ++axis) {
     const double o = ray.origin[axis], d = ray.direction[axis];
     if (d == 0) {
-      if (std::abs(o) > half) return false;
+      if (std::abs(o) > half_of_cube) return false;
       continue;
     }
-    const double t0 = (-half - o) / d, t1 = (half - o) / d;
+    const double t0 = (-half_of_cube - o) / d, t1 = (half_of_cube - o) / d;
     enter = std::max(enter, std::min(t0, t1));
     leave = std::min(leave, std::max(t0, t1));
   }
@@ -39,6 +37,8 @@ bool clip_to_cube(Ray& ray) {
 }
 
 }  // namespace
+
+Bounds RaySpace::box() const { return Bounds{centre, centre}.grown(half_of_cube / scale); }
 
 std::optional<Ray> RaySpace::ray(const Vec3& from, const Vec3& to) const {
   const Vec3 start = (from - centre) * scale, end = (to - centre) * scale;

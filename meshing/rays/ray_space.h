@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/geometry/flat_tree.h"
 #include "meshing/rays/occluders.h"
 
 #include <optional>
@@ -21,6 +22,9 @@ struct RaySpace {
   Vec3 centre = Vec3::Zero();
   double scale = 1;        ///< (p − centre)·scale lies in [−1, 1]
   double enlargement = 0;  ///< of triangles, in scene units
+
+  /// Holds all triangles, with room for rays that are off by rounding; in scene units.
+  Bounds box() const;
 
   /// A segment, a little lengthened and without what lies far from all triangles. Nothing if it has
   /// no length, or nothing is left of it.

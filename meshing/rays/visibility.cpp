@@ -2,7 +2,6 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
-#include "meshing/geometry/flat_tree.h"
 #include "meshing/rays/embree_scene.h"
 #include "meshing/rays/scale_clusters.h"
 #include "meshing/rays/shaft_index.h"
@@ -58,6 +57,18 @@ struct VisibilityIndex::Impl {
     for (const std::vector<int>& cluster : scale_clusters(soup)) scenes.emplace_back(soup, cluster);
   }
 
+  /// Of segments of one packet: most of them go past small clusters.
+  void look_along(std::span<const Segment> segments, std::span<std::uint8_t> result) const {
+    if (scenes.size() == 1) return scenes[0].blocked(segments, result);
+    Bounds box;
+    for (const Segment& segment : segments) {
+      box.include(segment.from);
+      box.include(segment.to);
+    }
+    for (const EmbreeScene& scene : scenes)
+      if (scene.may_meet(box)) scene.blocked(segments, result);
+  }
+
   /// Where a ray that meets a triangle does so.
   Hit hit(const SoupTriangle& triangle, const HalfLine& ray) const {
     Hit hit;
@@ -91,8 +102,7 @@ void VisibilityIndex::blocked(std::span<const Segment> segments,
   const auto run = [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; i += packet_size) {
       const std::size_t count = std::min(packet_size, end - i);
-      for (const EmbreeScene& scene : impl_->scenes)
-        scene.blocked(segments.subspan(i, count), result.subspan(i, count));
+      impl_->look_along(segments.subspan(i, count), result.subspan(i, count));
     }
   };
   if (segments.size() <= serial_limit) return run(0, segments.size());

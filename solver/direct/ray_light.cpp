@@ -38,12 +38,6 @@ struct Draw {
   bool has_ray;  ///< which is to tell if that arrives
 };
 
-/// Rays to a part of an emitter, or to all of it, for one estimate.
-struct RayGroup {
-  double factor;    ///< form factor if nothing is in between
-  std::size_t end;  ///< of its segments
-};
-
 /// Buffers of one task.
 struct RayWork {
   double deviation = 0;  ///< allowed of what arrives, in W/m²
@@ -56,10 +50,7 @@ struct RayWork {
   std::vector<EmitterPart> parts;
   std::vector<Segment> segments;
   std::vector<double> weights;
-  std::vector<RayGroup> groups;
-  std::vector<std::array<double, 2>> pairs;  ///< that rays to a near emitter are drawn with
-  std::vector<LightPoint> near_ends;         ///< of those rays
-  std::vector<std::size_t> ends;             ///< of the groups of both estimates of each look
+  std::vector<std::size_t> ends;  ///< of the segments of both estimates of each look
   std::vector<std::uint8_t> blocked;
 };
 
@@ -92,68 +83,41 @@ struct RayLight::Impl {
         work.looks[k].factor = exact_factor(point, *work.looks[k].emitter);
   }
 
-  /// Emitters over which light varies much are looked at part by part, unless they are weak; those
-  /// too near for that by rays that are as likely as the light along them.
+  /// Rays to emitters over which light varies much are as likely as the light along them, unless
+  /// those are weak.
   static void cut_uneven(const SurfacePoint& point, RayLook& look, RayShare& share, RayWork& work) {
-    const EmitterTarget& target = look.emitter->target;
-    if (is_even(point, target, look.emitter->area(), look.factor)) return;
+    if (is_even(point, look.emitter->target, look.emitter->area(), look.factor)) return;
     if (share.strength < negligible) {
       share.way = RayWay::drawn;
       return;
     }
     look.first_part = work.parts.size();
-    look.is_near = !cut_evenly(point, target, look.emitter->triangles,
-                               negligible * work.deviation / target.strength, work.parts);
+    add_parts(point, look.emitter->triangles, work.parts);
     look.end_part = work.parts.size();
   }
 
-  /// Adds the rays of one estimate of a look.
-  void add_rays(const FieldPoint& place, const RayLook& look, int of_look, std::uint64_t seed,
+  /// Adds the rays of one estimate of a look, without those below the point's horizon.
+  void add_rays(const FieldPoint& place, const RayLook& look, int count, std::uint64_t seed,
                 RayWork& work) const {
-    if (of_look > 0 && look.is_near)
-      add_near_group(place, look, of_look, seed, work);
-    else if (of_look > 0 && look.first_part == look.end_part)
-      add_group(place, *look.emitter, nullptr, look.factor, of_look, seed, work);
-    for (std::size_t p = look.first_part; of_look > 0 && p < look.end_part; ++p) {
-      const EmitterPart& part = work.parts[p];
-      const int rays = static_cast<int>(std::ceil(of_look * part.factor / look.factor));
-      seed = mix_bits(seed + splitmix_step);
-      add_group(place, *look.emitter, &part.triangle, part.factor, rays, seed, work);
-    }
-    work.ends.push_back(work.groups.size());
-  }
-
-  /// Without those below the point's horizon. `triangle`: all of the emitter if null.
-  void add_group(const FieldPoint& place, const RayEmitter& emitter,
-                 const std::array<Vec3, 3>* triangle, double factor, int rays, std::uint64_t seed,
-                 RayWork& work) const {
-    const SurfacePoint& point = place.point;
-    SpreadPairs pairs(seed);
-    for (int k = 0; k < rays; ++k) {
-      const auto [s, t] = pairs.next();
-      const Vec3 end = triangle ? point_of(*triangle, s, t) : emitter.point(s, t);
-      const double weight = light_along(point, emitter.target, end - point.position);
-      if (weight > 0) add_ray(place, emitter, end, weight, work);
-    }
-    work.groups.push_back({factor, work.segments.size()});
-  }
-
-  /// About as likely as the light along them.
-  void add_near_group(const FieldPoint& place, const RayLook& look, int rays, std::uint64_t seed,
-                      RayWork& work) const {
     const RayEmitter& emitter = *look.emitter;
-    draw_near_ends(place.point, emitter, rays, SpreadPairs(seed), work);
-    for (const LightPoint& end : work.near_ends)
-      if (end.weight > 0) add_ray(place, emitter, end.position, end.weight, work);
-    work.groups.push_back({look.factor, work.segments.size()});
-  }
-
-  static void draw_near_ends(const SurfacePoint& point, const RayEmitter& emitter, int rays,
-                             SpreadPairs pairs, RayWork& work) {
-    work.pairs.clear();
-    for (int k = 0; k < rays; ++k) work.pairs.push_back(pairs.next());
-    work.near_ends.clear();
-    add_points_by_light(point, emitter.target, emitter.triangles, work.pairs, work.near_ends);
+    SpreadPairs pairs(seed);
+    if (look.first_part < look.end_part) {
+      const LightDraw light(
+          std::span(work.parts).subspan(look.first_part, look.end_part - look.first_part));
+      for (int k = 0; k < count; ++k) {
+        const auto [s, t] = pairs.next();
+        const LightPoint end = light.point(s, t);
+        add_ray(place, emitter, place.point.position + end.way, end.weight, work);
+      }
+    } else {
+      for (int k = 0; k < count; ++k) {
+        const auto [s, t] = pairs.next();
+        const Vec3 end = emitter.point(s, t);
+        const double weight = light_along(place.point, emitter.target, end - place.point.position);
+        if (weight > 0) add_ray(place, emitter, end, weight, work);
+      }
+    }
+    work.ends.push_back(work.segments.size());
   }
 
   void add_ray(const FieldPoint& place, const RayEmitter& emitter, const Vec3& end, double weight,
@@ -211,8 +175,11 @@ struct RayLight::Impl {
       reached[k] = sum += light_along(point, emitter.target, ends[k] - point.position);
     }
     if (!(sum > 0)) {
-      draw_near_ends(point, emitter, 1, pairs, work);
-      return work.near_ends.empty() ? std::nullopt : std::optional(work.near_ends.front().position);
+      const std::size_t first = work.parts.size();
+      add_parts(point, emitter.triangles, work.parts);
+      if (work.parts.size() == first) return std::nullopt;
+      const auto [s, t] = pairs.next();
+      return point.position + LightDraw(std::span(work.parts).subspan(first)).point(s, t).way;
     }
     const auto first = std::upper_bound(reached.begin(), reached.end() - 1, choice * sum);
     return ends[static_cast<std::size_t>(first - reached.begin())];
@@ -257,7 +224,6 @@ struct RayLight::Impl {
     share(place.point, slack, work);
     work.segments.clear();
     work.weights.clear();
-    work.groups.clear();
     work.ends.clear();
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
       const RayLook& look = work.looks[k];
@@ -270,12 +236,12 @@ struct RayLight::Impl {
     work.blocked.resize(work.segments.size());
     visibility->blocked(work.segments, work.blocked);
     NoisyValue irradiance;
-    std::size_t ray = 0, group = 0, end = 0;
+    std::size_t ray = 0, end = 0;
     for (std::size_t k = 0; k < work.looks.size(); ++k) {
       if (work.shares[k].way == RayWay::drawn) continue;
       const RayLook& look = work.looks[k];
-      const double first = share_of_groups(work, ray, group, work.ends[end++]);
-      const double second = share_of_groups(work, ray, group, work.ends[end++]);
+      const double first = share_that_arrives(work, ray, work.ends[end++]);
+      const double second = share_that_arrives(work, ray, work.ends[end++]);
       const Rgb& exitance = look.emitter->target.exitance;
       if (first >= 0 && second >= 0) {
         irradiance.a += look.factor * first * exitance;
@@ -290,21 +256,14 @@ struct RayLight::Impl {
     return irradiance;
   }
 
-  /// What share of the light of the groups up to one arrives; −1 if no ray tells.
-  static double share_of_groups(const RayWork& work, std::size_t& ray, std::size_t& group,
-                                std::size_t end) {
-    double told = 0, arrives = 0;
-    for (; group < end; ++group) {
-      double all = 0, free = 0;
-      for (; ray < work.groups[group].end; ++ray) {
-        all += work.weights[ray];
-        if (work.blocked[ray] == 0) free += work.weights[ray];
-      }
-      if (!(all > 0)) continue;
-      told += work.groups[group].factor;
-      arrives += work.groups[group].factor * free / all;
+  /// Of the light along rays up to one; −1 if there are none.
+  static double share_that_arrives(const RayWork& work, std::size_t& ray, std::size_t end) {
+    double all = 0, free = 0;
+    for (; ray < end; ++ray) {
+      all += work.weights[ray];
+      if (work.blocked[ray] == 0) free += work.weights[ray];
     }
-    return told > 0 ? arrives / told : -1;
+    return all > 0 ? free / all : -1;
   }
 };
 

@@ -15,7 +15,6 @@ struct RayLook {
   double strength = 0;                  ///< light that gives, in W/m²; of groups, the most
   bool is_rough = false;                ///< that is known but for far_error
   std::size_t first_part = 0, end_part = 0;  ///< of a list of parts; none: light from it is even
-  bool is_near = false;  ///< so close that its rays are drawn by the light along them instead
 };
 
 /// Form factor if nothing is in between, exact.

@@ -104,6 +104,11 @@ class BodyFinder {
       }
     }
     body.ball = ball_round(body.vertices);
+    body.low = body.high = body.vertices.front();
+    for (const Vec3& p : body.vertices) {
+      body.low = body.low.cwiseMin(p);
+      body.high = body.high.cwiseMax(p);
+    }
     body.width = HUGE_VAL;
     for (const ConvexBody::Side& side : body.sides) {
       double deepest = 0;
@@ -163,12 +168,16 @@ Ball ball_round(std::span<const Vec3> points) {
   return ball;
 }
 
-void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette) {
-  silhouette.is_front.clear();
+void find_fronts(const ConvexBody& body, const Vec3& point, std::vector<char>& is_front) {
+  is_front.clear();
   for (const ConvexBody::Side& side : body.sides) {
     const Vec3 towards = point - side.corner;
-    silhouette.is_front.push_back(side.normal.dot(towards) > edge_on_side * towards.lpNorm<1>());
+    is_front.push_back(side.normal.dot(towards) > edge_on_side * towards.lpNorm<1>());
   }
+}
+
+void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette) {
+  find_fronts(body, point, silhouette.is_front);
   silhouette.edges.clear();
   for (std::size_t k = 0; k < body.edges.size(); ++k) {
     const auto& [ends, sides] = body.edges[k];

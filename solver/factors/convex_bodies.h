@@ -31,6 +31,7 @@ struct ConvexBody {
   std::vector<Side> sides;
   std::vector<Edge> edges;
   Ball ball;         ///< round it
+  Vec3 low, high;    ///< the box round it
   double width = 0;  ///< least distance from a side to the farthest vertex, scene units
 };
 
@@ -49,6 +50,9 @@ struct Silhouette {
   std::vector<Edge> edges;
   std::vector<char> is_front;  ///< each side
 };
+
+/// Which sides a point sees; in `is_front`, whose memory is used again.
+void find_fronts(const ConvexBody& body, const Vec3& point, std::vector<char>& is_front);
 
 /// As seen from a point; in `silhouette`, whose memory is used again.
 void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette);

@@ -34,7 +34,7 @@ Vec3 turned(const PlaneFrame& frame, const Vec3& direction) {
 }  // namespace
 
 FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers)
-    : target_(scene.surfaces[at(b)]) {
+    : target_(scene.surfaces[at(b)]), target_id_(b) {
   const SightSurface& own = scene.surfaces[at(a)];
   if (own.pieces.size() * target_.pieces.size() > 4) return;
   normal_ = turned(target_.frame, own.frame.normal);
@@ -222,7 +222,6 @@ double FewBlockers::sum_over(std::span<const Corner> part) const {
 
 void FewBlockers::add_hidden(std::span<const Corner> part, HiddenFactor& factor) const {
   factor.hidden += sum_over(part);
-  if (!needs_signature_) return;
   std::uint32_t before = part[part.size() - 2].border, from = part.back().border;
   for (const Corner& to : part) {
     factor.signature +=
@@ -291,8 +290,7 @@ bool FewBlockers::is_beside(const Ball& ball) const {
 }
 
 /// Leaves the parts that are seen. False if there are too many.
-template <class SilhouetteOf>
-bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) {
+bool FewBlockers::cut_off_all(HiddenFactor& factor) {
   const auto can_go_on = [&] { return parts_.count() > 0 && parts_.count() <= most_parts; };
   const auto cut_off = [&](std::size_t thing, std::span<const Vec3> corners) {
     const double before = factor.hidden;
@@ -306,7 +304,8 @@ bool FewBlockers::cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor) 
     border += borders_of_shade;
     if (is_beside(solid.shape->ball)) continue;
     shadow_.clear();
-    if (make_shadow(silhouette_of(solid), border)) cut_off(k, solid.shape->vertices);
+    find_silhouette(*solid.shape, point_, silhouette_);
+    if (make_shadow(silhouette_, border)) cut_off(k, solid.shape->vertices);
   }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
@@ -334,12 +333,7 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
     factor.unobstructed = 0;
     return true;
   }
-  const auto silhouette_of = [&](const Solid& solid) -> const Silhouette& {
-    find_silhouette(*solid.shape, point, silhouette_);
-    return silhouette_;
-  };
-  needs_signature_ = true;
-  if (!cut_off_all(silhouette_of, factor)) return false;
+  if (!cut_off_all(factor)) return false;
   if (factor.is_dark) {
     factor.signature = dark_signature;
     factor.hidden = factor.unobstructed;
@@ -350,18 +344,13 @@ bool FewBlockers::factor(const Vec3& point, HiddenFactor& factor) {
   return true;
 }
 
-bool FewBlockers::hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor) {
-  factor = {};
-  if (!(target_.frame.height(silhouettes.point()) > 0) || parts_.is_nothing()) return true;
-  look_from(silhouettes.point());
-  parts_.take_all();
-  needs_signature_ = false;
-  if (!cut_off_all(
-          [&](const Solid& solid) -> const Silhouette& { return silhouettes.of(solid.body); },
-          factor))
-    return false;
-  factor.hidden = std::max(factor.hidden, 0.);
-  return true;
+ShadedTarget FewBlockers::shaded_target(SharedShadows& shadows, TargetMemory& memory) const {
+  ShadedTarget target(shadows.on_plane_of(target_id_), memory, normal_, nearness_);
+  if (!is_applicable_) return target;
+  for (std::size_t k = 0; k < parts_.count_of_all(); ++k) target.add_part(parts_.part_of_all(k));
+  for (const Solid& solid : solids_) target.add_body(solid.body);
+  for (const Shade& shade : shades_) target.add_polygon(*shade.blocker);
+  return target;
 }
 
 double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {

@@ -3,6 +3,7 @@
 #include "solver/direct/direct_light.h"
 #include "solver/factors/flat_parts.h"
 #include "solver/factors/flat_sum.h"
+#include "solver/factors/shaded_target.h"
 #include "solver/factors/sight_scene.h"
 
 #include <algorithm>
@@ -11,44 +12,6 @@
 #include <vector>
 
 namespace halfshade {
-
-/// What is hidden of a surface from a point.
-struct HiddenFactor {
-  double unobstructed = 0;      ///< form factor to the whole surface above the horizon
-  double hidden = 0;            ///< the part of it that is hidden: `unobstructed` if all is
-  bool is_dark = true;          ///< nothing is seen
-  std::uint64_t signature = 0;  ///< of the edges that bound what is hidden
-
-  double visible() const { return is_dark ? 0 : unobstructed - hidden; }
-};
-
-/// Silhouettes of bodies from one point, each found when it is asked for.
-class Silhouettes {
- public:
-  /// `scene` must outlive it.
-  explicit Silhouettes(const SightScene& scene)
-      : scene_(scene), known_(scene.bodies.size()), stand_(scene.bodies.size(), 0) {}
-
-  void move_to(const Vec3& point) {
-    point_ = point;
-    ++now_;
-  }
-  const Vec3& point() const { return point_; }
-  const Silhouette& of(int body) {
-    if (stand_[at(body)] != now_) {
-      find_silhouette(scene_.bodies[at(body)], point_, known_[at(body)]);
-      stand_[at(body)] = now_;
-    }
-    return known_[at(body)];
-  }
-
- private:
-  const SightScene& scene_;
-  std::vector<Silhouette> known_;
-  std::vector<std::uint64_t> stand_;  ///< where each was found, as a number; 0: nowhere
-  std::uint64_t now_ = 0;
-  Vec3 point_ = Vec3::Zero();
-};
 
 /// Form factors from points of one surface to what is hidden of another, where only few convex
 /// polygons come between: shadows are cut off the target one after the other, in the target's
@@ -91,8 +54,8 @@ class FewBlockers {
   /// From a point of `a`. False if shadows cut the target into too many parts.
   bool factor(const Vec3& point, HiddenFactor& factor);
 
-  /// Only `hidden` and `is_dark` of it, with silhouettes that others use, too: quicker.
-  bool hidden_factor(Silhouettes& silhouettes, HiddenFactor& factor);
+  /// The same for points from which others look, too: quicker. Both must outlive the result.
+  ShadedTarget shaded_target(SharedShadows& shadows, TargetMemory& memory) const;
 
   /// At most what some point of a triangle of `a` sees of the target, as a form factor: 0 only if
   /// surely nothing. What a convex thing hides from all corners it hides from all between them.
@@ -124,14 +87,14 @@ class FewBlockers {
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
   bool is_beside(const Ball& ball) const;
-  template <class SilhouetteOf>
-  bool cut_off_all(SilhouetteOf silhouette_of, HiddenFactor& factor);
+  bool cut_off_all(HiddenFactor& factor);
   FlatParts::Box reach_of_shadow(std::span<const Vec3> corners, bool is_polygon) const;
   void add_hidden(std::span<const Corner> part, HiddenFactor& factor) const;
   double sum_over(std::span<const Corner> part) const;
   double sum_over_parts() const;
 
   const SightSurface& target_;
+  int target_id_;
   bool is_applicable_ = false;
   double nearness_ = 0;
   Vec3 normal_;      ///< of the surface that looks, in the target's frame
@@ -146,7 +109,6 @@ class FewBlockers {
   Vec3 in_frame_;    ///< and in the frame
   Vec3 towards_;     ///< the target's ball, unit length; with the angle that it is seen at:
   double tangent_ = 0, secant_ = 0;
-  bool needs_signature_ = true;
   Silhouette silhouette_;
   std::vector<FlatParts::HalfPlane> shadow_;  ///< of one thing in between
   std::vector<double> found_;                 ///< by thing, the sum over `looks_` points

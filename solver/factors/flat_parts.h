@@ -38,6 +38,10 @@ class FlatParts {
   /// A convex part of the surface, counter-clockwise; its borders count from 0.
   void add(std::span<const Vec2> corners);
   std::span<const Corner> corners_of_all() const { return all_corners_; }
+  std::size_t count_of_all() const { return all_parts_.size(); }
+  std::span<const Corner> part_of_all(std::size_t k) const {
+    return {all_corners_.data() + all_parts_[k].first, all_parts_[k].last - all_parts_[k].first};
+  }
   bool is_nothing() const { return all_parts_.empty(); }
 
   /// As if nothing had been cut off.

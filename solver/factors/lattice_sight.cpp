@@ -70,29 +70,14 @@ Place place_in(const Quad& q, const Vec2& at) {
 /// A pair on its way from lattice to lattice.
 class PairOnLattices {
  public:
-  PairOnLattices(const SightScene& scene, int a, const LatticePair& pair)
-      : few_(scene, a, pair.other, {pair.blockers.begin(), pair.blockers.end()}),
-        hidden_allowed_(pair.tolerance),
-        goes_on_(few_.is_applicable()) {
-    sight_.is_reached = false;
-    if (!goes_on_) return;
-    SightTolerance unhidden = pair.tolerance;
-    unhidden.relative *= share_of_unhidden;
-    unhidden.absolute *= share_of_unhidden;
-    hidden_allowed_.relative -= unhidden.relative;
-    hidden_allowed_.absolute -= unhidden.absolute;
-    whole_ = clear_sight(scene, a, pair.other, unhidden);
-  }
-
-  /// Needs a lattice that neither the other surface nor anything in between is too narrow for:
-  /// shadows are wider than what casts them.
-  void begin(std::span<const Quad> quads) {
-    if (!goes_on_) return;
-    const double across = few_.points_across(sides_of(quads));
-    goes_on_ =
-        across <= most() && static_cast<double>(square_lattices().front().places.size()) <= most();
-    if (goes_on_) fewest_ = static_cast<std::size_t>(across);
-  }
+  /// `quads` are what it looks from: goes on if there is a lattice that neither the other surface
+  /// nor anything in between is too narrow for. Shadows are wider than what casts them.
+  PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
+                 std::span<const Quad> quads, SharedShadows& shadows, TargetMemory& memory)
+      : PairOnLattices(
+            scene, a, pair, quads,
+            FewBlockers(scene, a, pair.other, {pair.blockers.begin(), pair.blockers.end()}),
+            shadows, memory) {}
 
   bool goes_on() const { return goes_on_; }
   const MutualSight& sight() const { return sight_; }
@@ -100,9 +85,9 @@ class PairOnLattices {
   bool tells() const { return tells_; }
 
   /// The next place on a quadrilateral; corners apart.
-  void look(Silhouettes& silhouettes, double weight, std::size_t quad, bool is_corner) {
+  void look(double weight, std::size_t quad, bool is_corner) {
     HiddenFactor factor;
-    goes_on_ = few_.hidden_factor(silhouettes, factor) && goes_on_;
+    goes_on_ = target_.hidden_factor(factor) && goes_on_;
     if (factor.hidden > 0) ++not_lit_;
     if (!factor.is_dark) ++not_dark_;
     if (quad == values_.size()) values_.emplace_back();
@@ -134,6 +119,25 @@ class PairOnLattices {
   }
 
  private:
+  PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
+                 std::span<const Quad> quads, const FewBlockers& few, SharedShadows& shadows,
+                 TargetMemory& memory)
+      : target_(few.shaded_target(shadows, memory)), hidden_allowed_(pair.tolerance) {
+    sight_.is_reached = false;
+    if (!few.is_applicable()) return;
+    SightTolerance unhidden = pair.tolerance;
+    unhidden.relative *= share_of_unhidden;
+    unhidden.absolute *= share_of_unhidden;
+    hidden_allowed_.relative -= unhidden.relative;
+    hidden_allowed_.absolute -= unhidden.absolute;
+    const double across = few.points_across(sides_of(quads));
+    goes_on_ =
+        across <= most() && static_cast<double>(square_lattices().front().places.size()) <= most();
+    if (!goes_on_) return;
+    fewest_ = static_cast<std::size_t>(across);
+    whole_ = clear_sight(scene, a, pair.other, unhidden);
+  }
+
   /// What it sees from one quadrilateral, times what that stretches the square by.
   struct Values {
     std::vector<double> places, corners;
@@ -173,11 +177,11 @@ class PairOnLattices {
     return sum;
   }
 
-  FewBlockers few_;
+  ShadedTarget target_;
   SightTolerance hidden_allowed_;
   MutualSight whole_, sight_;
   std::size_t fewest_ = 0;
-  bool goes_on_, tells_ = false;
+  bool goes_on_ = false, tells_ = false;
   std::size_t not_lit_ = 0, not_dark_ = 0;  // points that find something hidden, or seen
   std::vector<Values> values_;              // by quadrilateral
   std::vector<double> means_;               // by lattice
@@ -185,7 +189,7 @@ class PairOnLattices {
 
 /// Looks at all of some pairs from one lattice after the other.
 void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
-             Silhouettes& silhouettes) {
+             SharedShadows& shadows) {
   const auto lattices = square_lattices();
   std::size_t first = 0;
   for (std::size_t level = 0; level < lattices.size(); ++level) {
@@ -195,8 +199,8 @@ void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
     for (std::size_t q = 0; q < quads.size(); ++q) {
       const auto look_from = [&](const Vec2& at, bool is_corner) {
         const Place place = place_in(quads[q], at);
-        silhouettes.move_to(place.position);
-        for (PairOnLattices* pair : pairs) pair->look(silhouettes, place.weight, q, is_corner);
+        shadows.move_to(place.position);
+        for (PairOnLattices* pair : pairs) pair->look(place.weight, q, is_corner);
       };
       for (std::size_t k = first; k < lattice.places.size(); ++k)
         look_from(lattice.places[k], false);
@@ -232,26 +236,27 @@ PartBefore part_before(const SightSurface& surface, const SightSurface& other) {
 
 std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, int a,
                                                       std::span<const LatticePair> pairs) {
+  if (pairs.empty()) return {};
   const SightSurface& own = scene.surfaces[at(a)];
   std::vector<Quad> all;
   for (const Polygon3& piece : own.pieces) add_quads(piece, all);
   // Pairs that look from all of the surface share their points.
   std::vector<std::unique_ptr<PairOnLattices>> looks;
   std::vector<PairOnLattices*> from_all;
-  Silhouettes silhouettes(scene);
+  SharedShadows shadows(scene);
+  TargetMemory memory;
   for (const LatticePair& pair : pairs) {
     looks.push_back(nullptr);
     if (!in_all_cells_of(scene, a, pair.other)) continue;
-    looks.back() = std::make_unique<PairOnLattices>(scene, a, pair);
-    PairOnLattices* look = looks.back().get();
     const PartBefore part = part_before(own, scene.surfaces[at(pair.other)]);
-    look->begin(part.quads);
+    looks.back() = std::make_unique<PairOnLattices>(scene, a, pair, part.quads, shadows, memory);
+    PairOnLattices* look = looks.back().get();
     if (part.is_all)
       from_all.push_back(look);
     else
-      look_at({look}, part.quads, silhouettes);
+      look_at({look}, part.quads, shadows);
   }
-  look_at(from_all, all, silhouettes);
+  look_at(from_all, all, shadows);
   std::vector<std::optional<MutualSight>> result;
   for (std::size_t k = 0; k < looks.size(); ++k) {
     const PairOnLattices* look = looks[k].get();

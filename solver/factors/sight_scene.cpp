@@ -6,6 +6,7 @@
 #include "solver/factors/one_blocker.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace halfshade {
@@ -68,6 +69,14 @@ void add_place_in_whole(const Surface& surface, const Surface& whole, SightSurfa
     result.flat_pieces.push_back(flat_piece(piece, surface.frame));
   for (const Vec2& p : whole.rings.front())
     result.magnitude_in_plane = std::max(result.magnitude_in_plane, p.cwiseAbs().maxCoeff());
+}
+
+std::array<double, 12> numbers_of(const PlaneFrame& frame) {
+  std::array<double, 12> numbers;
+  std::size_t k = 0;
+  for (const Vec3& v : {frame.origin, frame.e1, frame.e2, frame.normal})
+    for (const double x : v) numbers[k++] = x;
+  return numbers;
 }
 
 VisibilityIndex index_of(TriangleSoup soup) {
@@ -173,8 +182,11 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
                     {},
                     std::move(light)};
   add_blockers(result.joined.sound, owner, bodies.of, result);
+  std::map<std::array<double, 12>, int> frames;
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     SightSurface surface = sight_surface(scene.surfaces[s]);
+    surface.same_frame =
+        frames.emplace(numbers_of(surface.frame), static_cast<int>(s)).first->second;
     surface.joined = result.joined.of[s];
     if (result.joined.parts[at(surface.joined)].size() > 1)
       add_place_in_whole(scene.surfaces[s], result.joined.sound.surfaces[at(surface.joined)],
@@ -208,9 +220,20 @@ Between still_between(const SightScene& scene, const Between& known, std::span<c
   const SideMask sides = all_sides(shaft);
   const TriangleSoup& soup = scene.between.soup();
   Between found;
+  int last = -1;
+  bool is_beside = false;  // the body that is last
+  SideMask rest = sides;   // that it crosses
   for (const int t : known) {
+    const int body = scene.blockers[at(scene.blocker_of[at(t)])].body;
+    if (body != last) {
+      last = body;
+      rest = sides;
+      is_beside = body >= 0 &&
+                  is_outside(shaft, scene.bodies[at(body)].low, scene.bodies[at(body)].high, rest);
+    }
+    if (is_beside) continue;
     const auto& [i, j, k] = soup.triangles[at(t)];
-    if (!is_harmless(shaft, {soup.points[at(i)], soup.points[at(j)], soup.points[at(k)]}, sides))
+    if (!is_harmless(shaft, {soup.points[at(i)], soup.points[at(j)], soup.points[at(k)]}, rest))
       found.push_back(t);
   }
   return found;

@@ -36,6 +36,7 @@ struct SightSurface {
   int plane = 0;
   std::vector<int> roots, cells;  ///< its coarse triangles, and the cells of space before them
   int joined = 0;                 ///< what it is a part of
+  int same_frame = 0;             ///< the first surface with this frame, to the bit
   // Of surfaces that are not all of what they are a part of:
   std::vector<FlatPiece> flat_pieces;  ///< in the frame
   double magnitude_in_plane = 0;       ///< the largest coordinate of what it is a part of

@@ -14,6 +14,8 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -139,6 +141,50 @@ TEST(PointLooks, AgreeWithExactPartsOfTiles) {
   EXPECT_GT(hidden, 100);
   EXPECT_GT(lit, 100);
   EXPECT_GT(few, partial + hidden);
+}
+
+/// Shadows that serve all surfaces of a plane tell what exactly visible parts among all tiles tell,
+/// whatever was asked for before from the same point.
+TEST(ShadedTarget, AgreesWithExactPartsOfTiles) {
+  const Sights room(tiled_room());
+  const DirectLightIndex tiles(room.scene.sound);
+  test::Random random(11);
+  int partial = 0, dark = 0, lit = 0;
+  for (int a = 0; a < room.count(); a += 3) {
+    const SightSurface& from = room.sight.surfaces[at(a)];
+    if (from.outline.size() != 4) continue;
+    SharedShadows shadows(room.sight);
+    TargetMemory memory;
+    std::vector<std::pair<int, ShadedTarget>> targets;
+    for (int b = 0; b < room.count(); ++b) {
+      if (!may_see(room.sight, a, b)) continue;
+      const FewBlockers blockers(room.sight, a, b);
+      if (blockers.is_applicable())
+        targets.emplace_back(b, blockers.shaded_target(shadows, memory));
+    }
+    for (int k = 0; k < 3; ++k) {
+      const Vec3 point = point_of(from, random);
+      shadows.move_to(point);
+      for (const auto& [b, target] : targets) {
+        HiddenFactor found;
+        ASSERT_TRUE(target.hidden_factor(found));
+        const PointFactor expected = tiles.factor({point, from.frame.normal}, b);
+        EXPECT_NEAR(found.hidden, expected.unobstructed - expected.visible, 1e-13);
+        partial += expected.region == Region::penumbra;
+        dark += expected.region == Region::umbra;
+        lit += expected.region == Region::lit;
+        if (expected.unobstructed > 1e-12) {
+          EXPECT_EQ(found.is_dark, expected.region == Region::umbra) << a << " " << b;
+        }
+        if (expected.region == Region::lit) {
+          EXPECT_EQ(found.hidden, 0);
+        }
+      }
+    }
+  }
+  EXPECT_GT(partial, 1000);
+  EXPECT_GT(dark, 300);
+  EXPECT_GT(lit, 1000);
 }
 
 TEST(PointLooks, WhatIsKeptChangesNoBit) {

@@ -25,6 +25,9 @@ constexpr double noisy_share_left_alone = 0.25;
 constexpr std::array<std::pair<double, int>, 3> first_samples = {{{0.5, 6}, {0.02, 3}, {0, 2}}};
 /// Of the same: what a round aims at, if more samples or parts leave this share of an element's.
 constexpr double aim_of_round = 0.8, left_of_improved = 0.5;
+/// Of what is thought to be left: a round aims at no less. If limits end it early, samples have
+/// then gone to the worst elements, not to all that a small tolerance would have better.
+constexpr double least_of_round = 0.1;
 /// Where elements must not be split, rounds that leave more than this of the square of the error
 /// do not pay.
 constexpr double hardly_less = 0.97;
@@ -325,7 +328,7 @@ class NoisyFit {
       known += heap.back().first;
     }
     // The sum over elements of what noise did not surely make is not what is said of all together.
-    const double most = std::min(allowed() / correction_, known);
+    const double most = std::clamp(allowed() / correction_, least_of_round * known, known);
     const double may_stay = noisy_share_left_alone * most, aim = aim_of_round * most;
     std::ranges::make_heap(heap);
     std::vector<int> found;

@@ -1,6 +1,5 @@
 #include "solver/adapt/adaptive_field.h"
 
-#include "meshing/core/error.h"
 #include "solver/adapt/element_choices.h"
 #include "solver/adapt/element_fit.h"
 #include "solver/adapt/field_beginnings.h"
@@ -8,6 +7,7 @@
 #include "solver/adapt/near_looks.h"
 #include "solver/adapt/possible_wholes.h"
 #include "solver/adapt/sample_forecast.h"
+#include "solver/adapt/unknown_trade.h"
 #include "solver/adapt/watched_errors.h"
 #include "solver/elements/balancing_scale.h"
 
@@ -22,7 +22,7 @@
 namespace halfshade {
 namespace {
 
-constexpr int most_rounds = 60, most_merges = 20;
+constexpr int most_rounds = 60, most_balances = 4, most_merges = 20;
 /// Of the square of the error allowed: what may come of elements left alone, and of dropping
 /// orders.
 constexpr double share_left_alone = 0.25, share_after_merging = 0.7, share_after_dropping = 0.8;
@@ -33,20 +33,6 @@ constexpr double noticeably = 2;
 constexpr std::size_t least_near_looks = 20000;
 /// More samples than there should be, and no reason yet to begin in another way.
 constexpr double almost = 3;
-/// New elements for one that is split, with what it takes to stay conforming.
-constexpr double growth = 2.5;
-
-void check(const AdaptiveFieldOptions& options) {
-  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.order < -1 ||
-      options.order > max_order || options.highest_order < 2 || options.highest_order > max_order ||
-      !(options.norm >= 0) || options.max_elements < 1 || options.max_unknowns < 1)
-    throw Error(
-        ErrorCode::contract, "fit_adaptively",
-        fmt::format("tolerance ({}), norm ({}), order ({}), highest_order ({}), max_elements ({}) "
-                    "or max_unknowns ({}) is out of range",
-                    options.tolerance, options.norm, options.order, options.highest_order,
-                    options.max_elements, options.max_unknowns));
-}
 
 class Adaptation {
  public:
@@ -54,18 +40,16 @@ class Adaptation {
              const Progress& progress, const Watched& watched)
       : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
-    for (FittedElement& element : elements_) {
-      element.fit.order = beginning_order(options, counted_, element.surface, element.area);
-      element.fit.coefficients = ChannelArray::Zero(basis_size(element.fit.order), 3);
-    }
+    for (FittedElement& element : elements_)
+      set_order(element, beginning_order(options, counted_, element.surface, element.area));
   }
 
   AdaptiveField run() {
     fit_new();
-    refine();
-    if (options_.merge && report_.limit == FieldLimit::none && merge_parts()) refine();
+    refine_and_balance();
+    if (options_.merge && report_.limit == FieldLimit::none && merge_parts()) refine_and_balance();
     if (options_.order < 0 && report_.limit == FieldLimit::none)
-      drop_orders(elements_, share_after_dropping * allowed());
+      drop_orders(elements_, options_, share_after_dropping * allowed());
     return result();
   }
 
@@ -81,6 +65,21 @@ class Adaptation {
       if (square_error_ <= allowed()) continue;
       if (!improve()) break;
       fit_new();
+    }
+  }
+
+  /// Elements that matter most get better still where others can have fewer unknowns then.
+  void refine_and_balance() {
+    refine();
+    for (int k = 0; k < most_balances && options_.balance && options_.order < 0; ++k) {
+      if (report_.limit != FieldLimit::none || (options_.is_too_much && options_.is_too_much()))
+        return;
+      const auto better = better_spread(elements_, options_, share_after_dropping * allowed());
+      if (better.empty()) return;
+      is_met_ = true;
+      if (change(better) != FieldLimit::none) return;
+      fit_new();
+      refine();
     }
   }
 
@@ -104,7 +103,7 @@ class Adaptation {
       if (!parts.empty()) take_elements(mesh_.merge(parts));
       if (elements_.size() == before || progress_.stopped()) break;
       is_changed = true;
-      merging_ = true;
+      is_met_ = true;
       fit_new();
       sum_up();
       check_new();
@@ -227,18 +226,16 @@ class Adaptation {
       }
     }
     const std::vector<Rgb> values = sample(points);
-    if (values.empty() && !points.empty()) return false;
-    if (!check_near()) return false;
+    if ((values.empty() && !points.empty()) || !check_near()) return false;
     const double before = square_error_;
     std::size_t next = 0;
     for (FittedElement& element : elements_) {
       if (element.is_checked) continue;
-      double square = 0;
-      for (std::size_t k = 0; k < checks; ++k, ++next)
-        square += (values[next] - fitted_at(element, places[next])).square().sum() / checks;
+      const double error = error_at(element, std::span(places).subspan(next, checks),
+                                    std::span(values).subspan(next, checks));
+      next += checks;
       element.is_checked = true;
-      if (square > noticeably * noticeably * element.fit.error * element.fit.error)
-        element.fit.error = std::sqrt(square);
+      if (error > noticeably * element.fit.error) element.fit.error = error;
     }
     if (!check_watched()) return false;
     sum_up();
@@ -296,48 +293,51 @@ class Adaptation {
 
   /// False, with a limit set, if nothing can be done.
   bool improve() {
-    if (options_.max_samples > 0 && !merging_ && takes_too_many_samples())
+    if (options_.max_samples > 0 && !is_met_ && takes_too_many_samples())
       report_.limit = FieldLimit::samples;
     else if (options_.is_too_much && options_.is_too_much())
       report_.limit = FieldLimit::work;
     else if (report_.rounds >= most_rounds)
       report_.limit = FieldLimit::rounds;
     if (report_.limit != FieldLimit::none) return false;
+    const double may_stay = share_left_alone * allowed();
+    std::vector<std::pair<int, int>> better;
+    for (const int e : worst_elements(elements_, may_stay))
+      better.emplace_back(e, better_order(elements_[at(e)], options_, may_stay / counted_.count));
+    return (report_.limit = change(better)) == FieldLimit::none;
+  }
+
+  /// Gives elements other orders, or splits those whose own it is, as far as limits allow that.
+  /// What kept it from any.
+  FieldLimit change(std::span<const std::pair<int, int>> orders) {
     std::vector<int> to_split;
     double unknowns = static_cast<double>(unknowns_), count = static_cast<double>(elements_.size());
     bool is_changed = false;
     FieldLimit limit = FieldLimit::fixed;
-    const double may_stay = share_left_alone * allowed();
-    for (const int e : worst_elements(elements_, may_stay)) {
+    for (const auto& [e, order] : orders) {
       FittedElement& element = elements_[at(e)];
-      const int order = better_order(element, options_, may_stay / counted_.count),
-                size = basis_size(element.fit.order);
+      const int size = basis_size(element.fit.order);
       const bool split = order == element.fit.order;
       if (split && !options_.split) continue;
-      const double more = split ? (growth - 1) * size : basis_size(order) - size;
+      const double more = split ? (elements_for_one - 1) * size : basis_size(order) - size;
       if (unknowns + more > options_.max_unknowns) {
         limit = FieldLimit::unknowns;
         break;
       }
-      if (split && count + growth - 1 > options_.max_elements) {
+      if (split && count + elements_for_one - 1 > options_.max_elements) {
         limit = FieldLimit::elements;
         continue;
       }
       unknowns += more;
       is_changed = true;
       if (split) {
-        count += growth - 1;
+        count += elements_for_one - 1;
         to_split.push_back(e);
       } else {
-        element.fit.order = order;
-        element.fit.coefficients.conservativeResizeLike(ChannelArray::Zero(basis_size(order), 3));
-        element.is_fitted = false;
+        set_order(element, order);
       }
     }
-    if (!is_changed) {
-      report_.limit = limit;
-      return false;
-    }
+    if (!is_changed) return limit;
     if (!to_split.empty()) {
       mesh_.bisect(to_split);
       take_elements();
@@ -346,7 +346,7 @@ class Adaptation {
                           report_.rounds + 1, elements_.size(), static_cast<long>(unknowns),
                           std::sqrt(square_error_ / square_)),
               0);
-    return true;
+    return FieldLimit::none;
   }
 
   AdaptiveField result() {
@@ -381,7 +381,7 @@ class Adaptation {
   std::unordered_map<int, int> index_of_node_;
   SampleForecast forecast_;
   std::unordered_map<int, ElementFit> whole_fits_;  ///< of nodes that may become elements
-  bool merging_ = false;      ///< has begun: what it takes is no limit any more
+  bool is_met_ = false;       ///< the tolerance was, once: samples are no limit any more
   std::optional<Rgb> scale_;  ///< of all values, by channel; once they are known
   double square_error_ = 0, square_ = 0;
   std::size_t unknowns_ = 0, near_looks_ = 0;
@@ -393,7 +393,7 @@ class Adaptation {
 AdaptiveField fit_adaptively(PatchMesh& mesh, const FieldAt& field,
                              const AdaptiveFieldOptions& options, const Progress& progress,
                              const Watched& watched) {
-  check(options);
+  require_usable(options);
   return Adaptation(mesh, field, options, progress, watched).run();
 }
 

@@ -26,6 +26,8 @@ struct AdaptiveFieldOptions {
   int highest_order = max_order;  ///< if orders are chosen
   bool split = true;              ///< false: elements stay as they are
   bool merge = false;             ///< splits are undone in the end where they are not needed
+  bool balance = false;           ///< what matters most gets better still where all get fewer
+                                  ///< unknowns by that; with chosen orders
   int max_elements = 40000;
   int max_unknowns = 1000000;  ///< per channel
   double max_samples = 0;  ///< gives up rather than take more, or three times as many if that is

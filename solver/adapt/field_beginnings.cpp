@@ -1,12 +1,27 @@
 #include "solver/adapt/field_beginnings.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/rounded.h"
 #include "solver/elements/triangle_key.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
+
+void require_usable(const AdaptiveFieldOptions& options) {
+  if (!(options.tolerance > 0 && std::isfinite(options.tolerance)) || options.order < -1 ||
+      options.order > max_order || options.highest_order < 2 || options.highest_order > max_order ||
+      !(options.norm >= 0) || options.max_elements < 1 || options.max_unknowns < 1)
+    throw Error(
+        ErrorCode::contract, "fit_adaptively",
+        fmt::format("tolerance ({}), norm ({}), order ({}), highest_order ({}), max_elements ({}) "
+                    "or max_unknowns ({}) is out of range",
+                    options.tolerance, options.norm, options.order, options.highest_order,
+                    options.max_elements, options.max_unknowns));
+}
 
 int first_order(const AdaptiveFieldOptions& options) {
   if (options.order >= 0) return options.order;

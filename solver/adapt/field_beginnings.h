@@ -6,6 +6,9 @@
 
 namespace halfshade {
 
+/// Throws Error(contract) if options of fit_adaptively are out of range.
+void require_usable(const AdaptiveFieldOptions& options);
+
 /// The order that most elements begin with: low ones where they will do; what is too high is
 /// dropped in the end.
 int first_order(const AdaptiveFieldOptions& options);

@@ -3,6 +3,9 @@
 #include "solver/adapt/element_fit.h"
 #include "solver/elements/element_field.h"
 
+#include <cmath>
+#include <span>
+
 namespace halfshade {
 
 /// An element of an adaptive field while it is made.
@@ -23,6 +26,22 @@ inline Rgb fitted_at(const FittedElement& element, const TrianglePlace& place) {
   Eigen::VectorXd phi(element.fit.coefficients.rows());
   basis_at(element.fit.order, place, phi);
   return (element.fit.coefficients.matrix().transpose() * phi).array();
+}
+
+/// Root mean square, over places, of given values less fitted ones, the channels' squares summed.
+inline double error_at(const FittedElement& element, std::span<const TrianglePlace> places,
+                       std::span<const Rgb> values) {
+  double square = 0;
+  for (std::size_t k = 0; k < places.size(); ++k)
+    square += (values[k] - fitted_at(element, places[k])).square().sum();
+  return std::sqrt(square / static_cast<double>(places.size()));
+}
+
+/// Gives an element an order that it is yet to be fitted with.
+inline void set_order(FittedElement& element, int order) {
+  element.fit.order = order;
+  element.fit.coefficients.conservativeResizeLike(ChannelArray::Zero(basis_size(order), 3));
+  element.is_fitted = false;
 }
 
 }  // namespace halfshade

@@ -29,6 +29,9 @@ constexpr double samples_for_curves = 12, power_of_edges = 1.7;
 constexpr double share_of_curves = 0.5;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
 constexpr double least_angle = 10;
+/// Between curves that meet at small angles good ones take many elements: where narrow ones are
+/// fewer than this share, they do, for each takes but few more unknowns.
+constexpr double narrow_angle = 1, much_fewer = 0.8;
 /// Of the elements that there may be, this share may be there before any is divided.
 constexpr double share_at_first = 0.5;
 
@@ -254,17 +257,33 @@ class DirectFieldSearch {
     fit_on_patches(field_options(scene(), plan_, options_, goal_));
   }
 
-  /// False if it takes too many elements.
-  bool mesh_along(const Discontinuities& curves, const DiscontinuityMeshOptions& mesh_options) {
+  /// Nothing if it takes too many elements.
+  std::optional<DiscontinuityMesh> try_along(const Discontinuities& curves,
+                                             const DiscontinuityMeshOptions& mesh_options) {
     try {
-      DiscontinuityMesh mesh = mesh_discontinuities(scene(), curves, mesh_options, progress_);
-      found_.mesh = mesh.report;
-      found_.patches = std::make_shared<PatchMesh>(std::move(mesh.patches));
-      return true;
+      return mesh_discontinuities(scene(), curves, mesh_options, progress_);
     } catch (const Error& error) {
       if (error.code() != ErrorCode::too_large) throw;
-      return false;
+      return std::nullopt;
     }
+  }
+
+  /// False if it takes too many elements.
+  bool mesh_along(const Discontinuities& curves, DiscontinuityMeshOptions mesh_options) {
+    std::optional<DiscontinuityMesh> mesh = try_along(curves, mesh_options);
+    // Reflected light gets worse in them.
+    if (options_.refine == Refinement::adaptive && options_.order < 0 &&
+        !plan_.no_factors.empty()) {
+      mesh_options.min_angle = narrow_angle;
+      std::optional<DiscontinuityMesh> narrow = try_along(curves, mesh_options);
+      if (narrow &&
+          (!mesh || narrow->patches.element_count() < much_fewer * mesh->patches.element_count()))
+        mesh = std::move(narrow);
+    }
+    if (!mesh) return false;
+    found_.mesh = mesh->report;
+    found_.patches = std::make_shared<PatchMesh>(std::move(mesh->patches));
+    return true;
   }
 
   void fit_on_patches(AdaptiveFieldOptions fit) {
@@ -273,6 +292,7 @@ class DirectFieldSearch {
       fit.max_unknowns = std::max(1, static_cast<int>(share_of_direct * fit.max_unknowns));
     }
     fit.is_too_much = [this] { return is_too_much(work_, options_.max_unknowns); };
+    fit.balance = true;
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;
     stages_.run("direct light", [&] {

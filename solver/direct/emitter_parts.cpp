@@ -14,9 +14,9 @@ constexpr double uneven = 3;
 /// Parts are narrower than an angle of this cosine, about 59°. No angle of a regular body, so that
 /// rounding does not decide.
 constexpr double narrow = 0.517;
-/// Cosines closer to each other, or to the horizon, are equal: what they decide must not hang on
-/// the rounding of coordinates.
-constexpr double same_cosine = 1e-9;
+/// Cosines, and shares of areas, closer to each other or to zero are equal: what they decide must
+/// not hang on the rounding of coordinates.
+constexpr double alike = 1e-9;
 /// Of a triangle in two; what would be cut further is right all the same, but less even.
 constexpr int most_halvings = 12;
 /// Of a place in [0, 1]: far below the distance between rays.
@@ -45,7 +45,7 @@ Corner corner_at(const Vec3& from_point, const Vec3& normal) {
   const double distance = from_point.norm();
   const Vec3 way = from_point / distance;
   const double height = normal.dot(way);
-  return {way, distance, std::abs(height) < same_cosine ? 0 : height};
+  return {way, distance, std::abs(height) < alike ? 0 : height};
 }
 
 /// On the edge between two corners, in the direction of a place on the chord between their ways.
@@ -74,7 +74,7 @@ std::optional<std::size_t> wide_edge(const Corners& corners) {
   double least = narrow;
   for (std::size_t k = 0; k < 3; ++k) {
     const double cosine = corners[k].way.dot(corners[(k + 1) % 3].way);
-    if (cosine < least - same_cosine) least = cosine, widest = k;
+    if (cosine < least - alike) least = cosine, widest = k;
   }
   return widest;
 }
@@ -105,8 +105,7 @@ std::optional<Vec3> foot(const Corners& corners) {
   if (!(square > 0)) return std::nullopt;
   const Vec3 result = normal.dot(places[0]) / square * normal;
   for (std::size_t k = 0; k < 3; ++k)
-    if (normal.dot((places[k] - result).cross(places[(k + 1) % 3] - result)) <
-        -same_cosine * square)
+    if (normal.dot((places[k] - result).cross(places[(k + 1) % 3] - result)) < -alike * square)
       return std::nullopt;
   return result;
 }

@@ -33,7 +33,7 @@ void add_parts(const SurfacePoint& point, std::span<const std::array<Vec3, 3>> t
 /// A point of an emitter, drawn by the light that comes from it.
 struct LightPoint {
   Vec3 way;       ///< from the point that the light comes to
-  double weight;  ///< light along it over its likelihood, in units of its own; even within 2.3
+  double weight;  ///< light along it over its likelihood, in units of its own; even within 2.6
 };
 
 /// Draws points of an emitter about as likely as the light that comes from them. Its parts, one at

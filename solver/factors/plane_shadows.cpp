@@ -42,12 +42,12 @@ int PlaneShadows::add(const Shadow& shadow, std::span<const Vec3> corners) {
     added.y.push_back(corner.y());
     added.z.push_back(corner.z());
   }
-  if (corners.size() <= added.u.size()) added.around = (corners.size() + 1) / 2 * 2;
+  const bool is_few = corners.size() <= added.u.size();
+  if (is_few) added.around = (corners.size() + 1) / 2 * 2;
   // A box in space holds things with more corners, and lies hardly farther off.
   Eigen::AlignedBox3d box;
   for (const Vec3& p : corners) box.extend(p);
   for (std::size_t k = 0; k < added.u.size(); ++k) {
-    const bool is_few = corners.size() <= added.u.size();
     const Vec3 corner =
         in_frame(is_few ? corners[std::min(k, corners.size() - 1)]
                         : Vec3(box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(k))));

@@ -16,54 +16,20 @@ void ShadowCut::add(Corners part) {
   parts_.push_back(added);
 }
 
-/// What is cut is convex to rounding: each side of it may cross a line.
-void ShadowCut::reserve_next() {
-  if (next_x_.size() < 2 * cut_count_)
+/// Room for so many corners of what is cut, and of what comes of it.
+void ShadowCut::reserve(std::size_t corners) {
+  if (cut_x_.size() < corners)
     for (std::vector<double>* values : {&cut_x_, &cut_y_, &next_x_, &next_y_, &heights_})
-      values->resize(4 * cut_count_);
+      values->resize(2 * corners);
 }
 
-/// By `heights_`: what lies beyond the line is lost.
-void ShadowCut::keep_inside() {
-  reserve_next();
+/// At the line that `heights_` are over; `leave` gets the corners of what lies beyond it.
+template <class Leave>
+void ShadowCut::cut_at_line(Leave leave) {
+  // What is cut is convex to rounding: each side of it may cross a line.
+  reserve(2 * cut_count_);
   double *in_x = next_x_.data(), *in_y = next_y_.data();
   const std::size_t last = cut_count_ - 1;
-  double from_x = cut_x_[last], from_y = cut_y_[last], at_from = heights_[last];
-  for (std::size_t k = 0; k < cut_count_; ++k) {
-    const double to_x = cut_x_[k], to_y = cut_y_[k], at_to = heights_[k];
-    if ((at_from < 0 && at_to > 0) || (at_from > 0 && at_to < 0)) {
-      const double part = at_from / (at_from - at_to);
-      *in_x++ = from_x + part * (to_x - from_x);
-      *in_y++ = from_y + part * (to_y - from_y);
-    }
-    *in_x = to_x;
-    *in_y = to_y;
-    const int is_inside = at_to <= 0 ? 1 : 0;
-    in_x += is_inside;
-    in_y += is_inside;
-    from_x = to_x;
-    from_y = to_y;
-    at_from = at_to;
-  }
-  cut_count_ = static_cast<std::size_t>(in_x - next_x_.data());
-  cut_x_.swap(next_x_);
-  cut_y_.swap(next_y_);
-}
-
-/// The same, but what lies beyond the line becomes a part.
-void ShadowCut::split() {
-  reserve_next();
-  const std::size_t start = x_.size(), last = cut_count_ - 1;
-  x_.resize(start + 2 * cut_count_);
-  y_.resize(start + 2 * cut_count_);
-  double *in_x = next_x_.data(), *in_y = next_y_.data();
-  double *out_x = x_.data() + start, *out_y = y_.data() + start;
-  Part rest{start, 0, {}};
-  const auto leave = [&](double x, double y) {
-    rest.box.add(x, y);
-    *out_x++ = x;
-    *out_y++ = y;
-  };
   double from_x = cut_x_[last], from_y = cut_y_[last], at_from = heights_[last];
   for (std::size_t k = 0; k < cut_count_; ++k) {
     const double to_x = cut_x_[k], to_y = cut_y_[k], at_to = heights_[k];
@@ -73,10 +39,11 @@ void ShadowCut::split() {
       *in_y = from_y + part * (to_y - from_y);
       leave(*in_x++, *in_y++);
     }
-    if (at_to <= 0) {
-      *in_x++ = to_x;
-      *in_y++ = to_y;
-    }
+    *in_x = to_x;
+    *in_y = to_y;
+    const int is_inside = at_to <= 0 ? 1 : 0;
+    in_x += is_inside;
+    in_y += is_inside;
     if (at_to >= 0) leave(to_x, to_y);
     from_x = to_x;
     from_y = to_y;
@@ -85,6 +52,25 @@ void ShadowCut::split() {
   cut_count_ = static_cast<std::size_t>(in_x - next_x_.data());
   cut_x_.swap(next_x_);
   cut_y_.swap(next_y_);
+}
+
+/// What lies beyond the line is lost.
+void ShadowCut::keep_inside() {
+  cut_at_line([](double, double) {});
+}
+
+/// What lies beyond the line becomes a part.
+void ShadowCut::split() {
+  const std::size_t start = x_.size();
+  x_.resize(start + 2 * cut_count_);
+  y_.resize(start + 2 * cut_count_);
+  double *out_x = x_.data() + start, *out_y = y_.data() + start;
+  Part rest{start, 0, {}};
+  cut_at_line([&](double x, double y) {
+    rest.box.add(x, y);
+    *out_x++ = x;
+    *out_y++ = y;
+  });
   rest.count = static_cast<std::size_t>(out_x - x_.data()) - start;
   x_.resize(start + rest.count);
   y_.resize(start + rest.count);
@@ -93,9 +79,7 @@ void ShadowCut::split() {
 
 /// What is cut starts as this.
 void ShadowCut::take(Corners polygon) {
-  if (cut_x_.size() < polygon.count)
-    for (std::vector<double>* values : {&cut_x_, &cut_y_, &next_x_, &next_y_, &heights_})
-      values->resize(2 * polygon.count);
+  reserve(polygon.count);
   cut_count_ = polygon.count;
   for (std::size_t k = 0; k < polygon.count; ++k) {
     cut_x_[k] = polygon.x[k];

@@ -81,9 +81,11 @@ class ShadowCut {
   bool cut_off(std::span<const ShadowSide> shadow, const Part& part, double nearness,
                bool needs_rest);
   void take(Corners polygon);
+  void reserve(std::size_t corners);
+  template <class Leave>
+  void cut_at_line(Leave leave);
   void keep_inside();
   void split();
-  void reserve_next();
   /// Heights of what is cut over a side: the least and the most.
   struct Heights {
     double least, most;

@@ -104,11 +104,9 @@ TEST(EmitterParts, PointsAreAsLikelyAsTheLightFromThem) {
     for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9})
       expect_light_up_to(share * length, point, target, points);
     expect_even_weights(point, target, points);
-    for (const Vec3& corner : target.rings[0])
-      if (normal.dot(corner - point.position) < 0) {
-        ++cut_by_horizon;
-        break;
-      }
+    cut_by_horizon +=
+        std::any_of(target.rings[0].begin(), target.rings[0].end(),
+                    [&](const Vec3& corner) { return normal.dot(corner - point.position) < 0; });
   }
   EXPECT_GT(cut_by_horizon, 50);
 }

@@ -54,7 +54,7 @@ void add_number(std::string& bytes, double value) {
   fmt::format_to(std::back_inserter(bytes), ",{:.17g}", value);
 }
 
-void add_numbers(std::string& bytes, const Vec3& values) {
+void add_vector(std::string& bytes, const Vec3& values) {
   for (const double value : values) add_number(bytes, value);
 }
 
@@ -97,7 +97,7 @@ std::string names_bytes(const FactorMatrix& matrix, const Provenance& provenance
     if (!matrix.places.empty()) {
       const RowPlace& place = matrix.places[static_cast<std::size_t>(i)];
       for (const Vec3& values : {place.centre, place.normal, place.extent})
-        add_numbers(bytes, values);
+        add_vector(bytes, values);
     }
     bytes += '\n';
   }

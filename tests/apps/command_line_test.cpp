@@ -19,12 +19,6 @@ namespace fs = std::filesystem;
 
 const fs::path data = test::data_folder;
 
-test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder,
-                        std::chrono::milliseconds interrupt_after = {}) {
-  arguments.insert(arguments.begin(), test::program);
-  return test::run_program(std::move(arguments), folder, interrupt_after);
-}
-
 void write_file(const fs::path& path, const std::string& text) { std::ofstream(path) << text; }
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -49,41 +43,43 @@ TEST_P(BadInputs, GiveOneSentenceAndTheDocumentedExitCode) {
   const test::TempDir folder;
   if (input.scene != "-") write_file(folder.path() / "scene.obj", input.scene);
   write_file(folder.path() / "lamp.mtl", input.material);
-  const test::Outcome outcome = halfshade(input.arguments, folder.path());
+  const test::Outcome outcome = test::run_halfshade(input.arguments, folder.path());
   test::expect_sentence(outcome, input.exit_code, input.sentence_names);
   for (const auto& entry : fs::directory_iterator(folder.path()))
     EXPECT_EQ(entry.path().extension() == ".vtu" || entry.path().extension() == ".ply", false)
         << entry.path();
 }
 
-const std::vector<std::string> solve = {"solve", "scene.obj", "-o", "out.vtu"};
+const std::vector<std::string> solve_scene = {"solve", "scene.obj", "-o", "out.vtu"};
 
 INSTANTIATE_TEST_SUITE_P(
     Solve, BadInputs,
     testing::Values(
-        BadInput{"missing_file", "-", "", solve, 3, "scene.obj"},
+        BadInput{"missing_file", "-", "", solve_scene, 3, "scene.obj"},
         BadInput{"folder_as_scene", "-", "", {"solve", ".", "-o", "out.vtu"}, 2, "."},
-        BadInput{"empty_file", "", "", solve, 3, "scene.obj"},
-        BadInput{"truncated", square + "f 1 2", "", solve, 3, "scene.obj:5"},
-        BadInput{"truncated_number", "v 0 0 0\nv 1 0", "", solve, 3, "scene.obj:2"},
-        BadInput{"nan", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve, 3, "scene.obj"},
-        BadInput{"infinite", "v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve, 3, "scene.obj"},
-        BadInput{"index_out_of_range", square + "f 1 2 9\n", "", solve, 3, "9"},
-        BadInput{"index_zero", square + "f 0 1 2\n", "", solve, 3, "0"},
-        BadInput{"reflectance_above_one", lamp, "newmtl lamp\nKd 1.2 0 0\nKe 1 1 1\n", solve, 3,
-                 "1.2"},
-        BadInput{"negative_exitance", lamp, "newmtl lamp\nKd 0 0 0\nKe 1 -3 1\n", solve, 3, "-3"},
-        BadInput{"missing_material_library", "mtllib none.mtl\n" + lamp, lamp_material, solve, 3,
-                 "none.mtl"},
-        BadInput{"no_faces", square, "", solve, 3, "face"},
-        BadInput{"no_emitter", square + "f 1 2 3 4\n", "", solve, 3, "emit"},
+        BadInput{"empty_file", "", "", solve_scene, 3, "scene.obj"},
+        BadInput{"truncated", square + "f 1 2", "", solve_scene, 3, "scene.obj:5"},
+        BadInput{"truncated_number", "v 0 0 0\nv 1 0", "", solve_scene, 3, "scene.obj:2"},
+        BadInput{"nan", "v nan 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve_scene, 3, "scene.obj"},
+        BadInput{"infinite", "v 1e999 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n", "", solve_scene, 3,
+                 "scene.obj"},
+        BadInput{"index_out_of_range", square + "f 1 2 9\n", "", solve_scene, 3, "9"},
+        BadInput{"index_zero", square + "f 0 1 2\n", "", solve_scene, 3, "0"},
+        BadInput{"reflectance_above_one", lamp, "newmtl lamp\nKd 1.2 0 0\nKe 1 1 1\n", solve_scene,
+                 3, "1.2"},
+        BadInput{"negative_exitance", lamp, "newmtl lamp\nKd 0 0 0\nKe 1 -3 1\n", solve_scene, 3,
+                 "-3"},
+        BadInput{"missing_material_library", "mtllib none.mtl\n" + lamp, lamp_material, solve_scene,
+                 3, "none.mtl"},
+        BadInput{"no_faces", square, "", solve_scene, 3, "face"},
+        BadInput{"no_emitter", square + "f 1 2 3 4\n", "", solve_scene, 3, "emit"},
         BadInput{"zero_area_only",
                  "mtllib lamp.mtl\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n",
-                 lamp_material, solve, 3, "area"},
+                 lamp_material, solve_scene, 3, "area"},
         BadInput{"one_point_only", "mtllib lamp.mtl\nusemtl lamp\nv 5 5 5\nf 1 1 1\n",
-                 lamp_material, solve, 3, "scene.obj"},
+                 lamp_material, solve_scene, 3, "scene.obj"},
         BadInput{"crossing_itself", "mtllib lamp.mtl\nusemtl lamp\n" + square + "f 1 3 2 4\n",
-                 lamp_material, solve, 3, "face 1"},
+                 lamp_material, solve_scene, 3, "face 1"},
         BadInput{
             "unknown_scene_extension", "-", "", {"solve", "scene.xyz", "-o", "out.vtu"}, 2, ".xyz"},
         BadInput{"unknown_output_extension",
@@ -146,32 +142,33 @@ TEST(CommandLine, WrongUsageEndsWithCode2AndSaysHowToGetHelp) {
                                                     {"solve", "a.obj", "--elements", "0"},
                                                     {"solve", "a.obj", "--nonsense"},
                                                     {"render", "a.vtu"}}) {
-    const test::Outcome outcome = halfshade(arguments, folder.path());
+    const test::Outcome outcome = test::run_halfshade(arguments, folder.path());
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_NE(outcome.err.find("--help"), std::string::npos) << outcome.err;
   }
-  EXPECT_EQ(halfshade({"--help"}, folder.path()).exit_code, 0);
-  EXPECT_EQ(halfshade({"solve", "--help"}, folder.path()).exit_code, 0);
-  EXPECT_EQ(halfshade({"--version"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(test::run_halfshade({"--help"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(test::run_halfshade({"solve", "--help"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(test::run_halfshade({"--version"}, folder.path()).exit_code, 0);
 }
 
 TEST(CommandLine, ExamplesOfTheHelpRun) {
   const test::TempDir folder;
   fs::create_directory_symlink(data, folder.path() / "data");
   // What the examples of render start from.
-  ASSERT_EQ(halfshade({"solve", "data/s1.obj", "--elements", "100", "-q"}, folder.path()).exit_code,
+  ASSERT_EQ(test::run_halfshade({"solve", "data/s1.obj", "--elements", "100", "-q"}, folder.path())
+                .exit_code,
             0);
   int ran = 0;
   for (const std::string command : {"solve", "render"})
     for (auto arguments :
-         test::examples_of(halfshade({command, "--help"}, folder.path()).out, command)) {
+         test::examples_of(test::run_halfshade({command, "--help"}, folder.path()).out, command)) {
       arguments.insert(arguments.begin(), command);
       const auto has = [&](const char* option) {
         return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
       };
       if (command == "solve" && !has("--elements") && !has("--tolerance"))
         arguments.insert(arguments.end(), {"--elements", "300"});
-      const test::Outcome outcome = halfshade(arguments, folder.path());
+      const test::Outcome outcome = test::run_halfshade(arguments, folder.path());
       EXPECT_EQ(outcome.exit_code, 0) << testing::PrintToString(arguments) << outcome.err;
       ++ran;
     }
@@ -186,25 +183,26 @@ TEST(CommandLine, ElementsAskedForThatAreTooFewForAToleranceAskedFor) {
   for (const std::string more : {"", "--refine=uniform"}) {
     std::vector<std::string> words = {"solve", s1, "-q", "--elements", "50", "--tolerance", "1e-5"};
     if (!more.empty()) words.push_back(more);
-    const test::Outcome outcome = halfshade(words, folder.path());
+    const test::Outcome outcome = test::run_halfshade(words, folder.path());
     EXPECT_EQ(outcome.exit_code, 4);
     EXPECT_NE(outcome.err.find("with these elements the error is about"), std::string::npos)
         << outcome.err;
   }
-  EXPECT_EQ(halfshade({"solve", s1, "--elements", "50"}, folder.path()).exit_code, 0);
+  EXPECT_EQ(test::run_halfshade({"solve", s1, "--elements", "50"}, folder.path()).exit_code, 0);
 }
 
 TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
   const test::TempDir folder;
-  const test::Outcome outcome = halfshade({"solve", (data / "s1.obj").string(), "--elements", "200",
-                                           "-q", "-o", "out.ply", "--json", "report.json"},
-                                          folder.path());
+  const test::Outcome outcome =
+      test::run_halfshade({"solve", (data / "s1.obj").string(), "--elements", "200", "-q", "-o",
+                           "out.ply", "--json", "report.json"},
+                          folder.path());
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
   const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
   EXPECT_GT(report.at("mesh").at("elements").get<int>(), 100);
   EXPECT_FALSE(report.at("interrupted").get<bool>());
-  const test::Outcome talk = halfshade(
+  const test::Outcome talk = test::run_halfshade(
       {"solve", (data / "s1.obj").string(), "--elements", "200", "-o", "out.ply"}, folder.path());
   EXPECT_NE(talk.out.find("out.ply"), std::string::npos);
   EXPECT_EQ(talk.err, "") << "no progress bar without a terminal";
@@ -213,9 +211,9 @@ TEST(CommandLine, QuietIsQuietAndJsonTellsAll) {
 TEST(CommandLine, ThreadsDoNotChangeTheBytes) {
   const test::TempDir folder;
   const auto body = [&](const std::string& threads) {
-    EXPECT_EQ(halfshade({"solve", (data / "l_room.obj").string(), "--elements", "500", "-q",
-                         "--threads", threads, "-o", "out.ply"},
-                        folder.path())
+    EXPECT_EQ(test::run_halfshade({"solve", (data / "l_room.obj").string(), "--elements", "500",
+                                   "-q", "--threads", threads, "-o", "out.ply"},
+                                  folder.path())
                   .exit_code,
               0);
     const std::string text = test::contents(folder.path() / "out.ply");
@@ -226,17 +224,18 @@ TEST(CommandLine, ThreadsDoNotChangeTheBytes) {
 
 TEST(CommandLine, InterruptWritesAMarkedPartialResult) {
   const test::TempDir folder;
-  const test::Outcome outcome =
-      halfshade({"solve", (data / "cornell_box.obj").string(), "--method", "matrix", "--elements",
-                 "20000", "-o", "out.vtu", "-o", "marked.png", "--json", "report.json"},
-                folder.path(), std::chrono::milliseconds(1500));
+  const test::Outcome outcome = test::run_halfshade(
+      {"solve", (data / "cornell_box.obj").string(), "--method", "matrix", "--elements", "20000",
+       "-o", "out.vtu", "-o", "marked.png", "--json", "report.json"},
+      folder.path(), std::chrono::milliseconds(1500));
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted"), std::string::npos) << outcome.err;
   EXPECT_TRUE(fs::exists(folder.path() / "out.vtu"));
   EXPECT_NE(test::contents(folder.path() / "marked.png").find("interrupted: "), std::string::npos);
   const auto report = nlohmann::json::parse(test::contents(folder.path() / "report.json"));
   EXPECT_TRUE(report.at("interrupted").get<bool>());
-  EXPECT_EQ(halfshade({"render", "out.vtu", "-o", "out.png", "--samples", "1", "-q"}, folder.path())
+  EXPECT_EQ(test::run_halfshade({"render", "out.vtu", "-o", "out.png", "--samples", "1", "-q"},
+                                folder.path())
                 .exit_code,
             0);
 }

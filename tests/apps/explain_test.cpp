@@ -14,11 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-test::Outcome halfshade(std::vector<std::string> arguments, const fs::path& folder) {
-  arguments.insert(arguments.begin(), test::program);
-  return test::run_program(std::move(arguments), folder);
-}
-
 bool has(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
@@ -36,7 +31,8 @@ void write_inside_out(const fs::path& folder) {
 TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   const test::TempDir folder;
   const std::string s1 = (fs::path(test::data_folder) / "s1.obj").string();
-  const test::Outcome outcome = halfshade({"explain", s1, "--json", "p.json"}, folder.path());
+  const test::Outcome outcome =
+      test::run_halfshade({"explain", s1, "--json", "p.json"}, folder.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "left out     curves at three edges")) << outcome.out;
   EXPECT_TRUE(has(outcome.out, "--force eee"));
@@ -46,10 +42,12 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   EXPECT_EQ(report["channels"], 1);
   EXPECT_EQ(report["sources"].size(), 1u);
   EXPECT_FALSE(report["parts"][0]["closed"]);
-  const test::Outcome forced = halfshade({"explain", s1, "--force", "eee,channels"}, folder.path());
+  const test::Outcome forced =
+      test::run_halfshade({"explain", s1, "--force", "eee,channels"}, folder.path());
   EXPECT_TRUE(has(forced.out, "runs         curves at three edges"));
   EXPECT_TRUE(has(forced.out, "runs         second and third channel"));
-  EXPECT_EQ(halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code, 2);
+  EXPECT_EQ(test::run_halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code,
+            2);
 }
 
 TEST(Explain, SpeaksOfBacksOnlyWhereLightCanReachThem) {
@@ -65,7 +63,7 @@ TEST(Explain, SpeaksOfBacksOnlyWhereLightCanReachThem) {
   std::ofstream(folder.path() / "s.mtl") << mtl;
   const auto said = [&](const std::string& text) {
     std::ofstream(folder.path() / "s.obj") << text;
-    return halfshade({"explain", "s.obj"}, folder.path()).out;
+    return test::run_halfshade({"explain", "s.obj"}, folder.path()).out;
   };
   EXPECT_FALSE(has(said(facing), "reaches the back")) << said(facing);
   EXPECT_FALSE(has(said(facing + beyond), "reaches the back")) << said(facing + beyond);
@@ -76,8 +74,8 @@ TEST(Explain, SaysHowReflectedLightWillBeFoundAndWhatItTakes) {
   const test::TempDir folder;
   const std::string box = (fs::path(test::data_folder) / "cornell_box.obj").string();
   const auto seconds = [&](const std::string& tolerance) {
-    const test::Outcome outcome =
-        halfshade({"explain", box, "--tolerance", tolerance, "--json", "p.json"}, folder.path());
+    const test::Outcome outcome = test::run_halfshade(
+        {"explain", box, "--tolerance", tolerance, "--json", "p.json"}, folder.path());
     EXPECT_TRUE(has(outcome.out, "reflected light, by exactly visible parts, about"))
         << outcome.out;
     nlohmann::json report;
@@ -88,8 +86,9 @@ TEST(Explain, SaysHowReflectedLightWillBeFoundAndWhatItTakes) {
   };
   EXPECT_GT(seconds("1e-2"), 0);
   EXPECT_GT(seconds("1e-3"), 2 * seconds("1e-2"));
-  EXPECT_TRUE(has(halfshade({"explain", box, "--visibility", "sampled"}, folder.path()).out,
-                  "reflected light, by rays over hemispheres"));
+  EXPECT_TRUE(
+      has(test::run_halfshade({"explain", box, "--visibility", "sampled"}, folder.path()).out,
+          "reflected light, by rays over hemispheres"));
 }
 
 TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
@@ -99,7 +98,7 @@ TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
     std::vector<std::string> arguments = {"solve", "s.obj", "--elements", "200",
                                           "-o",    "o.vtu", "--json",     "r.json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return halfshade(arguments, folder.path());
+    return test::run_halfshade(arguments, folder.path());
   };
   const test::Outcome outcome = solve({});
   EXPECT_EQ(outcome.exit_code, 0);

@@ -124,7 +124,7 @@ void suns(std::vector<Extreme>& all) {
   }
 }
 
-void lights(std::vector<Extreme>& all) {
+void light_extremes(std::vector<Extreme>& all) {
   for (const int k : {1, 3, 5, 6, 9}) {
     const double half = 0.5 * std::pow(10, k);
     all.push_back(
@@ -158,29 +158,30 @@ void units(std::vector<Extreme>& all) {
 }
 
 /// A closed cube of side 1 in which every wall emits E = 1.
-SceneText furnace(double rho) {
+SceneText furnace_of(double rho) {
   return SceneText().room("wall", "walls", {0, 0, 0}, 1).reflectance("wall", rho, 1);
 }
 
 void furnaces(std::vector<Extreme>& all) {
   for (const double absorbed : {1., 0.5, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-9, 1e-12}) {
     const double rho = 1 - absorbed;
-    all.push_back(solve_group(fmt::format("furnace_absorbs_{:g}", absorbed), furnace(rho), "walls",
-                              1 / (1 - rho), 1e-6, {"--elements", "150"}));
+    all.push_back(solve_group(fmt::format("furnace_absorbs_{:g}", absorbed), furnace_of(rho),
+                              "walls", 1 / (1 - rho), 1e-6, {"--elements", "150"}));
   }
   for (const double far : {1e3, 1e6, 1e9})
-    all.push_back(solve_group(
-        fmt::format("furnace_triangle_at_{:g}", far),
-        furnace(0.5).polygon("dark", "elsewhere", {{far, 0, 0}, {1.1 * far, 0, 0}, {far, far, 1}}),
-        "walls", 2, 1e-6, {"--elements", "150"}));
+    all.push_back(
+        solve_group(fmt::format("furnace_triangle_at_{:g}", far),
+                    furnace_of(0.5).polygon("dark", "elsewhere",
+                                            {{far, 0, 0}, {1.1 * far, 0, 0}, {far, far, 1}}),
+                    "walls", 2, 1e-6, {"--elements", "150"}));
   // A sheet that is seen from both sides, close above the floor of a furnace, as two faces and as
   // one.
   for (const double height : {1e-3, 1e-5, 1e-7}) {
     std::vector<Vec3> sheet = {
         {0.3, 0.3, height}, {0.7, 0.3, height}, {0.7, 0.7, height}, {0.3, 0.7, height}};
-    SceneText scene = furnace(0.7).polygon("wall", "sheet", sheet);
+    SceneText scene = furnace_of(0.7).polygon("wall", "sheet", sheet);
     const SceneText both =
-        furnace(0.7).reflectance("light", 0.7, 1).polygon("light", "sheet", sheet);
+        furnace_of(0.7).reflectance("light", 0.7, 1).polygon("light", "sheet", sheet);
     all.push_back(solve_group(fmt::format("two_sided_sheet_{:g}_above_a_floor", height), both,
                               "sheet", 1 / 0.3, 1e-3,
                               {"--elements", "600", "--materials", "two_sided.json"}));
@@ -217,8 +218,8 @@ void doubled(std::vector<Extreme>& all) {
 
 std::vector<Extreme> extremes() {
   std::vector<Extreme> all;
-  for (const auto& family :
-       {gaps, lamps_above_floors, far_triangles, suns, lights, units, furnaces, rooms, doubled})
+  for (const auto& family : {gaps, lamps_above_floors, far_triangles, suns, light_extremes, units,
+                             furnaces, rooms, doubled})
     family(all);
   return all;
 }

@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = test::data_folder;
-const std::string l_room = (data / "l_room.obj").string();
-const std::string cube = (data / "furnace_cube.obj").string();
+const fs::path scene_folder = test::data_folder;
+const std::string l_room = (scene_folder / "l_room.obj").string();
+const std::string cube = (scene_folder / "furnace_cube.obj").string();
 
 class Factors : public testing::Test {
  protected:
@@ -194,7 +194,7 @@ TEST_F(Factors, GoToTheStandardOutputAndKeepTheRestOffIt) {
 }
 
 TEST_F(Factors, ExamplesOfTheHelpRun) {
-  fs::create_directory_symlink(data, folder_.path() / "data");
+  fs::create_directory_symlink(scene_folder, folder_.path() / "data");
   const auto examples = test::examples_of(factors({"--help"}).out, "factors");
   EXPECT_GE(examples.size(), 3u);
   for (const std::vector<std::string>& arguments : examples) {
@@ -204,7 +204,7 @@ TEST_F(Factors, ExamplesOfTheHelpRun) {
 }
 
 TEST_F(Factors, TellWhatIsSwallowedAndWhatIsNotReached) {
-  const std::string s1 = (data / "s1.obj").string();
+  const std::string s1 = (scene_folder / "s1.obj").string();
   const test::Outcome swallowed = factors({s1, "-o", "f.csv", "--tolerance", "0.01"});
   EXPECT_EQ(swallowed.exit_code, 0);
   EXPECT_NE(swallowed.err.find("backs of one-sided faces swallow"), std::string::npos);
@@ -245,7 +245,7 @@ TEST_F(Factors, SayInOneSentenceWhatIsWrong) {
 }
 
 TEST_F(Factors, InterruptedWriteNothing) {
-  const std::string dining_room = (data / "dining_room.obj").string();
+  const std::string dining_room = (scene_folder / "dining_room.obj").string();
   const test::Outcome outcome =
       factors({dining_room, "-o", "f.csv", "--tolerance", "1e-9"}, std::chrono::milliseconds(700));
   EXPECT_EQ(outcome.exit_code, 130);

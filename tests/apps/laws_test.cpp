@@ -1,12 +1,10 @@
-#include "io/read/read_scene.h"
 #include "meshing/core/planar.h"
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/repair/repair.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
-#include "tests/support/files.h"
-#include "tests/support/random_scene.h"
+#include "tests/support/named_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -34,11 +32,6 @@ std::vector<std::string> random_names() {
 }
 
 std::string name_of(const testing::TestParamInfo<std::string>& scene) { return scene.param; }
-
-Scene load(const std::string& name) {
-  if (name.starts_with("random_")) return test::random_scene(std::stoul(name.substr(7)));
-  return read_scene(test::data_file(name + ".obj")).scene;
-}
 
 Scene scaled(Scene scene, double factor) {
   for (Vec3& p : scene.vertices) p *= factor;
@@ -110,7 +103,7 @@ class Laws : public testing::TestWithParam<std::string> {
     return halfshade::places(scene_, is_large() ? 200 : 10000);
   }
 
-  const Scene scene_ = load(GetParam());
+  const Scene scene_ = test::named_scene(GetParam());
 };
 
 /// Of scenes whose mesh takes seconds.

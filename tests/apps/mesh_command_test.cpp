@@ -14,9 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = test::data_folder;
-const std::string s1 = (data / "s1.obj").string();
-const std::string skew_bars = (data / "skew_bars.obj").string();
+const std::string s1_file = test::data_file("s1.obj").string();
+const std::string skew_bars = test::data_file("skew_bars.obj").string();
 
 class Mesh : public testing::Test {
  protected:
@@ -34,7 +33,7 @@ class Mesh : public testing::Test {
 
 TEST_F(Mesh, WritesMeshCurvesPictureAndReport) {
   const test::Outcome outcome =
-      mesh({s1, "-o", "m.vtu", "-o", "m.ply", "-o", "m.vtp", "--curves", "c.vtp", "--picture",
+      mesh({s1_file, "-o", "m.vtu", "-o", "m.ply", "-o", "m.vtp", "--curves", "c.vtp", "--picture",
             "p.png", "--pixels", "100", "--json", "r.json"});
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.err, "");
@@ -70,7 +69,7 @@ TEST_F(Mesh, DrawsConicsAsCloselyAsAsked) {
 
 TEST_F(Mesh, FindsTheLimitsOfS1) {
   // Four lines limit the umbra, |x|, |y| = 0.25, four the penumbra, |x|, |y| = 1.25, each D1.
-  ASSERT_EQ(mesh({s1, "--curves", "c.vtp", "--json", "r.json", "-q"}).exit_code, 0);
+  ASSERT_EQ(mesh({s1_file, "--curves", "c.vtp", "--json", "r.json", "-q"}).exit_code, 0);
   const auto orders = json("r.json").at("curves").at("by_order");
   EXPECT_EQ(orders.count("D0"), 0u);
   // The lines x = ±0.25 from |y| ≤ 1.25 on and so on: 4 × 2 × 2.5 in all.
@@ -78,12 +77,12 @@ TEST_F(Mesh, FindsTheLimitsOfS1) {
 }
 
 TEST_F(Mesh, WithoutOutputsItIsNamedAfterTheScene) {
-  ASSERT_EQ(mesh({s1, "-q"}).exit_code, 0);
+  ASSERT_EQ(mesh({s1_file, "-q"}).exit_code, 0);
   EXPECT_TRUE(exists("s1.vtu"));
 }
 
 TEST_F(Mesh, OnlyWhatIsAskedForIsMade) {
-  ASSERT_EQ(mesh({s1, "--curves", "c.vtp", "-q"}).exit_code, 0);
+  ASSERT_EQ(mesh({s1_file, "--curves", "c.vtp", "-q"}).exit_code, 0);
   EXPECT_TRUE(exists("c.vtp"));
   EXPECT_FALSE(exists("s1.vtu"));
 }
@@ -122,7 +121,7 @@ TEST_F(Mesh, ToleranceLeavesOutAndMaxLengthRefines) {
 }
 
 TEST_F(Mesh, SecondarySourcesHaveCurvesOfTheirOwn) {
-  const std::string box = (data / "cornell_box.obj").string();
+  const std::string box = test::data_file("cornell_box.obj").string();
   const auto run = [&](const std::string& secondary) {
     EXPECT_EQ(mesh({box, "--secondary", secondary, "--events", "contact,face", "--json", "r.json",
                     "-q", "--tolerance", "0.5"})
@@ -150,14 +149,14 @@ TEST_F(Mesh, ThreadsDoNotChangeTheBytes) {
 }
 
 TEST_F(Mesh, QuietIsQuiet) {
-  const test::Outcome outcome = mesh({s1, "-q", "-o", "m.vtu", "--picture", "p.png"});
+  const test::Outcome outcome = mesh({s1_file, "-q", "-o", "m.vtu", "--picture", "p.png"});
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_EQ(outcome.out + outcome.err, "");
 }
 
 TEST_F(Mesh, InterruptWritesWhatThereIsMarked) {
-  const test::Outcome outcome = mesh({(data / "hundred_lights.obj").string(), "--curves", "c.vtp",
-                                      "-o", "m.vtu", "--json", "r.json"},
+  const test::Outcome outcome = mesh({test::data_file("hundred_lights.obj").string(), "--curves",
+                                      "c.vtp", "-o", "m.vtu", "--json", "r.json"},
                                      std::chrono::milliseconds(1500));
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
@@ -167,7 +166,7 @@ TEST_F(Mesh, InterruptWritesWhatThereIsMarked) {
 }
 
 TEST_F(Mesh, ExamplesOfTheHelpRun) {
-  fs::create_directory_symlink(data, folder_.path() / "data");
+  fs::create_directory_symlink(test::data_folder, folder_.path() / "data");
   const auto examples = test::examples_of(mesh({"--help"}).out, "mesh");
   EXPECT_GE(examples.size(), 4u);
   for (const std::vector<std::string>& arguments : examples) {
@@ -188,15 +187,15 @@ TEST_F(Mesh, SaysInOneSentenceWhatIsWrong) {
   const std::vector<Wrong> all = {
       {{"none.obj", "-o", "m.vtu"}, 3, "none.obj"},
       {{"dark.obj", "-o", "m.vtu"}, 3, "emit"},
-      {{s1, "-o", "m.obj"}, 2, ".obj"},
-      {{s1, "--curves", "c.vtu"}, 2, ".vtu"},
-      {{s1, "--picture", "p.jpg"}, 2, ".jpg"},
-      {{s1, "--picture", "p.png", "--of", "roof"}, 2, "roof"},
-      {{s1, "--picture", "p.png", "--of", "7"}, 2, "'7'"},
-      {{s1, "-o", "none/m.vtu"}, 5, "none"},
-      {{s1, "--curves", "none/c.vtp"}, 5, "none"},
-      {{s1, "--picture", "none/p.png"}, 5, "none"},
-      {{s1, "--json", "none/r.json", "-o", "m.vtu"}, 5, "none"},
+      {{s1_file, "-o", "m.obj"}, 2, ".obj"},
+      {{s1_file, "--curves", "c.vtu"}, 2, ".vtu"},
+      {{s1_file, "--picture", "p.jpg"}, 2, ".jpg"},
+      {{s1_file, "--picture", "p.png", "--of", "roof"}, 2, "roof"},
+      {{s1_file, "--picture", "p.png", "--of", "7"}, 2, "'7'"},
+      {{s1_file, "-o", "none/m.vtu"}, 5, "none"},
+      {{s1_file, "--curves", "none/c.vtp"}, 5, "none"},
+      {{s1_file, "--picture", "none/p.png"}, 5, "none"},
+      {{s1_file, "--json", "none/r.json", "-o", "m.vtu"}, 5, "none"},
   };
   for (const Wrong& wrong : all) {
     test::expect_sentence(mesh(wrong.arguments), wrong.exit_code, wrong.names);
@@ -205,16 +204,17 @@ TEST_F(Mesh, SaysInOneSentenceWhatIsWrong) {
 }
 
 TEST_F(Mesh, RefusesWrongUsage) {
-  for (const std::vector<std::string>& arguments : {std::vector<std::string>{},
-                                                    {s1, "--events", "penumbra"},
-                                                    {s1, "--tolerance", "-1"},
-                                                    {s1, "--tolerance", "nan"},
-                                                    {s1, "--max-length", "0"},
-                                                    {s1, "--max-length", "nan"},
-                                                    {s1, "--secondary", "-1"},
-                                                    {s1, "--of", "receiver"},
-                                                    {s1, "--picture", "p.png", "--colour", "red"},
-                                                    {s1, "--picture", "p.png", "--pixels", "0"}}) {
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{},
+        {s1_file, "--events", "penumbra"},
+        {s1_file, "--tolerance", "-1"},
+        {s1_file, "--tolerance", "nan"},
+        {s1_file, "--max-length", "0"},
+        {s1_file, "--max-length", "nan"},
+        {s1_file, "--secondary", "-1"},
+        {s1_file, "--of", "receiver"},
+        {s1_file, "--picture", "p.png", "--colour", "red"},
+        {s1_file, "--picture", "p.png", "--pixels", "0"}}) {
     const test::Outcome outcome = mesh(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
     EXPECT_NE(outcome.err.find("--help"), std::string::npos) << outcome.err;

@@ -15,8 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path data = test::data_folder;
-
 class Probe : public testing::Test {
  protected:
   test::Outcome probe(std::vector<std::string> arguments,
@@ -52,8 +50,8 @@ class Probe : public testing::Test {
   test::TempDir folder_;
 };
 
-const std::string s1 = (data / "s1.obj").string();
-const std::string s1_points = (data / "s1_points.csv").string();
+const std::string s1 = test::data_file("s1.obj").string();
+const std::string s1_points = test::data_file("s1_points.csv").string();
 
 TEST_F(Probe, GivesTheKnownValuesOfS1) {
   const test::Outcome outcome = probe({s1, "--points", s1_points, "-o", "o.csv", "--direct"});
@@ -97,7 +95,7 @@ TEST_F(Probe, PutsAGridOnAGroup) {
 TEST_F(Probe, AddsInterreflectionUnlessToldNotTo) {
   // White furnace: E = 1 − rho on every wall makes B = 1 everywhere, hence H = 1.
   write("p.csv", "0.3,0.4,0.5,0,0,1\n0.5,0.2,0.7,1,0,0\n0.1,0.9,0.5,0.6,0,-0.8\n");
-  const std::string cube = (data / "furnace_cube.obj").string();
+  const std::string cube = test::data_file("furnace_cube.obj").string();
   ASSERT_EQ(probe({cube, "--points", "p.csv", "-o", "all.csv"}).exit_code, 0);
   ASSERT_EQ(probe({cube, "--points", "p.csv", "-o", "direct.csv", "--direct"}).exit_code, 0);
   const auto all = numbers("all.csv"), direct = numbers("direct.csv");
@@ -147,8 +145,8 @@ TEST_F(Probe, ReportsAsJsonAndKeepsQuiet) {
 
 TEST_F(Probe, ThreadsDoNotChangeTheBytes) {
   const auto bytes = [&](const std::string& threads) {
-    EXPECT_EQ(probe({(data / "bars.obj").string(), "--grid", "floor", "--spacing", "0.2", "-o",
-                     "o.csv", "--direct", "-q", "--threads", threads})
+    EXPECT_EQ(probe({test::data_file("bars.obj").string(), "--grid", "floor", "--spacing", "0.2",
+                     "-o", "o.csv", "--direct", "-q", "--threads", threads})
                   .exit_code,
               0);
     return file("o.csv");
@@ -160,8 +158,8 @@ TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
   test::Outcome outcome;
   // A busy machine may need longer before there is something to write.
   for (int ms = 1500; ms <= 12000 && !exists("r.json"); ms *= 2)
-    outcome = probe({(data / "hundred_lights.obj").string(), "--grid", "floor", "--spacing", "0.01",
-                     "-o", "o.csv", "--direct", "--json", "r.json"},
+    outcome = probe({test::data_file("hundred_lights.obj").string(), "--grid", "floor", "--spacing",
+                     "0.01", "-o", "o.csv", "--direct", "--json", "r.json"},
                     std::chrono::milliseconds(ms));
   EXPECT_EQ(outcome.exit_code, 130);
   EXPECT_NE(outcome.err.find("interrupted: "), std::string::npos) << outcome.err;
@@ -173,7 +171,7 @@ TEST_F(Probe, WritesWhatIsDoneWhenInterrupted) {
 }
 
 TEST_F(Probe, ExamplesOfTheHelpRun) {
-  fs::create_directory_symlink(data, folder() / "data");
+  fs::create_directory_symlink(test::data_folder, folder() / "data");
   const auto examples = test::examples_of(probe({"--help"}).out, "probe");
   EXPECT_GE(examples.size(), 3u);
   for (const std::vector<std::string>& arguments : examples) {
@@ -226,7 +224,7 @@ TEST_F(Probe, RefusesContradictoryUsage) {
 // What is gathered from a file is what is gathered from a solution made on the way, but for their
 // errors: of both, and of the rays.
 TEST_F(Probe, GathersFromAResultOfSolve) {
-  const std::string box = (data / "cornell_box.obj").string();
+  const std::string box = test::data_file("cornell_box.obj").string();
   for (const char* name : {"box.vtu", "box.vtp"}) {
     const test::Outcome solved = test::run_program(
         {test::program, "solve", box, "--tolerance", "0.02", "-o", name, "-q"}, folder());
@@ -254,7 +252,7 @@ TEST_F(Probe, GathersFromAResultOfSolve) {
 
 // What a file says of itself is not lost.
 TEST_F(Probe, ASolutionThatIsLessThanAskedForIsNotTakenForMore) {
-  const std::string box = (data / "cornell_box.obj").string();
+  const std::string box = test::data_file("cornell_box.obj").string();
   const auto solve = [&](std::vector<std::string> more) {
     more.insert(more.begin(),
                 {test::program, "solve", box, "--tolerance", "0.05", "-q", "-o", "box.vtu"});
@@ -278,8 +276,8 @@ TEST_F(Probe, ASolutionThatIsLessThanAskedForIsNotTakenForMore) {
 
 TEST_F(Probe, ASolutionOfAnotherSceneIsRefused) {
   const test::Outcome solved =
-      test::run_program({test::program, "solve", (data / "l_room.obj").string(), "--tolerance",
-                         "0.1", "-o", "l.vtu", "-q"},
+      test::run_program({test::program, "solve", test::data_file("l_room.obj").string(),
+                         "--tolerance", "0.1", "-o", "l.vtu", "-q"},
                         folder());
   ASSERT_EQ(solved.exit_code, 0) << solved.err;
   const test::Outcome outcome =

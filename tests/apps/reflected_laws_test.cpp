@@ -1,8 +1,6 @@
-#include "io/read/read_scene.h"
 #include "meshing/core/rounded.h"
 #include "solver/pipeline/solve.h"
-#include "tests/support/files.h"
-#include "tests/support/random_scene.h"
+#include "tests/support/named_scene.h"
 
 #include <gtest/gtest.h>
 
@@ -43,11 +41,6 @@ std::vector<double> units(const std::string& name) {
   std::vector<double> all = {3, 1e-3, 1e9, 1e-30};
   if (!name.starts_with("random_")) return all;
   return {all[0], all[1 + std::stoul(name.substr(7)) % 3]};
-}
-
-Scene load(const std::string& name) {
-  if (name.starts_with("random_")) return test::random_scene(std::stoul(name.substr(7)));
-  return read_scene(test::data_file(name + ".obj")).scene;
 }
 
 SolveResult solved(const Scene& scene) {
@@ -114,7 +107,7 @@ double largest_difference(const SolveResult& expected, const SolveResult& got) {
 
 class ReflectedLaws : public testing::TestWithParam<std::string> {
  protected:
-  const Scene scene_ = load(GetParam());
+  const Scene scene_ = test::named_scene(GetParam());
   const SolveResult expected_ = solved(scene_);
 };
 
@@ -185,7 +178,7 @@ TEST(LawsOfRays, WhatIsFarAwayOrTinyChangesNothing) {
   options.tolerance = 0.03;
   options.visibility = ReflectedVisibility::sampled;
   for (const char* name : {"cornell_box", "l_room", "table_and_chairs"}) {
-    const Scene scene = load(name);
+    const Scene scene = test::named_scene(name);
     const SolveResult expected = solve(scene, options);
     EXPECT_GT(expected.reflected.rays, 0) << name;
     for (const auto& [distance, extent] :

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string s1 = (fs::path(test::data_folder) / "s1.obj").string();
+const std::string lamp_above_floor = test::data_file("s1.obj").string();
 constexpr double reflectance = 0.5;  // of the receiver
 
 /// What arrives straight from the light, which sends out 1 W/m²: the light is at z = 2, what hides
@@ -132,9 +132,9 @@ struct Solved {
 
 Solved solve_s1(const fs::path& folder, const std::string& output, const std::string& tolerance,
                 const std::vector<std::string>& more = {}) {
-  std::vector<std::string> words = {test::program, "solve",       s1,        "--bounces",
-                                    "0",           "--tolerance", tolerance, "-o",
-                                    output,        "-q",          "--json",  "r.json"};
+  std::vector<std::string> words = {test::program, "solve",       lamp_above_floor, "--bounces",
+                                    "0",           "--tolerance", tolerance,        "-o",
+                                    output,        "-q",          "--json",         "r.json"};
   words.insert(words.end(), more.begin(), more.end());
   Solved run{test::run_program(words, folder), {}};
   run.report = nlohmann::json::parse(test::contents(folder / "r.json"));

@@ -2,12 +2,19 @@
 
 #include "tests/support/scenes.h"
 
+#include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
 /// Scenes with pictures on them.
 namespace halfshade::test {
+
+/// What a byte of an sRGB picture stands for, from 0 to 1.
+inline double linear(int byte) {
+  const double v = byte / 255.;
+  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+}
 
 /// A picture that is one colour left of its middle, another right of it.
 inline std::shared_ptr<const Texture> two_coloured(const Rgb& left, const Rgb& right,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "tests/support/files.h"
+#include "tests/support/places.h"
 
 #include <algorithm>
 #include <array>
@@ -60,6 +61,14 @@ inline Outcome run_program(std::vector<std::string> arguments, const std::filesy
     kill(child, SIGINT);
   }
   return wait_for(child, folder);
+}
+
+/// Runs the program in the same way with `arguments` behind its name.
+inline Outcome run_halfshade(std::vector<std::string> arguments,
+                             const std::filesystem::path& folder,
+                             std::chrono::milliseconds interrupt_after = {}) {
+  arguments.insert(arguments.begin(), program);
+  return run_program(std::move(arguments), folder, interrupt_after);
 }
 
 /// Splits at blanks.

@@ -17,8 +17,9 @@ namespace halfshade::test {
 using Polygon = std::vector<Vec3>;
 
 /// Adds a polygon with holes (outer ring counter-clockwise seen from its front, holes clockwise)
-/// and returns the surface's id.
-inline int add_surface(SoundScene& scene, const std::vector<Polygon>& rings, double exitance = 0) {
+/// with a material of its own, and returns the surface's id.
+inline int add_lit_surface(SoundScene& scene, const std::vector<Polygon>& rings,
+                           double exitance = 0) {
   Surface surface;
   surface.frame = fit_plane(rings.front());
   for (const Polygon& polygon : rings) {
@@ -39,12 +40,12 @@ inline int add_surface(SoundScene& scene, const std::vector<Polygon>& rings, dou
   return id;
 }
 
-inline int add_surface(SoundScene& scene, const Polygon& polygon, double exitance = 0) {
-  return add_surface(scene, std::vector<Polygon>{polygon}, exitance);
+inline int add_lit_surface(SoundScene& scene, const Polygon& polygon, double exitance = 0) {
+  return add_lit_surface(scene, std::vector<Polygon>{polygon}, exitance);
 }
 
 inline void add_box(SoundScene& scene, const Vec3& low, const Vec3& high) {
-  for (const auto& face : box_faces(low, high, false)) add_surface(scene, face);
+  for (const auto& face : box_faces(low, high, false)) add_lit_surface(scene, face);
 }
 
 /// Sets the tolerance from the extent of what has been added.
@@ -83,8 +84,8 @@ inline Polygon random_polygon(Random& random, const Vec3& centre, double radius,
 /// height 1.
 inline SoundScene square_over_square() {
   SoundScene scene;
-  add_surface(scene, facing_down(-.5, .5, -.5, .5, 2), 1);
-  add_surface(scene, facing_down(-.375, .375, -.375, .375, 1));
+  add_lit_surface(scene, facing_down(-.5, .5, -.5, .5, 2), 1);
+  add_lit_surface(scene, facing_down(-.375, .375, -.375, .375, 1));
   finish(scene);
   return scene;
 }
@@ -117,7 +118,7 @@ inline std::vector<std::array<Vec3, 3>> icosphere(const Vec3& centre, double rad
 
 inline void add_sphere(SoundScene& scene, const Vec3& centre, double radius, int levels) {
   for (const auto& [a, b, c] : icosphere(centre, radius, levels))
-    add_surface(scene, Polygon{a, b, c});
+    add_lit_surface(scene, Polygon{a, b, c});
 }
 
 }  // namespace halfshade::test

@@ -11,8 +11,8 @@
 namespace halfshade {
 namespace {
 
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double endless = std::numeric_limits<double>::infinity();
 
 void expect_range(const ValueRange& range, double low, double high) {
   EXPECT_DOUBLE_EQ(range.low, low);
@@ -36,9 +36,9 @@ TEST(ValueRange, BeginsAtZeroWhereTheLowestIsSmall) {
 
 TEST(ValueRange, IsNeverEmpty) {
   expect_range(robust_range({}, ValueScale::linear), 0, 1);
-  expect_range(robust_range({nan, infinity}, ValueScale::linear), 0, 1);
+  expect_range(robust_range({no_number, endless}, ValueScale::linear), 0, 1);
   expect_range(robust_range({0, 0}, ValueScale::linear), 0, 1);
-  expect_range(robust_range({3, 3, nan}, ValueScale::linear), 0, 3);
+  expect_range(robust_range({3, 3, no_number}, ValueScale::linear), 0, 3);
   expect_range(robust_range({-3, -3}, ValueScale::linear), -3, 0);
   expect_range(robust_range({2, 2}, ValueScale::linear, true), 1.5, 2.5);
   expect_range(robust_range({0, -1}, ValueScale::log), 0.1, 1);
@@ -63,9 +63,9 @@ TEST(ValueRange, SharesAreEvenInValuesOrLogarithms) {
   EXPECT_DOUBLE_EQ(share_in({2, 6}, ValueScale::linear, 3), 0.25);
   EXPECT_DOUBLE_EQ(share_in({2, 6}, ValueScale::linear, 0), -0.5);
   EXPECT_NEAR(share_in({1e-2, 1e2}, ValueScale::log, 0.1), 0.25, 1e-15);
-  EXPECT_EQ(share_in({1, 10}, ValueScale::log, 0), -infinity);
-  EXPECT_TRUE(std::isnan(share_in({1, 10}, ValueScale::log, nan)));
-  EXPECT_TRUE(std::isnan(share_in({1, 10}, ValueScale::linear, nan)));
+  EXPECT_EQ(share_in({1, 10}, ValueScale::log, 0), -endless);
+  EXPECT_TRUE(std::isnan(share_in({1, 10}, ValueScale::log, no_number)));
+  EXPECT_TRUE(std::isnan(share_in({1, 10}, ValueScale::linear, no_number)));
 }
 
 std::string labels(double low, double high, int most, bool is_whole = false) {

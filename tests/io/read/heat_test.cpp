@@ -5,28 +5,29 @@
 namespace halfshade {
 namespace {
 
-const std::string obj =
+const std::string obj_of_heat =
     "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\ng a\nusemtl m\nf 1 2 3\ng b\nusemtl n\n"
     "f 1 3 4\n";
 
-SceneFile read(const std::string& mtl, const std::string& materials = "") {
+SceneFile read_heat(const std::string& mtl, const std::string& materials = "") {
   const test::TempDir folder;
   folder.write("scene.mtl", mtl);
-  const auto file = folder.write("scene.obj", obj);
+  const auto file = folder.write("scene.obj", obj_of_heat);
   return read_scene(
       file, materials.empty() ? std::filesystem::path() : folder.write("heat.json", materials));
 }
 
-void expect_refused(const std::string& mtl, const std::string& materials,
-                    const std::vector<std::string>& parts) {
+void expect_heat_refused(const std::string& mtl, const std::string& materials,
+                         const std::vector<std::string>& parts) {
   SCOPED_TRACE(mtl + materials);
-  test::expect_error([&] { read(mtl, materials); }, ErrorCode::invalid_input, parts);
+  test::expect_error([&] { read_heat(mtl, materials); }, ErrorCode::invalid_input, parts);
 }
 
 const std::string grey = "newmtl m\nKd 0.5\nnewmtl n\nKd 0.25\n";
 
 TEST(HeatValues, OfMtlFilesAreReflectancesAndExitances) {
-  const SceneFile file = read("newmtl m\nemissivity 0.75\ntemperature 600\nnewmtl n\nnet_flux 0\n");
+  const SceneFile file =
+      read_heat("newmtl m\nemissivity 0.75\ntemperature 600\nnewmtl n\nnet_flux 0\n");
   EXPECT_THAT(file.warnings, testing::IsEmpty());
   EXPECT_TRUE(file.heat.is_given);
   const std::vector<Material>& materials = file.scene.materials;
@@ -36,22 +37,22 @@ TEST(HeatValues, OfMtlFilesAreReflectancesAndExitances) {
   EXPECT_EQ(materials[1].exitance[0], 0);
   EXPECT_EQ(file.heat.materials.at(0).temperature, 600);
   EXPECT_TRUE(file.heat.materials.at(1).is_adiabatic);
-  EXPECT_FALSE(read(grey).heat.is_given);
+  EXPECT_FALSE(read_heat(grey).heat.is_given);
 }
 
 TEST(HeatValues, OfMaterialsFilesOverrideTheScenes) {
   const std::string mtl = "newmtl m\nKd 0.5\nKe 7\nnewmtl n\nemissivity 0.5\ntemperature 500\n";
-  const SceneFile file = read(mtl, R"({"a": {"temperature": 300}, "n": {"emissivity": 1}})");
+  const SceneFile file = read_heat(mtl, R"({"a": {"temperature": 300}, "n": {"emissivity": 1}})");
   const double black = stefan_boltzmann * 300 * 300 * 300 * 300;
   EXPECT_DOUBLE_EQ(file.scene.materials.at(1).exitance[0], 0.5 * black) << "instead of Ke";
   EXPECT_DOUBLE_EQ(file.scene.materials.at(0).exitance[0], black / 81 * 625) << "with the new ε";
-  const SceneFile lamp = read(mtl, R"({"n": {"exitance": 3}})");
+  const SceneFile lamp = read_heat(mtl, R"({"n": {"exitance": 3}})");
   EXPECT_EQ(lamp.scene.materials.at(1).exitance[0], 3);
   EXPECT_FALSE(lamp.heat.materials.at(1).temperature);
 }
 
 TEST(HeatValues, BandsAreChannels) {
-  const SceneFile file = read(grey, R"({
+  const SceneFile file = read_heat(grey, R"({
     "bands": [{"name": "solar", "wavelengths_um": [0, 3]}, {"name": "far", "wavelengths_um": [3, null]}],
     "m": {"emissivity": [0.2, 0.9], "temperature": 1000}, "n": {"exitance": [5, 0]}})");
   ASSERT_EQ(file.heat.bands.size(), 2U);
@@ -64,42 +65,46 @@ TEST(HeatValues, BandsAreChannels) {
   EXPECT_EQ(m.rho[2], 0);
   EXPECT_EQ(n.rho[0], 0.25);
   EXPECT_EQ(n.exitance[0], 5);
-  const SceneFile one = read(grey, R"({"bands": ["all"], "m": {"temperature": 1000}})");
+  const SceneFile one = read_heat(grey, R"({"bands": ["all"], "m": {"temperature": 1000}})");
   EXPECT_DOUBLE_EQ(one.scene.materials.at(0).exitance[2], 0.5 * all);
 }
 
 TEST(HeatValues, ThatContradictEachOtherAreRefused) {
   const std::string m = "newmtl n\nKd 0.5\nnewmtl m\n";
-  expect_refused(m + "temperature -1\n", "", {"scene.mtl:4", "'m'", "-1 K", "below 0 K"});
-  expect_refused(m + "emissivity 1.5\n", "", {"'m'", "emissivity is 1.5", "[0, 1]"});
-  expect_refused(m + "Kd 0.5\nemissivity 0.4\n", "", {"reflectance 0.5", "emissivity 0.4"});
-  expect_refused(m + "Ke 1\ntemperature 9\n", "", {"temperature 9 K", "exitance 1 W/m²"});
-  expect_refused(m + "temperature 9\nnet_flux 0\n", "", {"net_flux 0", "temperature 9 K"});
-  expect_refused(m + "net_flux 4\n", "", {"net flux is 4 W/m²", "only 0"});
-  expect_refused(m + "temperature 3 4 5\n", "", {"temperature", "single number"});
-  expect_refused("temperature 3\n", "", {"before any newmtl"});
-  expect_refused(grey, R"({"m": {"temperature": -5}})", {"heat.json", "'m'", "-5 K"});
-  expect_refused(grey, R"({"m": {"emissivity": 1.5}})", {"'m': 'emissivity'", "1.5", "[0, 1]"});
-  expect_refused(grey, R"({"m": {"temperature": "hot"}})", {"'temperature'", "must be a number"});
-  expect_refused(grey, R"({"m": {"emissivity": 0.5, "reflectance": 0.4}})", {"'m'", "add up to 1"});
-  expect_refused(grey, R"({"m": {"net_flux": 0, "exitance": 1}})", {"'m'", "net_flux 0"});
+  expect_heat_refused(m + "temperature -1\n", "", {"scene.mtl:4", "'m'", "-1 K", "below 0 K"});
+  expect_heat_refused(m + "emissivity 1.5\n", "", {"'m'", "emissivity is 1.5", "[0, 1]"});
+  expect_heat_refused(m + "Kd 0.5\nemissivity 0.4\n", "", {"reflectance 0.5", "emissivity 0.4"});
+  expect_heat_refused(m + "Ke 1\ntemperature 9\n", "", {"temperature 9 K", "exitance 1 W/m²"});
+  expect_heat_refused(m + "temperature 9\nnet_flux 0\n", "", {"net_flux 0", "temperature 9 K"});
+  expect_heat_refused(m + "net_flux 4\n", "", {"net flux is 4 W/m²", "only 0"});
+  expect_heat_refused(m + "temperature 3 4 5\n", "", {"temperature", "single number"});
+  expect_heat_refused("temperature 3\n", "", {"before any newmtl"});
+  expect_heat_refused(grey, R"({"m": {"temperature": -5}})", {"heat.json", "'m'", "-5 K"});
+  expect_heat_refused(grey, R"({"m": {"emissivity": 1.5}})",
+                      {"'m': 'emissivity'", "1.5", "[0, 1]"});
+  expect_heat_refused(grey, R"({"m": {"temperature": "hot"}})",
+                      {"'temperature'", "must be a number"});
+  expect_heat_refused(grey, R"({"m": {"emissivity": 0.5, "reflectance": 0.4}})",
+                      {"'m'", "add up to 1"});
+  expect_heat_refused(grey, R"({"m": {"net_flux": 0, "exitance": 1}})", {"'m'", "net_flux 0"});
 }
 
 TEST(HeatValues, WithoutAKnownPartOfTheSpectrumAreRefused) {
   const std::string coloured = "newmtl m\nKd 0.5\nnewmtl n\nKd 0.25 0.5 0.5\n";
-  expect_refused(coloured, R"({"m": {"temperature": 5}})", {"'m'", "'n'", "red, green and blue"});
-  expect_refused(coloured, R"({"m": {"net_flux": 0}})", {"'m'", "net flux"});
-  expect_refused(coloured, R"({"bands": ["a", "b"]})", {"'n'", "[0.25, 0.5, 0.5]", "2 bands"});
-  expect_refused(grey, R"({"bands": ["a", "b"], "m": {"temperature": 5}})",
-                 {"'m'", "'a'", "wavelengths_um"});
-  expect_refused("newmtl m\nnewmtl n\nKd 0.25\n",
-                 R"({"bands": [{"name": "a", "wavelengths_um": [0, 2]}, {"name": "b",
+  expect_heat_refused(coloured, R"({"m": {"temperature": 5}})",
+                      {"'m'", "'n'", "red, green and blue"});
+  expect_heat_refused(coloured, R"({"m": {"net_flux": 0}})", {"'m'", "net flux"});
+  expect_heat_refused(coloured, R"({"bands": ["a", "b"]})", {"'n'", "[0.25, 0.5, 0.5]", "2 bands"});
+  expect_heat_refused(grey, R"({"bands": ["a", "b"], "m": {"temperature": 5}})",
+                      {"'m'", "'a'", "wavelengths_um"});
+  expect_heat_refused("newmtl m\nnewmtl n\nKd 0.25\n",
+                      R"({"bands": [{"name": "a", "wavelengths_um": [0, 2]}, {"name": "b",
                  "wavelengths_um": [2, null]}], "m": {"net_flux": 0}})",
-                 {"'m'", "net flux", "no emissivity", "2 bands"});
+                      {"'m'", "net flux", "no emissivity", "2 bands"});
 }
 
 TEST(HeatValues, MoreBandsThanChannelsStandBesideTheScene) {
-  const SceneFile file = read(grey, R"({"bands": ["a", "b", "c", "d"],
+  const SceneFile file = read_heat(grey, R"({"bands": ["a", "b", "c", "d"],
     "m": {"emissivity": [0.1, 0.2, 0.3, 0.4], "exitance": [1, 2, 3, 4]}})");
   const HeatMaterial &m = file.heat.materials.at(0), &n = file.heat.materials.at(1);
   EXPECT_TRUE(m.exitance.isApprox(Eigen::Array4d(1, 2, 3, 4)));
@@ -111,7 +116,7 @@ TEST(HeatValues, MoreBandsThanChannelsStandBesideTheScene) {
 
 TEST(HeatValues, BandsThatMakeNoSenseAreRefused) {
   const auto refuse = [](const std::string& bands, const std::vector<std::string>& parts) {
-    expect_refused(grey, "{\"bands\": " + bands + "}", parts);
+    expect_heat_refused(grey, "{\"bands\": " + bands + "}", parts);
   };
   refuse("[]", {"'bands'", "0 entries"});
   std::string many = "[0";

@@ -3,6 +3,7 @@
 #include "meshing/repair/repair.h"
 #include "solver/direct/direct_light.h"
 #include "tests/support/files.h"
+#include "tests/support/painted.h"
 
 #include <fmt/format.h>
 
@@ -16,18 +17,13 @@ namespace {
 
 using testing::HasSubstr;
 
-double linear(int byte) {
-  const double v = byte / 255.;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 /// Linear between the middles of columns, even beyond the outermost.
 double exitance(const std::vector<int>& columns, double u) {
   const auto count = static_cast<double>(columns.size());
   const double along = std::clamp(u * count - 0.5, 0., count - 1), below = std::floor(along);
   const auto k = static_cast<std::size_t>(below);
-  const double high = linear(columns[std::min(k + 1, columns.size() - 1)]);
-  return linear(columns[k]) + (along - below) * (high - linear(columns[k]));
+  const double high = test::linear(columns[std::min(k + 1, columns.size() - 1)]);
+  return test::linear(columns[k]) + (along - below) * (high - test::linear(columns[k]));
 }
 
 /// Of a rectangle from 0 to x, y straight over a parallel element below its corner, at height 1.

@@ -14,15 +14,16 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 /// Three faces: red and white ones in the group "room", a red one in the group "lamp".
-const std::string obj =
+const std::string two_squares =
     "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
     "g room\nusemtl red\nf 1 2 3\nusemtl white\nf 1 3 4\ng lamp\nusemtl red\nf 1 2 4\n";
-const std::string mtl = "newmtl red\nKd 0.6 0.1 0.1\nnewmtl white\nKd 0.8 0.8 0.8\nKe 1 2 3\n";
+const std::string two_materials =
+    "newmtl red\nKd 0.6 0.1 0.1\nnewmtl white\nKd 0.8 0.8 0.8\nKe 1 2 3\n";
 
-SceneFile read(const std::string& materials, const std::string& sidecar = "",
-               const std::string& scene = obj) {
+SceneFile read_with(const std::string& materials, const std::string& sidecar = "",
+                    const std::string& scene = two_squares) {
   const TempDir folder;
-  folder.write("scene.mtl", mtl);
+  folder.write("scene.mtl", two_materials);
   if (!sidecar.empty()) folder.write("scene.json", sidecar);
   const auto path = folder.write("scene.obj", scene);
   return materials.empty() ? read_scene(path)
@@ -34,7 +35,7 @@ const Material& material_of(const Scene& scene, std::size_t face) {
 }
 
 TEST(Materials, OverrideAMaterialWhereverItIsUsed) {
-  const Scene scene = read(R"({"red": {"reflectance": [0.5, 0.25, 0]}})").scene;
+  const Scene scene = read_with(R"({"red": {"reflectance": [0.5, 0.25, 0]}})").scene;
   ASSERT_EQ(scene.materials.size(), 2U);
   for (const std::size_t face : {0U, 2U})
     EXPECT_TRUE((material_of(scene, face).rho == Rgb(0.5, 0.25, 0)).all());
@@ -42,45 +43,47 @@ TEST(Materials, OverrideAMaterialWhereverItIsUsed) {
 }
 
 TEST(Materials, ALibraryThatIsNotThereDoesNotMatterIfAllIsGiven) {
-  std::string scene = obj;
+  std::string scene = two_squares;
   scene.replace(scene.find("scene.mtl"), 9, "other.mtl");
   const std::string both = R"({"red": {"reflectance": 0.5}, "white": {"exitance": 1}})";
-  EXPECT_THAT(read(both, "", scene).warnings, ElementsAre(HasSubstr("scene.obj:1: mtllib names")));
-  EXPECT_THAT(read("", R"({"materials": )" + both + "}", scene).warnings,
+  EXPECT_THAT(read_with(both, "", scene).warnings,
+              ElementsAre(HasSubstr("scene.obj:1: mtllib names")));
+  EXPECT_THAT(read_with("", R"({"materials": )" + both + "}", scene).warnings,
               ElementsAre(HasSubstr("'other.mtl'")));
-  expect_error([&] { read(R"({"red": {"reflectance": 0.5}})", "", scene); },
+  expect_error([&] { read_with(R"({"red": {"reflectance": 0.5}})", "", scene); },
                ErrorCode::invalid_input, {"scene.obj:1", "'other.mtl'"});
-  expect_error([&] { read("", "", scene); }, ErrorCode::invalid_input, {"'other.mtl'"});
+  expect_error([&] { read_with("", "", scene); }, ErrorCode::invalid_input, {"'other.mtl'"});
 }
 
 TEST(Materials, OneNameForTwoThingsIsTold) {
-  std::string scene = obj;
+  std::string scene = two_squares;
   scene.replace(scene.find("g lamp"), 6, "g red");  // a group of one of the two red faces
-  EXPECT_THAT(read(R"({"red": {"reflectance": 0.5}})", "", scene).warnings,
+  EXPECT_THAT(read_with(R"({"red": {"reflectance": 0.5}})", "", scene).warnings,
               ElementsAre(HasSubstr("'red' names a group and a material")));
-  EXPECT_THAT(read(R"({"white": {"reflectance": 0.5}})", "", scene).warnings, IsEmpty());
+  EXPECT_THAT(read_with(R"({"white": {"reflectance": 0.5}})", "", scene).warnings, IsEmpty());
   const std::string same =
       "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\ng red\nusemtl red\nf 1 2 3\n";
-  EXPECT_THAT(read(R"({"red": {"reflectance": 0.5}})", "", same).warnings, IsEmpty())
+  EXPECT_THAT(read_with(R"({"red": {"reflectance": 0.5}})", "", same).warnings, IsEmpty())
       << "they are the same faces";
 }
 
 TEST(Materials, AGuessedReflectanceIsTold) {
   const std::string plain = "v 0 0 0\nv 1 0 0\nv 1 1 0\ng a\nf 1 2 3\ng b\nf 1 2 3\n";
-  EXPECT_THAT(read("", "", plain).guesses, ElementsAre(HasSubstr("2 of 2 faces have no material")));
-  EXPECT_THAT(read(R"({"a": {"reflectance": 0.1}})", "", plain).guesses,
+  EXPECT_THAT(read_with("", "", plain).guesses,
+              ElementsAre(HasSubstr("2 of 2 faces have no material")));
+  EXPECT_THAT(read_with(R"({"a": {"reflectance": 0.1}})", "", plain).guesses,
               ElementsAre(HasSubstr("1 of 2 faces")));
-  EXPECT_THAT(read(R"({"default": {"reflectance": 0.1}})", "", plain).guesses, IsEmpty());
-  EXPECT_THAT(read("").guesses, IsEmpty());
+  EXPECT_THAT(read_with(R"({"default": {"reflectance": 0.1}})", "", plain).guesses, IsEmpty());
+  EXPECT_THAT(read_with("").guesses, IsEmpty());
 }
 
 TEST(Materials, AReportIsNoSidecar) {
-  expect_error([&] { read("", R"({"version": "0.1.0", "command_line": "a", "unit": "m"})"); },
+  expect_error([&] { read_with("", R"({"version": "0.1.0", "command_line": "a", "unit": "m"})"); },
                ErrorCode::invalid_input, {"scene.json", "report"});
 }
 
 TEST(Materials, LeaveWhatTheyDoNotName) {
-  const Scene scene = read(R"({"white": {"two_sided": true}})").scene;
+  const Scene scene = read_with(R"({"white": {"two_sided": true}})").scene;
   const Material& white = material_of(scene, 1);
   EXPECT_TRUE(white.two_sided);
   EXPECT_TRUE((white.rho == 0.8).all());
@@ -90,12 +93,12 @@ TEST(Materials, LeaveWhatTheyDoNotName) {
 
 TEST(Materials, MaySayTheSameTwice) {
   const Scene scene =
-      read(R"({"red": {"exitance": 1, "exitance": 1.0}, "lamp": {}, "lamp": {}})").scene;
+      read_with(R"({"red": {"exitance": 1, "exitance": 1.0}, "lamp": {}, "lamp": {}})").scene;
   EXPECT_TRUE((material_of(scene, 0).exitance == 1).all());
 }
 
 TEST(Materials, OverrideAGroupOnItsFacesOnly) {
-  const Scene scene = read(R"({"lamp": {"exitance": 7, "reflectance": 0}})").scene;
+  const Scene scene = read_with(R"({"lamp": {"exitance": 7, "reflectance": 0}})").scene;
   EXPECT_TRUE((material_of(scene, 2).exitance == 7).all());
   EXPECT_TRUE((material_of(scene, 2).rho == 0).all());
   EXPECT_TRUE((material_of(scene, 0).rho == Rgb(0.6, 0.1, 0.1)).all());
@@ -104,7 +107,7 @@ TEST(Materials, OverrideAGroupOnItsFacesOnly) {
 }
 
 TEST(Materials, OverrideAGroupOfSeveralMaterialsKeepingTheirDifferences) {
-  const Scene scene = read(R"({"room": {"exitance": 7}})").scene;
+  const Scene scene = read_with(R"({"room": {"exitance": 7}})").scene;
   EXPECT_TRUE((material_of(scene, 0).rho == Rgb(0.6, 0.1, 0.1)).all());
   EXPECT_TRUE((material_of(scene, 1).rho == 0.8).all());
   for (const std::size_t face : {0U, 1U})
@@ -115,7 +118,7 @@ TEST(Materials, OverrideAGroupOfSeveralMaterialsKeepingTheirDifferences) {
 TEST(Materials, LetTheGroupWinOverTheMaterialWhateverTheOrder) {
   for (const char* json : {R"({"lamp": {"reflectance": 0.2}, "red": {"reflectance": 0.9}})",
                            R"({"red": {"reflectance": 0.9}, "lamp": {"reflectance": 0.2}})"}) {
-    const Scene scene = read(json).scene;
+    const Scene scene = read_with(json).scene;
     EXPECT_TRUE((material_of(scene, 0).rho == 0.9).all());
     EXPECT_TRUE((material_of(scene, 2).rho == 0.2).all());
   }
@@ -124,7 +127,7 @@ TEST(Materials, LetTheGroupWinOverTheMaterialWhateverTheOrder) {
 TEST(Materials, TakeANameAsAGroupFirst) {
   const std::string twins =
       "mtllib scene.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\ng red\nf 1 2 3\ng other\nf 1 3 2\n";
-  const Scene scene = read(R"({"red": {"reflectance": 0}})", "", twins).scene;
+  const Scene scene = read_with(R"({"red": {"reflectance": 0}})", "", twins).scene;
   EXPECT_TRUE((material_of(scene, 0).rho == 0).all());
   EXPECT_TRUE((material_of(scene, 1).rho == Rgb(0.6, 0.1, 0.1)).all());
 }
@@ -132,10 +135,10 @@ TEST(Materials, TakeANameAsAGroupFirst) {
 TEST(Materials, WinOverTheSidecarsMaterials) {
   const std::string sidecar = R"({"materials": {"lamp": {"reflectance": 0.1, "exitance": 3},
                                                 "white": {"reflectance": 0.4}}})";
-  const Scene before = read("", sidecar).scene;
+  const Scene before = read_with("", sidecar).scene;
   EXPECT_TRUE((material_of(before, 2).rho == 0.1).all());
   EXPECT_TRUE((material_of(before, 1).rho == 0.4).all());
-  const Scene after = read(R"({"red": {"reflectance": 0.7}})", sidecar).scene;
+  const Scene after = read_with(R"({"red": {"reflectance": 0.7}})", sidecar).scene;
   EXPECT_TRUE((material_of(after, 0).rho == 0.7).all());
   EXPECT_TRUE((material_of(after, 1).rho == 0.4).all());
   EXPECT_TRUE((material_of(after, 2).rho == 0.7).all());
@@ -145,25 +148,25 @@ TEST(Materials, WinOverTheSidecarsMaterials) {
 TEST(Materials, MakeABadOrMissingMaterialGood) {
   const std::string undefined = "v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl brick\nf 1 2 3\n";
   EXPECT_TRUE(
-      (read(R"({"brick": {"reflectance": 0.3}})", "", undefined).scene.materials[0].rho == 0.3)
+      (read_with(R"({"brick": {"reflectance": 0.3}})", "", undefined).scene.materials[0].rho == 0.3)
           .all());
   const TempDir folder;
   folder.write("scene.mtl", "newmtl red\nKd 1.5 0 0\nnewmtl white\nKd 0 0 0\n");
-  const auto path = folder.write("scene.obj", obj);
+  const auto path = folder.write("scene.obj", two_squares);
   EXPECT_THROW(read_scene(path), Error);
   EXPECT_NO_THROW(read_scene(path, folder.write("m.json", R"({"red": {"reflectance": 1}})")));
 }
 
 TEST(Materials, NameTheDefaultMaterialOfAGroupAfterTheGroup) {
-  const Scene scene =
-      read(R"({"wall": {"reflectance": 0.3}})", "", "v 0 0 0\nv 1 0 0\nv 1 1 0\ng wall\nf 1 2 3\n")
-          .scene;
+  const Scene scene = read_with(R"({"wall": {"reflectance": 0.3}})", "",
+                                "v 0 0 0\nv 1 0 0\nv 1 1 0\ng wall\nf 1 2 3\n")
+                          .scene;
   ASSERT_EQ(scene.materials.size(), 1U);
   EXPECT_EQ(scene.materials[0].name, "wall");
 }
 
 TEST(Materials, MayHaveComments) {
-  EXPECT_NO_THROW(read("// paints\n{\"red\": {/* dull */ \"reflectance\": 0.1}}"));
+  EXPECT_NO_THROW(read_with("// paints\n{\"red\": {/* dull */ \"reflectance\": 0.1}}"));
 }
 
 struct BadJson {
@@ -179,7 +182,7 @@ class BadMaterials : public testing::TestWithParam<BadJson> {};
 TEST_P(BadMaterials, AreRefusedNamingFileAndKey) {
   std::vector<std::string> parts = GetParam().sentence;
   parts.emplace_back("extra.json");
-  expect_error([&] { read(GetParam().json); }, ErrorCode::invalid_input, parts);
+  expect_error([&] { read_with(GetParam().json); }, ErrorCode::invalid_input, parts);
 }
 
 const BadJson bad_materials[] = {
@@ -213,7 +216,7 @@ INSTANTIATE_TEST_SUITE_P(Files, BadMaterials, testing::ValuesIn(bad_materials),
                          [](const auto& param) { return param.param.name; });
 
 TEST(Sidecar, GivesUnitAndCameras) {
-  const SceneFile file = read("", R"({"unit": "mm", "cameras": [
+  const SceneFile file = read_with("", R"({"unit": "mm", "cameras": [
       {"name": "door", "position": [1, 2, 3], "target": [1, 2, 0], "up": [1, 0, 0],
        "vertical_fov": 55.5},
       {"position": [0, 0, 5], "direction": [0, 0, -1]}]})");
@@ -232,20 +235,20 @@ TEST(Sidecar, GivesUnitAndCameras) {
 }
 
 TEST(Sidecar, IsOptional) {
-  const Scene scene = read("").scene;
+  const Scene scene = read_with("").scene;
   EXPECT_EQ(scene.unit, "m");
   EXPECT_THAT(scene.cameras, IsEmpty());
 }
 
 TEST(Sidecar, WarnsOfKeysItDoesNotKnow) {
-  EXPECT_THAT(read("", R"({"camera": []})").warnings,
+  EXPECT_THAT(read_with("", R"({"camera": []})").warnings,
               ElementsAre(HasSubstr("'camera' is not used")));
 }
 
 TEST(Sidecar, IsNotReadTwiceWhenItIsTheMaterialsFile) {
   const TempDir folder;
-  folder.write("scene.mtl", mtl);
-  const auto path = folder.write("scene.obj", obj);
+  folder.write("scene.mtl", two_materials);
+  const auto path = folder.write("scene.obj", two_squares);
   const auto json = folder.write("scene.json", R"({"red": {"reflectance": 0.5}})");
   const SceneFile file = read_scene(path, json);
   EXPECT_THAT(file.warnings, IsEmpty());
@@ -257,7 +260,7 @@ class BadSidecar : public testing::TestWithParam<BadJson> {};
 TEST_P(BadSidecar, IsRefusedNamingFileAndKey) {
   std::vector<std::string> parts = GetParam().sentence;
   parts.emplace_back("scene.");
-  expect_error([&] { read("", GetParam().json); }, ErrorCode::invalid_input, parts);
+  expect_error([&] { read_with("", GetParam().json); }, ErrorCode::invalid_input, parts);
 }
 
 const BadJson bad_sidecars[] = {

@@ -4,6 +4,7 @@
 #include "meshing/repair/repair.h"
 #include "solver/direct/painted_light.h"
 #include "tests/support/files.h"
+#include "tests/support/painted.h"
 
 #include <fmt/format.h>
 
@@ -35,13 +36,8 @@ struct Painting {
   }
 };
 
-double linear(int byte) {
-  const double v = byte / 255.;
-  return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-}
-
 Rgb linear(const std::array<int, 3>& bytes) {
-  return {linear(bytes[0]), linear(bytes[1]), linear(bytes[2])};
+  return {test::linear(bytes[0]), test::linear(bytes[1]), test::linear(bytes[2])};
 }
 
 /// Linear between the centres of texels; repeats.
@@ -53,7 +49,7 @@ Rgb colour(const Painting& painting, double u, double v) {
   return (1 - t) * ((1 - s) * at(0, 0) + s * at(1, 0)) + t * ((1 - s) * at(0, 1) + s * at(1, 1));
 }
 
-void write(const Painting& painting, const std::filesystem::path& path) {
+void write_painting(const Painting& painting, const std::filesystem::path& path) {
   Picture picture{painting.width, painting.height, 1, {}, {}};
   for (int row = painting.height - 1; row >= 0; --row)
     for (int column = 0; column < painting.width; ++column)
@@ -62,18 +58,19 @@ void write(const Painting& painting, const std::filesystem::path& path) {
   write_png(picture, path);
 }
 
-SceneFile read(const Painting& painting, const std::string& obj, const std::string& mtl,
-               const std::string& json = "") {
+SceneFile read_painted(const Painting& painting, const std::string& obj, const std::string& mtl,
+                       const std::string& json = "") {
   const TempDir folder;
-  write(painting, folder.path() / "lamp.png");
+  write_painting(painting, folder.path() / "lamp.png");
   folder.write("scene.mtl", "newmtl m\n" + mtl);
   const auto scene = folder.write("scene.obj", "mtllib scene.mtl\nusemtl m\n" + obj);
   if (json.empty()) return read_scene(scene);
   return read_scene(scene, folder.write("materials.json", json));
 }
 
-const std::string square = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-const std::string whole = square + "f 1/1 2/2 3/3 4/4\n";
+const std::string painted_square =
+    "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
+const std::string whole_picture = painted_square + "f 1/1 2/2 3/3 4/4\n";
 
 const Painting two = {64, 64, [](int x, int) {
                         return x < 16 ? std::array{255, 0, 0} : std::array{0, 188, 255};
@@ -121,7 +118,7 @@ Rgb power(const Scene& scene) {
 
 TEST(PaintedLights, TwoColoursAreTwoPieces) {
   const SceneFile file =
-      read(two, whole + "f 1 2 4\n", "Kd .3 .3 .3\nKe 10 20 30\nmap_Ke lamp.png\n");
+      read_painted(two, whole_picture + "f 1 2 4\n", "Kd .3 .3 .3\nKe 10 20 30\nmap_Ke lamp.png\n");
   EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("have its colours alone")));
   const Scene& scene = file.scene;
   ASSERT_EQ(scene.faces.size(), 3U);
@@ -133,7 +130,7 @@ TEST(PaintedLights, TwoColoursAreTwoPieces) {
   EXPECT_EQ(left.name, "m, part 1");
   EXPECT_EQ(right.name, "m, part 2");
   EXPECT_LT((left.exitance - Rgb(10, 0, 0)).abs().maxCoeff(), 1e-6);
-  EXPECT_LT((right.exitance - Rgb(0, 20 * linear(188), 30)).abs().maxCoeff(), 1e-6);
+  EXPECT_LT((right.exitance - Rgb(0, 20 * test::linear(188), 30)).abs().maxCoeff(), 1e-6);
   EXPECT_EQ(right.rho[0], 0.3);
   EXPECT_NEAR(extent(face_corners(scene, 0), 0, true), 0.5, 1e-12);
   EXPECT_NEAR(extent(face_corners(scene, 2), 0, false), 0.5, 1e-12);
@@ -143,7 +140,7 @@ TEST(PaintedLights, TwoColoursAreTwoPieces) {
 
 TEST(PaintedLights, OneColourLeavesAFaceAsItIs) {
   const Painting one = {300, 7, [](int, int) { return std::array{188, 100, 255}; }};
-  const SceneFile file = read(one, whole, "Kd 0 0 0\nmap_Ke lamp.png\n");
+  const SceneFile file = read_painted(one, whole_picture, "Kd 0 0 0\nmap_Ke lamp.png\n");
   EXPECT_THAT(file.warnings, IsEmpty());
   ASSERT_EQ(file.scene.materials.size(), 1U);
   EXPECT_EQ(file.scene.materials[0].name, "m");
@@ -209,7 +206,7 @@ TEST(PaintedLights, HaveThePowerOfThePicture) {
           truth += std::pow(2.4 / count, 2) * colour(painting, place.x(), place.y());
         }
       const SceneFile file =
-          read(painting, as_obj(outline), "Kd 0 0 0\nKe 5 6 7\nmap_Ke lamp.png\n");
+          read_painted(painting, as_obj(outline), "Kd 0 0 0\nKe 5 6 7\nmap_Ke lamp.png\n");
       truth *= Rgb(5, 6, 7);
       EXPECT_LT(((power(file.scene) - truth) / truth).abs().maxCoeff(), 5e-3) << outline.name;
       // What is made sound covers what was there, once.
@@ -226,10 +223,10 @@ TEST(PaintedLights, LightAsThePictureDoes) {
   const std::string plate = "usemtl n\nv .5 .2 .2\nv 1 .2 .2\nv 1 .6 .2\nv .5 .6 .2\nf 5 8 7 6\n";
   for (const auto& [painting, off] : {std::pair{ramp, 0.01}, {two, 0.01}, {hills, 0.02}}) {
     const std::string mtl = "Kd 0 0 0\nKe 10 10 10\nmap_Ke lamp.png\nnewmtl n\nKd 0 0 0\n";
-    const SceneFile file = read(painting, whole + plate, mtl);
+    const SceneFile file = read_painted(painting, whole_picture + plate, mtl);
     const SoundScene pieces = make_sound(file.scene);
-    const SoundScene face =
-        make_sound(read(painting, whole + plate, mtl, R"({"m": {"exitance": 1}})").scene);
+    const SoundScene face = make_sound(
+        read_painted(painting, whole_picture + plate, mtl, R"({"m": {"exitance": 1}})").scene);
     const DirectLightIndex of_pieces(pieces), of_face(face);
     ASSERT_EQ(of_face.emitters().size(), 1U);
     EXPECT_GT(of_pieces.emitters().size(), 1U);
@@ -249,9 +246,9 @@ TEST(PaintedLights, LightAsThePictureDoes) {
 }
 
 TEST(PaintedLights, KeepWhatElseTheFaceHas) {
-  const SceneFile file =
-      read(two, "g a\n" + whole + "g b\nf 1/1 3/3 4/4\n",
-           "map_Kd -s 2 1 lamp.png\nKe 1 1 1\nmap_Ke lamp.png\n", R"({"a": {"two_sided": true}})");
+  const SceneFile file = read_painted(two, "g a\n" + whole_picture + "g b\nf 1/1 3/3 4/4\n",
+                                      "map_Kd -s 2 1 lamp.png\nKe 1 1 1\nmap_Ke lamp.png\n",
+                                      R"({"a": {"two_sided": true}})");
   EXPECT_THAT(file.warnings, IsEmpty());
   const Scene& scene = file.scene;
   ASSERT_EQ(scene.faces.size(), 4U);
@@ -276,7 +273,8 @@ TEST(PaintedLights, DarkPiecesAreNoEmitters) {
                                const int byte = (x / 8 + y / 8) % 2 * 255;
                                return std::array{byte, byte, byte};
                              }};
-  const SceneFile file = read(chequers, whole, "Kd .2 .2 .2\nKe 3 3 3\nmap_Ke lamp.png\n");
+  const SceneFile file =
+      read_painted(chequers, whole_picture, "Kd .2 .2 .2\nKe 3 3 3\nmap_Ke lamp.png\n");
   EXPECT_THAT(file.warnings, IsEmpty());
   EXPECT_EQ(file.scene.faces.size(), 64U);
   ASSERT_EQ(file.scene.materials.size(), 2U);
@@ -286,13 +284,14 @@ TEST(PaintedLights, DarkPiecesAreNoEmitters) {
 }
 
 TEST(PaintedLights, SayWhatTooFewPiecesLeaveOut) {
-  const SceneFile file = read(noise, whole, "Kd 0 0 0\nKe 1 1 1\nmap_Ke lamp.png\n");
+  const SceneFile file =
+      read_painted(noise, whole_picture, "Kd 0 0 0\nKe 1 1 1\nmap_Ke lamp.png\n");
   EXPECT_EQ(file.scene.faces.size(), 64U);
   ASSERT_THAT(file.warnings,
               ElementsAre(HasSubstr("its 1 faces were cut into 64 pieces, at most 64 each")));
   EXPECT_THAT(file.warnings[0], HasSubstr("material 'm'"));
   // The same from the pieces.
-  double square = 0;
+  double squares = 0;
   Rgb mean = Rgb::Zero();
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) {
@@ -304,60 +303,69 @@ TEST(PaintedLights, SayWhatTooFewPiecesLeaveOut) {
           ring.emplace_back(p.x(), p.y());
         const Rgb& even = file.scene.materials[at(file.scene.faces[f].material)].exitance;
         if (is_inside({&ring, 1}, place))
-          square += (linear(noise.painter(x, y)) - even).square().sum() / 4096;
+          squares += (linear(noise.painter(x, y)) - even).square().sum() / 4096;
       }
     }
-  const double uneven = std::sqrt(square / mean.square().sum());
+  const double uneven = std::sqrt(squares / mean.square().sum());
   EXPECT_GT(uneven, 0.1);
   EXPECT_THAT(file.warnings[0],
               HasSubstr(fmt::format("by up to {:.2g} % of its mean", 100 * uneven)));
 }
 
 TEST(PaintedLights, MayShowALineOrAPointOfThePicture) {
-  const SceneFile point =
-      read(two, square + "vt .1 .1\nf 1/5 2/5 3/5 4/5\n", "Kd 0 0 0\nmap_Ke lamp.png\n");
+  const SceneFile point = read_painted(two, painted_square + "vt .1 .1\nf 1/5 2/5 3/5 4/5\n",
+                                       "Kd 0 0 0\nmap_Ke lamp.png\n");
   ASSERT_EQ(point.scene.faces.size(), 1U);
   EXPECT_LT((point.scene.materials[0].exitance - Rgb(1, 0, 0)).abs().maxCoeff(), 1e-6);
   // Along the diagonal of the picture, which the face's x follows.
-  const SceneFile line = read(two, square + "f 1/1 2/3 3/3 4/1\n", "Kd 0 0 0\nmap_Ke lamp.png\n");
+  const SceneFile line =
+      read_painted(two, painted_square + "f 1/1 2/3 3/3 4/1\n", "Kd 0 0 0\nmap_Ke lamp.png\n");
   EXPECT_THAT(line.warnings, IsEmpty());
   EXPECT_EQ(line.scene.faces.size(), 2U);
   EXPECT_NEAR(extent(face_corners(line.scene, 0), 0, true), 0.5, 1e-9);
   // Far away, and again and again.
-  const SceneFile many = read(two, whole, "Kd 0 0 0\nmap_Ke -s 1000 1000 -o 77.3 1e7 lamp.png\n");
-  EXPECT_LT((power(many.scene) / 2 - Rgb(0.25, 0.75 * linear(188), 0.75)).abs().maxCoeff(), 1e-3);
-  const SceneFile far = read(two, whole, "Kd 0 0 0\nmap_Ke -s 1e300 -o 1e300 lamp.png\n");
-  EXPECT_LT((power(far.scene) / 2 - Rgb(0.25, 0.75 * linear(188), 0.75)).abs().maxCoeff(), 1e-3);
+  const SceneFile many =
+      read_painted(two, whole_picture, "Kd 0 0 0\nmap_Ke -s 1000 1000 -o 77.3 1e7 lamp.png\n");
+  EXPECT_LT((power(many.scene) / 2 - Rgb(0.25, 0.75 * test::linear(188), 0.75)).abs().maxCoeff(),
+            1e-3);
+  const SceneFile far =
+      read_painted(two, whole_picture, "Kd 0 0 0\nmap_Ke -s 1e300 -o 1e300 lamp.png\n");
+  EXPECT_LT((power(far.scene) / 2 - Rgb(0.25, 0.75 * test::linear(188), 0.75)).abs().maxCoeff(),
+            1e-3);
 }
 
 TEST(PaintedLights, AMaterialsFileOverridesThem) {
   const std::string mtl = "Kd 0 0 0\nKe 1 1 1\nmap_Ke lamp.png\n";
-  const SceneFile even = read(two, whole, mtl, R"({"m": {"exitance": 3}})");
+  const SceneFile even = read_painted(two, whole_picture, mtl, R"({"m": {"exitance": 3}})");
   EXPECT_EQ(even.scene.faces.size(), 1U);
   EXPECT_EQ(even.scene.materials[0].exitance[1], 3);
   EXPECT_THAT(even.warnings, IsEmpty());
-  const SceneFile warm = read(two, whole, mtl, R"({"m": {"temperature": 300}})");
+  const SceneFile warm = read_painted(two, whole_picture, mtl, R"({"m": {"temperature": 300}})");
   EXPECT_EQ(warm.scene.faces.size(), 1U);
   EXPECT_THAT(warm.warnings, IsEmpty());
-  EXPECT_EQ(read(two, whole, mtl, R"({"m": {"reflectance": 0.5}})").scene.faces.size(), 2U);
+  EXPECT_EQ(
+      read_painted(two, whole_picture, mtl, R"({"m": {"reflectance": 0.5}})").scene.faces.size(),
+      2U);
 }
 
 TEST(PaintedLights, SayWhatIsNotDoneAsTheFileSays) {
-  EXPECT_THAT(read(two, whole, "Kd 0 0 0\nKe 2 2 2\nmap_Ke none.png\n").warnings,
+  EXPECT_THAT(read_painted(two, whole_picture, "Kd 0 0 0\nKe 2 2 2\nmap_Ke none.png\n").warnings,
               ElementsAre(HasSubstr("the material 'm' has its Ke alone")));
-  EXPECT_THAT(read(two, whole, "Kd 0 0 0\nKe 0 0 0\nmap_Ke lamp.png\n").warnings,
+  EXPECT_THAT(read_painted(two, whole_picture, "Kd 0 0 0\nKe 0 0 0\nmap_Ke lamp.png\n").warnings,
               ElementsAre(HasSubstr("it does not shine")));
-  EXPECT_THAT(
-      read(two, square + "vt .2 .9\nf 1/1 2/2 3/3 4/5\n", "map_Kd lamp.png\nmap_Ke lamp.png\n")
-          .warnings,
-      ElementsAre(HasSubstr("on 1 faces the picture is bent or warped")));
-  const SceneFile heat = read(two, whole, "Ke 2 2 2\nmap_Ke lamp.png\nemissivity 1\n");
+  EXPECT_THAT(read_painted(two, painted_square + "vt .2 .9\nf 1/1 2/2 3/3 4/5\n",
+                           "map_Kd lamp.png\nmap_Ke lamp.png\n")
+                  .warnings,
+              ElementsAre(HasSubstr("on 1 faces the picture is bent or warped")));
+  const SceneFile heat =
+      read_painted(two, whole_picture, "Ke 2 2 2\nmap_Ke lamp.png\nemissivity 1\n");
   EXPECT_THAT(heat.warnings, ElementsAre(HasSubstr("pictures are not used where bands")));
   EXPECT_EQ(heat.scene.materials[0].exitance[0], 2);
-  test::expect_error([] { read(two, whole, "map_Ke lamp.png\ntemperature 300\n"); },
+  test::expect_error([] { read_painted(two, whole_picture, "map_Ke lamp.png\ntemperature 300\n"); },
                      ErrorCode::invalid_input, {"contradict"});
   for (const char* wrong : {"map_Ke\n", "map_Ke -s lamp.png\n", "map_Ke scene.obj\n"})
-    test::expect_error([&] { read(two, whole, wrong); }, ErrorCode::invalid_input, {});
+    test::expect_error([&] { read_painted(two, whole_picture, wrong); }, ErrorCode::invalid_input,
+                       {});
 }
 
 }  // namespace

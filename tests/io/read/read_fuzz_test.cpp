@@ -32,10 +32,10 @@ constexpr int seconds_for_one = 10;
 /// A run of all formats takes less than this with sanitizers, too.
 constexpr long most_memory_kb = 800'000;
 
-const std::string obj =
+const std::string fuzzed_obj =
     "# room\nmtllib scene.mtl\no a\nv 0 0 0\nv 1 0.5e0 0\nv 1 1 0 1\nv -0 1 \\\n0\nvt 0 0\n"
     "usemtl m\nf 1 2//1 3/1/1 4/2\ng b\nf -1 -2 -3\n";
-const std::string mtl = "newmtl m\nKd 0.5 0.25 1\nKe 1 2 3e0\nd 1\nmap_Kd a.png\n";
+const std::string fuzzed_mtl = "newmtl m\nKd 0.5 0.25 1\nKe 1 2 3e0\nd 1\nmap_Kd a.png\n";
 const std::string sidecar =
     R"({"unit": "m", "materials": {"m": {"reflectance": 0.5}, "a": {"exitance": [1, 2, 3]}},
  "cameras": [{"name": "c", "position": [0, 0, 1], "target": [0, 0, 0], "vertical_fov": 40}]})";
@@ -108,10 +108,10 @@ void PrintTo(const Seed& seed, std::ostream* out) { *out << seed.name; }
 class ReadMutated : public testing::TestWithParam<Seed> {
  protected:
   ReadMutated() {
-    folder_.write("scene.mtl", GetParam().content == heat ? grey_mtl : mtl);
+    folder_.write("scene.mtl", GetParam().content == heat ? grey_mtl : fuzzed_mtl);
     folder_.write("f.mtx", factors);
     folder_.write("f.names.csv", factor_names);
-    folder_.write("scene.obj", obj);
+    folder_.write("scene.obj", fuzzed_obj);
     folder_.write(GetParam().file, GetParam().content);
   }
 
@@ -166,8 +166,8 @@ TEST_P(ReadMutated, GivesWhatItReadsOrAnError) {
 
 INSTANTIATE_TEST_SUITE_P(
     Formats, ReadMutated,
-    testing::Values(Seed{"Obj", "scene.obj", "scene.obj", obj, 1500},
-                    Seed{"Mtl", "scene.obj", "scene.mtl", mtl, 1000},
+    testing::Values(Seed{"Obj", "scene.obj", "scene.obj", fuzzed_obj, 1500},
+                    Seed{"Mtl", "scene.obj", "scene.mtl", fuzzed_mtl, 1000},
                     Seed{"Sidecar", "scene.obj", "scene.json", sidecar, 1000},
                     Seed{"Cameras", "scene.obj", "scene.json", cameras, 1000},
                     Seed{"Materials", "scene.obj", "materials.json", materials, 1000},

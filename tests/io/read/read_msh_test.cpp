@@ -11,7 +11,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-SceneFile read(const std::string& text) { return test::read_text("scene.msh", text); }
+SceneFile read_msh(const std::string& text) { return test::read_text("scene.msh", text); }
 
 std::string section(const std::string& name, const std::string& content) {
   return "$" + name + "\n" + content + "$End" + name + "\n";
@@ -19,7 +19,7 @@ std::string section(const std::string& name, const std::string& content) {
 
 const std::string old_format = section("MeshFormat", "2.2 0 8\n");
 const std::string new_format = section("MeshFormat", "4.1 0 8\n");
-const std::string names =
+const std::string group_names =
     section("PhysicalNames", "3\n1 1 \"rim\"\n2 1 \"the floor\"\n2 7 \"lid\"\n");
 const std::string nodes = section("Nodes", "4\n1 0.1 0 0\n2 1 0 0\n30 1 1 0\n4 0 1 0\n");
 const std::string new_nodes =
@@ -27,10 +27,10 @@ const std::string new_nodes =
 
 TEST(ReadMsh, ReadsFormat2WithPhysicalGroups) {
   const SceneFile file =
-      read(old_format + names + section("Comments", "what else\nthere is\n") + nodes +
-           section("Elements",
-                   "5\n1 15 2 0 1 1\n2 1 2 1 1 1 2\n3 3 2 1 1 1 2 30 4\n4 2 2 9 1 1 2 30\n"
-                   "5 2 0 1 30 4\n"));
+      read_msh(old_format + group_names + section("Comments", "what else\nthere is\n") + nodes +
+               section("Elements",
+                       "5\n1 15 2 0 1 1\n2 1 2 1 1 1 2\n3 3 2 1 1 1 2 30 4\n4 2 2 9 1 1 2 30\n"
+                       "5 2 0 1 30 4\n"));
   const Scene& scene = file.scene;
   EXPECT_THAT(file.warnings, IsEmpty());
   EXPECT_EQ(scene.vertices.at(0), Vec3(0.1, 0, 0));
@@ -47,10 +47,10 @@ TEST(ReadMsh, ReadsFormat41WithEntities) {
                                        "1 0 3 0\n4 0 0 0 0\n5 0 0 0 1 1 0 1 1 0\n"
                                        "6 0 0 0 1 1 0 2 7 1 0\n8 0 0 0 1 1 0 0 0\n");
   const SceneFile file =
-      read(new_format + names + entities + new_nodes +
-           section("Elements",
-                   "4 5 1 5\n1 1 1 1\n1 1 2\n2 5 3 1\n2 1 2 30 4\n2 6 2 2\n3 1 2 30\n"
-                   "4 1 30 4\n3 1 4 1\n5 1 2 30 4\n"));
+      read_msh(new_format + group_names + entities + new_nodes +
+               section("Elements",
+                       "4 5 1 5\n1 1 1 1\n1 1 2\n2 5 3 1\n2 1 2 30 4\n2 6 2 2\n3 1 2 30\n"
+                       "4 1 30 4\n3 1 4 1\n5 1 2 30 4\n"));
   const Scene& scene = file.scene;
   EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("2 physical groups"),
                                          HasSubstr("1 volume elements are not used")));
@@ -97,12 +97,12 @@ void expect_same(const SceneFile& a, const SceneFile& b) {
 
 TEST(ReadMsh, ReadsBinaryFilesAsTheirTextTwins) {
   for (const bool swapped : {false, true}) {
-    const SceneFile two = read(test::msh_binary_2(swapped));
-    expect_same(two, read(test::msh_text_2()));
+    const SceneFile two = read_msh(test::msh_binary_2(swapped));
+    expect_same(two, read_msh(test::msh_text_2()));
     EXPECT_THAT(two.scene.groups, ElementsAre("the floor", "lid", "physical 9"));
     EXPECT_THAT(two.warnings, ElementsAre(HasSubstr("1 volume elements are not used")));
-    const SceneFile four = read(test::msh_binary_4(swapped));
-    expect_same(four, read(test::msh_text_4()));
+    const SceneFile four = read_msh(test::msh_binary_4(swapped));
+    expect_same(four, read_msh(test::msh_text_4()));
     EXPECT_THAT(four.scene.groups, ElementsAre("the floor", "lid"));
     EXPECT_EQ(four.scene.vertices.at(0), Vec3(0.1, 0, 0));
   }
@@ -139,8 +139,8 @@ TEST(ReadMsh, RefusesBinaryFilesThatItWouldGetWrong) {
 
 TEST(ReadMsh, SaysThatANamedGroupHasNoFaces) {
   const test::TempDir folder;
-  const auto scene = folder.write(
-      "scene.msh", old_format + names + nodes + section("Elements", "1\n3 3 2 1 1 1 2 30 4\n"));
+  const auto scene = folder.write("scene.msh", old_format + group_names + nodes +
+                                                   section("Elements", "1\n3 3 2 1 1 1 2 30 4\n"));
   const auto materials = folder.write("materials.json", R"({"lid": {"reflectance": 0.1}})");
   test::expect_error([&] { read_scene(scene, materials); }, ErrorCode::invalid_input,
                      {"'lid'", "has no faces"});

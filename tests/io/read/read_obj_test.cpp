@@ -18,7 +18,7 @@ using testing::IsEmpty;
 
 const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-SceneFile read(const std::string& obj, const std::string& mtl = "") {
+SceneFile read_obj(const std::string& obj, const std::string& mtl = "") {
   const TempDir folder;
   if (!mtl.empty()) folder.write("scene.mtl", mtl);
   return read_scene(folder.write("scene.obj", obj));
@@ -26,13 +26,13 @@ SceneFile read(const std::string& obj, const std::string& mtl = "") {
 
 /// What a material of a file with a square of material "m" becomes.
 SceneFile read_material(const std::string& lines) {
-  return read("mtllib scene.mtl\nusemtl m\n" + square + "f 1 2 3 4\n", "newmtl m\n" + lines);
+  return read_obj("mtllib scene.mtl\nusemtl m\n" + square + "f 1 2 3 4\n", "newmtl m\n" + lines);
 }
 
 TEST(ReadObj, TakesCapitalKeywordsAndSaysWhatItRead) {
   const SceneFile file =
-      read("MTLLIB scene.mtl\nO box\nUSEMTL m\nV 0 0 0\nV 1 0 0\nV 1 1 0\nVN 0 0 1\nF 1 2 3\n",
-           "NEWMTL m\nKD 0.25 0.25 0.25\nKE 1 2 3\n");
+      read_obj("MTLLIB scene.mtl\nO box\nUSEMTL m\nV 0 0 0\nV 1 0 0\nV 1 1 0\nVN 0 0 1\nF 1 2 3\n",
+               "NEWMTL m\nKD 0.25 0.25 0.25\nKE 1 2 3\n");
   EXPECT_THAT(file.warnings, IsEmpty());
   EXPECT_THAT(file.scene.groups, ElementsAre("box"));
   EXPECT_EQ(file.scene.materials.at(0).rho[1], 0.25);
@@ -42,7 +42,8 @@ TEST(ReadObj, TakesCapitalKeywordsAndSaysWhatItRead) {
 }
 
 TEST(ReadObj, KeepsPolygonsTheirOrderAndTheirLines) {
-  const Scene scene = read("# a comment\n" + square + "\nv 0.5 2 0\nf 1 2 3 5 4\nf 4 3 2\n").scene;
+  const Scene scene =
+      read_obj("# a comment\n" + square + "\nv 0.5 2 0\nf 1 2 3 5 4\nf 4 3 2\n").scene;
   ASSERT_EQ(scene.vertices.size(), 5U);
   EXPECT_EQ(scene.vertices[4], Vec3(0.5, 2, 0));
   ASSERT_EQ(scene.faces.size(), 2U);
@@ -54,7 +55,7 @@ TEST(ReadObj, KeepsPolygonsTheirOrderAndTheirLines) {
 
 TEST(ReadObj, RoundsCoordinatesToTheNearestDouble) {
   const Scene scene =
-      read(
+      read_obj(
           "v 0.1 -1e-3 +2.5E2\nv 0.30000000000000004 1e-400 .5\nv 1. -0 123456789.123456789\n"
           "f 1 2 3\n")
           .scene;
@@ -67,7 +68,7 @@ TEST(ReadObj, DoesNotDependOnTheLocale) {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
     if (std::setlocale(LC_ALL, name) != nullptr) break;
-  const Scene scene = read("v 0.25 0 0\nv 1.5 0 0\nv 0 1 0\nf 1 2 3\n").scene;
+  const Scene scene = read_obj("v 0.25 0 0\nv 1.5 0 0\nv 0 1 0\nf 1 2 3\n").scene;
   std::setlocale(LC_ALL, before.c_str());
   EXPECT_EQ(scene.vertices[0].x(), 0.25);
   EXPECT_EQ(scene.vertices[1].x(), 1.5);
@@ -75,7 +76,8 @@ TEST(ReadObj, DoesNotDependOnTheLocale) {
 
 TEST(ReadObj, ResolvesRelativeAndForwardAndTexturedIndices) {
   const Scene scene =
-      read("f 1//7 2/3/7 4/5\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2/1 -1//1\nv 0 1 0\nf -4 -1 -2\n")
+      read_obj(
+          "f 1//7 2/3/7 4/5\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf -3 -2/1 -1//1\nv 0 1 0\nf -4 -1 -2\n")
           .scene;
   EXPECT_THAT(scene.faces[0].vertices, ElementsAre(0, 1, 3));
   EXPECT_THAT(scene.faces[1].vertices, ElementsAre(0, 1, 2));
@@ -83,10 +85,11 @@ TEST(ReadObj, ResolvesRelativeAndForwardAndTexturedIndices) {
 }
 
 TEST(ReadObj, GroupsFacesUnderTheMostRecentName) {
-  const Scene scene = read(square +
-                           "f 1 2 3\no Room\ng floor\nf 1 2 4\ng\nf 2 3 4\no Two words\nf 1 3 4\n"
-                           "g floor\nf 4 3 1\n")
-                          .scene;
+  const Scene scene =
+      read_obj(square +
+               "f 1 2 3\no Room\ng floor\nf 1 2 4\ng\nf 2 3 4\no Two words\nf 1 3 4\n"
+               "g floor\nf 4 3 1\n")
+          .scene;
   EXPECT_THAT(scene.groups, ElementsAre("default", "floor", "Two words"));
   std::vector<int> groups;
   for (const Face& face : scene.faces) groups.push_back(face.group);
@@ -104,7 +107,7 @@ TEST(ReadObj, ReadsTheSameUnderAnyLineEnding) {
     return s;
   };
   for (const std::string ending : {"\n", "\r\n", "\r"}) {
-    const SceneFile file = read(with_endings(text, ending), with_endings(mtl, ending));
+    const SceneFile file = read_obj(with_endings(text, ending), with_endings(mtl, ending));
     EXPECT_THAT(file.warnings, IsEmpty());
     EXPECT_EQ(file.scene.vertices[2], Vec3(1, 1, 0));
     EXPECT_EQ(file.scene.faces[0].line, 9);
@@ -116,20 +119,20 @@ TEST(ReadObj, ReadsTheSameUnderAnyLineEnding) {
 
 TEST(ReadObj, SkipsAByteOrderMarkAndDoesNotContinueComments) {
   const Scene scene =
-      read("\xEF\xBB\xBFv 0 0 0\n# C:\\models\\\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").scene;
+      read_obj("\xEF\xBB\xBFv 0 0 0\n# C:\\models\\\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").scene;
   EXPECT_EQ(scene.vertices.size(), 3U);
 }
 
 TEST(ReadObj, WarnsOfEachUnusedStatementOnce) {
   const SceneFile file =
-      read(square + "vt 0 0\nvn 0 0 1\ns off\nl 1 2\np 1\ncurv 1\ncurv 2\nbevel on\nf 1 2 3\n");
+      read_obj(square + "vt 0 0\nvn 0 0 1\ns off\nl 1 2\np 1\ncurv 1\ncurv 2\nbevel on\nf 1 2 3\n");
   ASSERT_EQ(file.warnings.size(), 2U);
   EXPECT_THAT(file.warnings[0], HasSubstr("scene.obj:10: statements that begin with 'curv'"));
   EXPECT_THAT(file.warnings[1], HasSubstr("'bevel'"));
 }
 
 TEST(ReadObj, WarnsIfTheLastLineMayBeCut) {
-  EXPECT_THAT(read(square + "f 1 2 3").warnings, ElementsAre(HasSubstr("scene.obj:5")));
+  EXPECT_THAT(read_obj(square + "f 1 2 3").warnings, ElementsAre(HasSubstr("scene.obj:5")));
 }
 
 TEST(ReadMtl, TakesKdAsReflectanceAndKeAsExitance) {
@@ -190,13 +193,13 @@ TEST(ReadMtl, IsFoundUnderNamesWithSpacesAndInOtherFolders) {
 
 TEST(ReadMtl, MayComeAfterItsUse) {
   const Scene scene =
-      read(square + "usemtl m\nf 1 2 3\nmtllib scene.mtl\n", "newmtl m\nKd 0 1 0\n").scene;
+      read_obj(square + "usemtl m\nf 1 2 3\nmtllib scene.mtl\n", "newmtl m\nKd 0 1 0\n").scene;
   EXPECT_TRUE((scene.materials.at(0).rho == Rgb(0, 1, 0)).all());
 }
 
 TEST(ReadMtl, LeavesOutMaterialsThatNoFaceUses) {
-  const Scene scene = read("mtllib scene.mtl\nusemtl b\n" + square + "f 1 2 3\n",
-                           "newmtl a\nKd 7 7 7\nnewmtl b\nKd 1 1 1\nnewmtl c\nKd 0 0 0\n")
+  const Scene scene = read_obj("mtllib scene.mtl\nusemtl b\n" + square + "f 1 2 3\n",
+                               "newmtl a\nKd 7 7 7\nnewmtl b\nKd 1 1 1\nnewmtl c\nKd 0 0 0\n")
                           .scene;
   ASSERT_EQ(scene.materials.size(), 1U);
   EXPECT_EQ(scene.materials[0].name, "b");
@@ -204,24 +207,24 @@ TEST(ReadMtl, LeavesOutMaterialsThatNoFaceUses) {
 }
 
 TEST(ReadObj, GivesFacesWithoutMaterialTheDefaultOne) {
-  const Scene scene = read(square + "f 1 2 3\n").scene;
+  const Scene scene = read_obj(square + "f 1 2 3\n").scene;
   ASSERT_EQ(scene.materials.size(), 1U);
   EXPECT_EQ(scene.materials[0].name, "default");
   EXPECT_TRUE((scene.materials[0].exitance == 0).all());
 }
 
-struct BadFile {
+struct BadObj {
   const char* name;
   std::string obj;
   std::vector<std::string> sentence;
   std::string mtl = "";
 };
 
-void PrintTo(const BadFile& file, std::ostream* out) { *out << file.name; }
+void PrintTo(const BadObj& file, std::ostream* out) { *out << file.name; }
 
-class BadObj : public testing::TestWithParam<BadFile> {};
+class BadObjFile : public testing::TestWithParam<BadObj> {};
 
-TEST_P(BadObj, IsRefusedWithFileAndLine) {
+TEST_P(BadObjFile, IsRefusedWithFileAndLine) {
   const TempDir folder;
   folder.write("m.mtl", GetParam().mtl);
   const auto path = folder.write("scene.obj", GetParam().obj);
@@ -232,7 +235,7 @@ std::string with_m(const std::string& usemtl = "m") {
   return "mtllib m.mtl\nusemtl " + usemtl + "\n" + square + "f 1 2 3\n";
 }
 
-const BadFile bad_files[] = {
+const BadObj bad_obj_files[] = {
     {"Empty", "", {"scene.obj: the file is empty"}},
     {"CommentOnly", "# nothing\n", {"scene.obj", "no faces"}},
     {"VerticesOnly", square, {"scene.obj", "no faces"}},
@@ -277,7 +280,7 @@ const BadFile bad_files[] = {
     {"NewmtlUnnamed", with_m(), {"m.mtl:1"}, "newmtl\n"},
 };
 
-INSTANTIATE_TEST_SUITE_P(Files, BadObj, testing::ValuesIn(bad_files),
+INSTANTIATE_TEST_SUITE_P(Files, BadObjFile, testing::ValuesIn(bad_obj_files),
                          [](const auto& param) { return param.param.name; });
 
 }  // namespace

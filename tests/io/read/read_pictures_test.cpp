@@ -20,10 +20,10 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-const std::string square =
+const std::string plain_square =
     "mtllib scene.mtl\nusemtl m\nv 0 0 0\nv 2 0 0\nv 2 1 0\nv 0 1 0\n"
     "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-const std::string whole = square + "f 1/1 2/2 3/3 4/4\n";
+const std::string whole_square = plain_square + "f 1/1 2/2 3/3 4/4\n";
 
 /// Red and green above, blue and white below; sRGB.
 void write_four(const std::filesystem::path& path) {
@@ -31,7 +31,8 @@ void write_four(const std::filesystem::path& path) {
   write_png(picture, path);
 }
 
-SceneFile read(const std::string& obj, const std::string& mtl, const std::string& json = "") {
+SceneFile read_pictured(const std::string& obj, const std::string& mtl,
+                        const std::string& json = "") {
   const TempDir folder;
   write_four(folder.path() / "four.png");
   folder.write("scene.mtl", "newmtl m\n" + mtl);
@@ -44,7 +45,7 @@ Rgb colour(const Scene& scene, std::size_t face, const Vec3& p) {
 }
 
 TEST(ReadPictures, LieAsPlacesSay) {
-  const SceneFile file = read(whole, "Kd .5 .6 .7\nmap_Kd four.png\n");
+  const SceneFile file = read_pictured(whole_square, "Kd .5 .6 .7\nmap_Kd four.png\n");
   EXPECT_THAT(file.warnings, IsEmpty());
   ASSERT_EQ(file.files.size(), 2U);
   EXPECT_EQ(file.files[1].filename(), "four.png");
@@ -59,7 +60,7 @@ TEST(ReadPictures, AreLinearInLight) {
   const TempDir folder;
   write_png({1, 1, 1, {188, 188, 188}, {}}, folder.path() / "four.png");
   folder.write("scene.mtl", "newmtl m\nmap_Kd four.png\n");
-  const Scene scene = read_scene(folder.write("scene.obj", whole)).scene;
+  const Scene scene = read_scene(folder.write("scene.obj", whole_square)).scene;
   EXPECT_NEAR(colour(scene, 0, {1, 0.5, 0})[0], 0.5029, 1e-4);
   EXPECT_EQ(scene.materials[0].rho[0], 1) << "no Kd: the picture alone";
 }
@@ -81,12 +82,13 @@ TEST(ReadPictures, TakeJpegs) {
   const TempDir folder;
   write_green(folder.path() / "green.jpg");
   folder.write("scene.mtl", "newmtl m\nmap_Kd green.jpg\n");
-  const Scene scene = read_scene(folder.write("scene.obj", whole)).scene;
+  const Scene scene = read_scene(folder.write("scene.obj", whole_square)).scene;
   EXPECT_LT((colour(scene, 0, {1, 0.5, 0}) - Rgb(0, 1, 0)).abs().maxCoeff(), 0.01);
 }
 
 TEST(ReadPictures, TakeScaleAndOffset) {
-  const SceneFile file = read(whole, "map_Kd -s 2 1 1 -o 0.5 -blendu on -mm 0 1 four.png\n");
+  const SceneFile file =
+      read_pictured(whole_square, "map_Kd -s 2 1 1 -o 0.5 -blendu on -mm 0 1 four.png\n");
   EXPECT_THAT(file.warnings, IsEmpty());
   // u from .5 to 2.5 and v from .5 to 1.5, again and again.
   EXPECT_TRUE((colour(file.scene, 0, {0.25, 0.25, 0}) == Rgb(0, 1, 0)).all());
@@ -95,7 +97,9 @@ TEST(ReadPictures, TakeScaleAndOffset) {
 
 TEST(ReadPictures, NeighboursThatShareAMapShareAPaint) {
   const Scene scene =
-      read(square + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 4/1 3/2 2/3 1/4\n", "map_Kd four.png\n").scene;
+      read_pictured(plain_square + "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\nf 4/1 3/2 2/3 1/4\n",
+                    "map_Kd four.png\n")
+          .scene;
   EXPECT_EQ(scene.faces[0].paint, scene.faces[1].paint);
   EXPECT_NE(scene.faces[0].paint, scene.faces[2].paint);
   EXPECT_EQ(scene.paints.size(), 2U);
@@ -103,21 +107,24 @@ TEST(ReadPictures, NeighboursThatShareAMapShareAPaint) {
 }
 
 TEST(ReadPictures, SayWhatIsNotDoneAsTheFileSays) {
-  EXPECT_THAT(read(square + "f 1 2 3 4\n", "map_Kd four.png\n").warnings,
+  EXPECT_THAT(read_pictured(plain_square + "f 1 2 3 4\n", "map_Kd four.png\n").warnings,
               ElementsAre(HasSubstr("1 faces have a material with a picture, but no places")));
-  EXPECT_THAT(read(square + "vt .2 .9\nf 1/1 2/2 3/3 4/5\n", "map_Kd four.png\n").warnings,
-              ElementsAre(HasSubstr("on 1 faces the picture is bent or warped")));
-  EXPECT_THAT(read(whole, "Kd 1 1 1\nmap_Kd none.png\n").warnings,
-              ElementsAre(HasSubstr("there is no picture 'none.png'")));
-  EXPECT_THAT(read(whole, "map_Kd -clamp on four.png\n").warnings,
-              ElementsAre(HasSubstr("-clamp is not used")));
   EXPECT_THAT(
-      read(whole, "Kd .5 .5 .5\nmap_Kd four.png\n", R"({"m": {"temperature": 300}})").warnings,
-      ElementsAre(HasSubstr("pictures are not used where bands")));
+      read_pictured(plain_square + "vt .2 .9\nf 1/1 2/2 3/3 4/5\n", "map_Kd four.png\n").warnings,
+      ElementsAre(HasSubstr("on 1 faces the picture is bent or warped")));
+  EXPECT_THAT(read_pictured(whole_square, "Kd 1 1 1\nmap_Kd none.png\n").warnings,
+              ElementsAre(HasSubstr("there is no picture 'none.png'")));
+  EXPECT_THAT(read_pictured(whole_square, "map_Kd -clamp on four.png\n").warnings,
+              ElementsAre(HasSubstr("-clamp is not used")));
+  EXPECT_THAT(read_pictured(whole_square, "Kd .5 .5 .5\nmap_Kd four.png\n",
+                            R"({"m": {"temperature": 300}})")
+                  .warnings,
+              ElementsAre(HasSubstr("pictures are not used where bands")));
 }
 
 TEST(ReadPictures, AMaterialsFileOverridesThem) {
-  const SceneFile file = read(whole, "map_Kd four.png\n", R"({"m": {"reflectance": 0.25}})");
+  const SceneFile file =
+      read_pictured(whole_square, "map_Kd four.png\n", R"({"m": {"reflectance": 0.25}})");
   EXPECT_EQ(file.scene.faces[0].paint, -1);
   EXPECT_EQ(file.scene.materials[0].rho[2], 0.25);
 }
@@ -126,7 +133,7 @@ TEST(ReadPictures, PathsOfOtherMachinesAndSpacesDo) {
   const TempDir folder;
   write_four(folder.path() / "a wall.png");
   folder.write("scene.mtl", "newmtl m\nmap_Kd C:\\work\\pictures\\a wall.png\n");
-  const SceneFile file = read_scene(folder.write("scene.obj", whole));
+  const SceneFile file = read_scene(folder.write("scene.obj", whole_square));
   EXPECT_THAT(file.warnings, IsEmpty());
   EXPECT_EQ(file.scene.faces[0].paint, 0);
 }
@@ -136,7 +143,7 @@ void read_picture(const std::string& name, const std::string& bytes) {
   const TempDir folder;
   folder.write(name, bytes);
   folder.write("scene.mtl", "newmtl m\nmap_Kd " + name + "\n");
-  read_scene(folder.write("scene.obj", whole));
+  read_scene(folder.write("scene.obj", whole_square));
 }
 
 TEST(ReadPictures, DamagedOnesAreRefused) {
@@ -151,7 +158,7 @@ TEST(ReadPictures, DamagedOnesAreRefused) {
       expect_error([&] { read_picture(name, damaged); }, ErrorCode::invalid_input, {name});
   }
   for (const char* wrong : {"map_Kd\n", "map_Kd -s four.png\n", "map_Kd scene.obj\n"})
-    expect_error([&] { read(whole, wrong); }, ErrorCode::invalid_input, {});
+    expect_error([&] { read_pictured(whole_square, wrong); }, ErrorCode::invalid_input, {});
 }
 
 /// What is damaged inside may be seen or not, and nothing else happens.
@@ -175,7 +182,8 @@ TEST(ReadPictures, AnyByteMayBeAnother) {
 }
 
 TEST(ReadPictures, OthersMayHavePlacesThatCannotBeRead) {
-  const SceneFile file = read(square + "vt x y\nvt\nf 1/5 2/6 3/99 4/-7\n", "Kd 1 1 1\n");
+  const SceneFile file =
+      read_pictured(plain_square + "vt x y\nvt\nf 1/5 2/6 3/99 4/-7\n", "Kd 1 1 1\n");
   EXPECT_THAT(file.warnings, IsEmpty());
 }
 

@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-SceneFile read(const std::string& ply) { return test::read_text("scene.ply", ply); }
+SceneFile read_ply(const std::string& ply) { return test::read_text("scene.ply", ply); }
 
 void expect_refused(const std::string& ply, const std::vector<std::string>& parts) {
   test::expect_refused("scene.ply", ply, parts);
@@ -68,7 +68,7 @@ std::string binary_file(bool big_endian, const std::string& ending = "\n") {
 }
 
 TEST(ReadPly, ReadsTextWithPolygonsAndLines) {
-  const SceneFile file = read(ascii_header + ascii_data);
+  const SceneFile file = read_ply(ascii_header + ascii_data);
   EXPECT_THAT(file.warnings, IsEmpty());
   ASSERT_EQ(file.scene.vertices.size(), 5U);
   EXPECT_EQ(file.scene.vertices[0], Vec3(0.1, 0, 0));
@@ -87,7 +87,7 @@ TEST(ReadPly, ReadsTextUnderAnyLineEnding) {
     std::string text = ascii_header + ascii_data;
     for (std::size_t at = 0; (at = text.find('\n', at)) != text.npos; at += ending.size())
       text.replace(at, 1, ending);
-    const Scene scene = read(text).scene;
+    const Scene scene = read_ply(text).scene;
     EXPECT_EQ(scene.vertices[4], Vec3(0.5, 2, 0));
     EXPECT_EQ(scene.faces[1].line, 20);
   }
@@ -96,7 +96,7 @@ TEST(ReadPly, ReadsTextUnderAnyLineEnding) {
 TEST(ReadPly, ReadsBothByteOrdersAndAllLineEndings) {
   for (const bool big_endian : {false, true})
     for (const std::string ending : {"\n", "\r\n", "\r"}) {
-      const SceneFile file = read(binary_file(big_endian, ending));
+      const SceneFile file = read_ply(binary_file(big_endian, ending));
       EXPECT_THAT(file.warnings, ElementsAre(HasSubstr("'edge' are not used")));
       ASSERT_EQ(file.scene.vertices.size(), 4U);
       EXPECT_EQ(file.scene.vertices[0], Vec3(0.1, 0, -2));
@@ -118,7 +118,7 @@ TEST(ReadPly, RefusesEveryTruncation) {
 }
 
 TEST(ReadPly, WarnsOfWhatFollowsTheFaces) {
-  EXPECT_THAT(read(ascii_header + ascii_data + "1 2 3\n").warnings,
+  EXPECT_THAT(read_ply(ascii_header + ascii_data + "1 2 3\n").warnings,
               ElementsAre(HasSubstr("last element")));
 }
 
@@ -160,7 +160,7 @@ TEST_P(BadPlyFile, IsRefusedWithFileAndLine) {
   expect_refused(text, GetParam().sentence);
 }
 
-const BadPly bad_files[] = {
+const BadPly bad_ply_files[] = {
     {"NotPly", "ply", "plx", {"scene.ply:1", "'ply'"}},
     {"FormatUnknown", "ascii", "utf8", {"scene.ply:2", "'utf8'"}},
     {"FormatMissing", "format ascii 1.0\n", "", {"format"}},
@@ -186,7 +186,7 @@ const BadPly bad_files[] = {
     {"NoFaces", "face 2", "face 0", {"no faces"}},
 };
 
-INSTANTIATE_TEST_SUITE_P(Files, BadPlyFile, testing::ValuesIn(bad_files),
+INSTANTIATE_TEST_SUITE_P(Files, BadPlyFile, testing::ValuesIn(bad_ply_files),
                          [](const auto& param) { return param.param.name; });
 
 }  // namespace

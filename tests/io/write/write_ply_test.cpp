@@ -57,14 +57,14 @@ Ply parse(const std::string& bytes) {
   return ply;
 }
 
-Ply written(const SolveResult& result, const Provenance& provenance = {"1.2.3", "solve it"}) {
+Ply ply_of(const SolveResult& result, const Provenance& provenance = {"1.2.3", "solve it"}) {
   const test::TempDir folder;
   write_result(result, provenance, folder.path() / "a.ply");
   return parse(test::contents(folder.path() / "a.ply"));
 }
 
 TEST(WritePly, TheHeaderNamesWhatParaViewAndMeshLabLookFor) {
-  const Ply ply = written(test::sample_result(2));
+  const Ply ply = ply_of(test::sample_result(2));
   EXPECT_EQ(ply.header.at(0), "ply");
   EXPECT_EQ(ply.header.at(1), "format binary_little_endian 1.0");
   for (const char* line :
@@ -78,7 +78,7 @@ TEST(WritePly, TheHeaderNamesWhatParaViewAndMeshLabLookFor) {
 
 TEST(WritePly, HoldsTheMeshAndItsLight) {
   const SolveResult result = test::sample_result(3);
-  const Ply ply = written(result);
+  const Ply ply = ply_of(result);
   ASSERT_EQ(ply.vertices.size(), 16U);
   ASSERT_EQ(ply.triangles.size(), 18U);
   for (std::size_t i = 0; i < 16; ++i) {
@@ -102,7 +102,7 @@ TEST(WritePly, ColoursFollowTheStatedExposure) {
   result.solution.radiosity = ChannelArray::Constant(8, 3, 4.0);
   result.solution.radiosity.col(1) = 2;
   result.solution.radiosity.col(2) = 0;
-  const Ply ply = written(result);
+  const Ply ply = ply_of(result);
   double exposure = 0;
   for (const std::string& line : ply.header)
     std::sscanf(line.c_str(), "comment exposure: %lf", &exposure);
@@ -116,7 +116,7 @@ TEST(WritePly, ColoursFollowTheStatedExposure) {
 }
 
 TEST(WritePly, CommentsStayOnTheirLines) {
-  const Ply ply = written(test::sample_result(1), {"1\r\nelement vertex 9", "a\nend_header\nb"});
+  const Ply ply = ply_of(test::sample_result(1), {"1\r\nelement vertex 9", "a\nend_header\nb"});
   EXPECT_TRUE(ply.says("comment command line: a end_header b"));
   EXPECT_EQ(ply.vertices.size(), 4U);
 }
@@ -124,15 +124,15 @@ TEST(WritePly, CommentsStayOnTheirLines) {
 TEST(WritePly, AnInterruptedResultIsMarked) {
   SolveResult result = test::sample_result(1);
   const std::string mark = "comment interrupted: the solution is not complete";
-  EXPECT_FALSE(written(result).says(mark));
+  EXPECT_FALSE(ply_of(result).says(mark));
   result.interrupted = true;
-  EXPECT_TRUE(written(result).says(mark));
+  EXPECT_TRUE(ply_of(result).says(mark));
 }
 
 TEST(WritePly, ValuesBeyondSinglePrecisionAreCappedButPlacesAreNot) {
   SolveResult result = test::sample_result(1);
   result.solution.radiosity.setConstant(1e200);
-  for (const Vertex& v : written(result).vertices) EXPECT_TRUE(std::isfinite(v.r));
+  for (const Vertex& v : ply_of(result).vertices) EXPECT_TRUE(std::isfinite(v.r));
   result.elements.points[2] = {0, 1e50, 0};
   const test::TempDir folder;
   test::expect_error([&] { write_result(result, {}, folder.path() / "a.ply"); },

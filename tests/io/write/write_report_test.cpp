@@ -11,7 +11,8 @@
 namespace halfshade {
 namespace {
 
-nlohmann::json written(const SolveResult& result, const Provenance& provenance = {"1.2", "solve"}) {
+nlohmann::json report_of(const SolveResult& result,
+                         const Provenance& provenance = {"1.2", "solve"}) {
   const test::TempDir folder;
   write_report(result, {provenance, {"a.vtu", "b c.png"}, "interrupted", 1.5, 4096},
                folder.path() / "r.json");
@@ -27,7 +28,7 @@ TEST(WriteReport, TellsTheRun) {
   result.radiosity.channel[1].iterations = 7;
   result.radiosity.channel[2].balance = 1e-12;
   result.interrupted = true;
-  const auto json = written(result);
+  const auto json = report_of(result);
   EXPECT_EQ(json.at("version"), "1.2");
   EXPECT_EQ(json.at("command_line"), "solve");
   EXPECT_EQ(json.at("status"), "interrupted");
@@ -60,7 +61,7 @@ TEST(WriteReport, TellsTheRun) {
 }
 
 TEST(WriteReport, TheHistogramCountsEveryElement) {
-  const auto mesh = written(test::sample_result(3)).at("mesh");
+  const auto mesh = report_of(test::sample_result(3)).at("mesh");
   EXPECT_EQ(mesh.at("elements"), 18);
   EXPECT_EQ(mesh.at("points"), 16);
   EXPECT_NEAR(mesh.at("min_angle_degrees").get<double>(), 45, 1e-9);  // halves of squares
@@ -72,7 +73,7 @@ TEST(WriteReport, TheHistogramCountsEveryElement) {
 TEST(WriteReport, GroupsAddUpToTheWhole) {
   // Two elements of area 1/2 each, one a group; H = (1.1, 2.1, 3.1) and a bit more on the second.
   SolveResult result = test::sample_result(1);
-  const auto groups = written(result).at("groups");
+  const auto groups = report_of(result).at("groups");
   ASSERT_EQ(groups.size(), 2U);
   EXPECT_EQ(groups.at(0).at("name"), "floor");
   EXPECT_EQ(groups.at(0).at("area"), 0.5);
@@ -87,7 +88,7 @@ TEST(WriteReport, GroupsAddUpToTheWhole) {
 
 TEST(WriteReport, SaysWhatAreasAndPowersAreIn) {
   SolveResult result = test::sample_result(1);  // in centimetres
-  const auto json = written(result);
+  const auto json = report_of(result);
   EXPECT_EQ(json.at("units").at("length"), "cm");
   EXPECT_EQ(json.at("units").at("area"), "cm²");
   EXPECT_EQ(json.at("units").at("power"), "W/m² · cm²");
@@ -97,13 +98,13 @@ TEST(WriteReport, SaysWhatAreasAndPowersAreIn) {
     EXPECT_NEAR(group.at(power + "_w").at(2).get<double>(),
                 1e-4 * group.at(power).at(2).get<double>(), 1e-18);
   result.unit = "furlong";
-  EXPECT_FALSE(written(result).at("groups").at(0).contains("area_m2"));
+  EXPECT_FALSE(report_of(result).at("groups").at(0).contains("area_m2"));
 }
 
 TEST(WriteReport, AGreySceneHasOneChannel) {
   SolveResult result = test::sample_result(1);
   result.radiosity.channels = 1;
-  const auto json = written(result);
+  const auto json = report_of(result);
   EXPECT_EQ(json.at("radiosity").at("channel").size(), 1U);
   const auto group = json.at("groups").at(0);
   for (const char* key :
@@ -114,7 +115,7 @@ TEST(WriteReport, AGreySceneHasOneChannel) {
 TEST(WriteReport, AGroupWithoutElementsIsListedWithoutLight) {
   SolveResult result = test::sample_result(1);
   result.scene.groups.emplace_back("nothing");
-  const auto group = written(result).at("groups").at(2);
+  const auto group = report_of(result).at("groups").at(2);
   EXPECT_EQ(group.at("area"), 0);
   EXPECT_EQ(group.at("mean_radiosity_w_per_m2"), nlohmann::json({0.0, 0.0, 0.0}));
 }
@@ -123,9 +124,9 @@ TEST(WriteReport, IsJsonWhateverIsInIt) {
   SolveResult result = test::sample_result(1);
   result.scene.groups[0] = "\xff\xfe \"quoted\"\n";
   result.radiosity.channel[0].balance = std::numeric_limits<double>::quiet_NaN();
-  const auto json = written(result, {"1", "\xc3"});
+  const auto json = report_of(result, {"1", "\xc3"});
   EXPECT_TRUE(json.at("radiosity").at("channel").at(0).at("balance").is_null());
-  EXPECT_EQ(written(test::sample_result(0)).at("mesh").at("elements"), 0);
+  EXPECT_EQ(report_of(test::sample_result(0)).at("mesh").at("elements"), 0);
 }
 
 TEST(WriteReport, NamesAPlaceThatCannotBeWritten) {

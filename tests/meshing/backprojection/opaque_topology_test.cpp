@@ -13,9 +13,9 @@ using test::facing_down;
 
 TEST(OpaqueTopology, JoinsCornersAndSplitsEdgesAtTJunctions) {
   SoundScene scene;
-  test::add_surface(scene, facing_down(0, 2, 0, 1, 1), 1);
-  test::add_surface(scene, facing_down(0, 1, 1, 2, 1));
-  test::add_surface(scene, facing_down(1, 2, 1, 2, 1));
+  test::add_lit_surface(scene, facing_down(0, 2, 0, 1, 1), 1);
+  test::add_lit_surface(scene, facing_down(0, 1, 1, 2, 1));
+  test::add_lit_surface(scene, facing_down(1, 2, 1, 2, 1));
   test::finish(scene);
   const OpaqueTopology topology = make_opaque_topology(scene);
   EXPECT_EQ(topology.vertices.size(), 8u);

@@ -14,7 +14,7 @@ namespace {
 OpaqueTopology sphere_and_sheet() {
   SoundScene scene;
   test::add_sphere(scene, {0, 0, 1}, .3, 2);
-  test::add_surface(scene, test::facing_down(-.5, .5, -.5, .5, 2), 1);
+  test::add_lit_surface(scene, test::facing_down(-.5, .5, -.5, .5, 2), 1);
   test::finish(scene);
   return make_opaque_topology(scene);
 }

@@ -18,10 +18,10 @@ using test::find_visible;
 using test::Polygon;
 using test::Random;
 
-const Vec3 up = Vec3::UnitZ();
+const Vec3 unit_z = Vec3::UnitZ();
 
 double exact_factor(const Polygon& light, const std::vector<Polygon>& occluders, const Vec3& point,
-                    const Vec3& normal = up) {
+                    const Vec3& normal = unit_z) {
   return static_cast<double>(test::visible_factor(light, occluders, point, normal));
 }
 
@@ -30,8 +30,8 @@ const Polygon ground = {{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}};
 
 SoundScene with_light(const std::vector<Polygon>& occluders) {
   SoundScene scene;
-  test::add_surface(scene, light, 1);
-  for (const Polygon& polygon : occluders) test::add_surface(scene, polygon);
+  test::add_lit_surface(scene, light, 1);
+  for (const Polygon& polygon : occluders) test::add_lit_surface(scene, polygon);
   test::finish(scene);
   return scene;
 }
@@ -117,9 +117,9 @@ TEST(VisiblePartLimits, ABoxHangingFromTheEmitterCountsLikeItsFacesBelow) {
 
 TEST(VisiblePartLimits, ACeilingRoundTheLampHidesNothing) {
   SoundScene scene;
-  test::add_surface(scene, light, 1);
-  test::add_surface(scene, {facing_down(-2, 2, -2, 2, 2), test::reversed(light)});
-  test::add_surface(scene, facing_down(-.2, .2, -.2, .2, 2));  // a label stuck on the lamp
+  test::add_lit_surface(scene, light, 1);
+  test::add_lit_surface(scene, {facing_down(-2, 2, -2, 2, 2), test::reversed(light)});
+  test::add_lit_surface(scene, facing_down(-.2, .2, -.2, .2, 2));  // a label stuck on the lamp
   test::finish(scene);
   for (const double x : {0., .5, 1., -2.})
     EXPECT_EQ(find_visible(scene, {x, .3, 0}).region, Region::lit) << x;
@@ -147,8 +147,8 @@ TEST(VisiblePartLimits, AbuttingTilesLeaveNoGap) {
       const double x0 = std::max(-1., -1 + .25 * k - .03 * row),
                    x1 = -1 + .25 * (k + 1) - .03 * row;
       if (x0 >= 1) continue;
-      test::add_surface(scene,
-                        facing_down(x0, std::min(1., x1), -1 + .25 * row, -1 + .25 * (row + 1), 1));
+      test::add_lit_surface(
+          scene, facing_down(x0, std::min(1., x1), -1 + .25 * row, -1 + .25 * (row + 1), 1));
     }
   test::finish(scene);
   Random random(9);
@@ -182,10 +182,10 @@ TEST(VisiblePartLimits, EdgeOnOccludersHideNothing) {
 TEST(VisiblePartLimits, TheInsideOfAClosedRoomSeesItsLampWhole) {
   SoundScene scene;
   const Polygon lamp = facing_down(1, 2, 1, 2, 3);
-  test::add_surface(scene, lamp, 1);
+  test::add_lit_surface(scene, lamp, 1);
   auto faces = test::box_faces({0, 0, 0}, {4, 5, 3}, true);
-  for (std::size_t f = 0; f < 5; ++f) test::add_surface(scene, faces[f]);
-  test::add_surface(scene, {faces[5], test::reversed(lamp)});
+  for (std::size_t f = 0; f < 5; ++f) test::add_lit_surface(scene, faces[f]);
+  test::add_lit_surface(scene, {faces[5], test::reversed(lamp)});
   test::finish(scene);
   Random random(12);
   for (int k = 0; k < 100; ++k) {
@@ -201,12 +201,12 @@ TEST(VisiblePartLimits, TheInsideOfAClosedRoomSeesItsLampWhole) {
 TEST(VisiblePartLimits, AWallThatIsTheLightSharesItsEdgesWithItsNeighbours) {
   SoundScene scene;
   auto faces = test::box_faces({0, 0, 0}, {4, 5, 3}, true);
-  for (std::size_t f = 0; f < 6; ++f) test::add_surface(scene, faces[f]);
+  for (std::size_t f = 0; f < 6; ++f) test::add_lit_surface(scene, faces[f]);
   test::finish(scene);
   Random random(13);
   for (int k = 0; k < 100; ++k) {
     const Vec3 point(random(.01, 4), random(0, 5), 0);
-    const VisiblePart part = find_visible(scene, point, up, 0);
+    const VisiblePart part = find_visible(scene, point, unit_z, 0);
     EXPECT_EQ(part.region, Region::lit);
     const double exact = exact_factor(faces[0], {}, point);
     EXPECT_NEAR(factor(part, point), exact, 1e-14);
@@ -217,7 +217,7 @@ TEST(VisiblePartLimits, AWallWithAWindowHidesAllButTheWindow) {
   const Polygon window = {{.5, -.2, .8}, {.5, .3, .8}, {.5, .3, 1.4}, {.5, -.2, 1.4}};
   const Polygon wall = {{.5, -9, -1}, {.5, 9, -1}, {.5, 9, 9}, {.5, -9, 9}};
   SoundScene scene = with_light({ground});
-  test::add_surface(scene, {wall, test::reversed(window)});
+  test::add_lit_surface(scene, {wall, test::reversed(window)});
   test::finish(scene);
   Random random(15);
   int partly = 0;
@@ -253,9 +253,9 @@ SoundScene grid_scene(Random& random, double step) {
     if (kind == 0)
       test::add_box(scene, low, high);
     else if (kind == 1)
-      test::add_surface(scene, facing_down(x, high.x(), y, high.y(), z + step));
+      test::add_lit_surface(scene, facing_down(x, high.x(), y, high.y(), z + step));
     else if (area_vector(triangle).norm() > 1e-3)
-      test::add_surface(scene, triangle);
+      test::add_lit_surface(scene, triangle);
   }
   test::finish(scene);
   return scene;
@@ -272,11 +272,11 @@ TEST(VisiblePartLimits, GridScenesSeenFromTheGridAgreeWithSampledSightLines) {
     VisiblePart part;
     for (int k = 0; k < 20; ++k) {
       const Vec3 point(step * (random.below(13) - 6), step * (random.below(13) - 6), 0);
-      finder.find(point, up, 0, part);
-      EXPECT_EQ(test::wrong_samples(scene, 0, point, up, part, 10, 1e-9, tested), 0)
+      finder.find(point, unit_z, 0, part);
+      EXPECT_EQ(test::wrong_samples(scene, 0, point, unit_z, part, 10, 1e-9, tested), 0)
           << "seed " << seed << ", point " << point.transpose();
       const double visible = factor(part, point),
-                   whole = test::lambert(part.unobstructed, point, up);
+                   whole = test::lambert(part.unobstructed, point, unit_z);
       EXPECT_GE(visible, -1e-15);
       EXPECT_LE(visible, whole + 1e-15);
       partly += part.region == Region::penumbra ? 1 : 0;
@@ -298,8 +298,8 @@ double largest_error(double scale, const Vec3& shift) {
   std::vector<Polygon> images;
   for (const Polygon& polygon : occluders) images.push_back(moved(polygon));
   SoundScene scene;
-  test::add_surface(scene, moved(light), 1);
-  for (const Polygon& polygon : images) test::add_surface(scene, polygon);
+  test::add_lit_surface(scene, moved(light), 1);
+  for (const Polygon& polygon : images) test::add_lit_surface(scene, polygon);
   test::finish(scene);
   double worst = 0;
   Random random(14);
@@ -331,8 +331,8 @@ TEST(VisiblePartLimits, TinyHugeNearAndFarLightsKeepTheirPrecision) {
     const Polygon lamp = facing_down(-size, size, -size, size, 2);
     const Polygon screen = facing_down(0, 9, -9, 9, 1);
     SoundScene scene;
-    test::add_surface(scene, lamp, 1);
-    test::add_surface(scene, screen);
+    test::add_lit_surface(scene, lamp, 1);
+    test::add_lit_surface(scene, screen);
     test::finish(scene);
     for (const double x : {0., -.4 * std::min(size, 1.), .25 * std::min(size, 1.)}) {
       const Vec3 point(x, .01, 0);

@@ -45,7 +45,7 @@ TEST(VisiblePartSignature, IsConstantInACellAndDiffersBetweenCells) {
 
 SoundScene sphere_scene(int levels) {
   SoundScene scene;
-  test::add_surface(scene, facing_down(-.5, .5, -.5, .5, 2), 1);
+  test::add_lit_surface(scene, facing_down(-.5, .5, -.5, .5, 2), 1);
   test::add_sphere(scene, {.1, .05, 1}, .3, levels);
   test::finish(scene);
   return scene;
@@ -94,7 +94,7 @@ TEST(VisiblePartFinder, ASpheresHiddenPartIsThatOfItsOutline) {
   // Seen from a point below its centre, the sphere's outline is a regular polygon up to its
   // fineness; the form factor to a sphere straight above is (r / distance)².
   SoundScene scene;
-  test::add_surface(scene, facing_down(-5, 5, -5, 5, 2), 1);
+  test::add_lit_surface(scene, facing_down(-5, 5, -5, 5, 2), 1);
   test::add_sphere(scene, {0, 0, 1}, .3, 5);
   test::finish(scene);
   const VisiblePart part = find_visible(scene, Vec3::Zero());

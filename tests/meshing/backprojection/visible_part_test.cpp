@@ -86,8 +86,8 @@ TEST(VisiblePart, ConvexOccludersAgreeWithInclusionAndExclusion) {
     const std::vector<Polygon> occluders = strewn(random, 1 + random.below(3));
     const Polygon light = facing_down(-.5, .5, -.4, .6, 2);
     SoundScene scene;
-    test::add_surface(scene, light, 1);
-    for (const Polygon& polygon : occluders) test::add_surface(scene, polygon);
+    test::add_lit_surface(scene, light, 1);
+    for (const Polygon& polygon : occluders) test::add_lit_surface(scene, polygon);
     test::finish(scene);
     const OpaqueScene opaque(scene);
     VisiblePartFinder finder(opaque);
@@ -138,11 +138,11 @@ void add_random_object(SoundScene& scene, Random& random) {
       test::add_sphere(scene, centre, random(.1, .6), 1 + random.below(2));
       break;
     case 2:
-      test::add_surface(scene,
-                        test::random_polygon(random, centre, random(.2, 1), 3 + random.below(5)));
+      test::add_lit_surface(
+          scene, test::random_polygon(random, centre, random(.2, 1), 3 + random.below(5)));
       break;
     default:
-      test::add_surface(scene, notched_light(random(.3, 1.9)));
+      test::add_lit_surface(scene, notched_light(random(.3, 1.9)));
   }
 }
 
@@ -152,11 +152,11 @@ TEST(VisiblePart, RandomScenesAgreeWithSampledSightLines) {
     Random random(seed);
     SoundScene scene;
     if (seed % 3 == 0)
-      test::add_surface(scene, sunken_light(), 1);
+      test::add_lit_surface(scene, sunken_light(), 1);
     else
-      test::add_surface(scene, notched_light(2), 1);
+      test::add_lit_surface(scene, notched_light(2), 1);
     ASSERT_LT(scene.surfaces[0].frame.normal.sum(), 0);
-    test::add_surface(scene, Polygon{{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
+    test::add_lit_surface(scene, Polygon{{-4, -4, 0}, {4, -4, 0}, {4, 4, 0}, {-4, 4, 0}});
     for (int count = 1 + random.below(5); count > 0; --count) add_random_object(scene, random);
     test::finish(scene);
     const OpaqueScene opaque(scene);
@@ -185,7 +185,7 @@ TEST(VisiblePart, WithoutOccludersTheOutlineGivesTheClosedForm) {
     SoundScene scene;
     const std::vector<Polygon> rings =
         sunken ? std::vector<Polygon>{sunken_light()} : notched_light(2);
-    test::add_surface(scene, rings, 1);
+    test::add_lit_surface(scene, rings, 1);
     test::finish(scene);
     Random random(11);
     for (int k = 0; k < 100; ++k) {
@@ -207,7 +207,7 @@ TEST(VisiblePart, ChainsAreClosedAndRunOneAfterTheOther) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     Random random(seed);
     SoundScene scene;
-    test::add_surface(scene, notched_light(2), 1);
+    test::add_lit_surface(scene, notched_light(2), 1);
     for (int count = 0; count < 4; ++count) add_random_object(scene, random);
     test::finish(scene);
     for (int k = 0; k < 10; ++k) {

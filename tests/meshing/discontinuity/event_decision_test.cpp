@@ -16,8 +16,9 @@ namespace {
 using test::LitScene;
 using test::SceneMaker;
 
-struct Table : LitScene {
-  Table() : LitScene(SceneMaker().square_light().up({-0.375, -0.375}, {0.375, 0.375}, 1).floor()) {}
+struct DecisionTable : LitScene {
+  DecisionTable()
+      : LitScene(SceneMaker().square_light().up({-0.375, -0.375}, {0.375, 0.375}, 1).floor()) {}
 
   /// Ids of what lies in x = .375 at the table, and of the light's edges.
   std::vector<EdgeId> group() const {
@@ -37,7 +38,7 @@ struct Table : LitScene {
 };
 
 TEST(EventDecider, SeesADifferenceOnTheCurveAndNoneBesideIt) {
-  const Table table;
+  const DecisionTable table;
   const std::vector<EdgeId> ids = table.group();
   ASSERT_EQ(ids.size(), 5u);
   EXPECT_TRUE(table.differs(0.25, ids));
@@ -46,7 +47,7 @@ TEST(EventDecider, SeesADifferenceOnTheCurveAndNoneBesideIt) {
 }
 
 TEST(EventDecider, AsksOnlyForTheEdgesOfTheGroup) {
-  const Table table;
+  const DecisionTable table;
   EXPECT_FALSE(table.differs(0.25, {}));
 }
 

@@ -21,7 +21,7 @@ using test::Random;
 
 constexpr double tolerance = 1e-9;
 
-EdgeTriple triple(int a, int b, int c, int sign) {
+EdgeTriple edge_triple(int a, int b, int c, int sign) {
   return {{EdgeId::edge(a), EdgeId::edge(b), EdgeId::edge(c)}, sign};
 }
 
@@ -34,7 +34,7 @@ DiscontinuityCurve curve(int id, const ConicArc& arc, int order = 2, int sign = 
   result.kind = arc.is_straight ? CurveKind::ev : CurveKind::eee;
   result.arc = arc;
   result.jump = {1, 2, 3};
-  result.triples = {triple(id + 2, id, id + 1, sign)};
+  result.triples = {edge_triple(id + 2, id, id + 1, sign)};
   CurveSource source;
   source.kind = result.kind;
   source.features[0] = {Feature::Kind::vertex, id};
@@ -154,8 +154,8 @@ TEST(MergeCurves, TwoThatOverlapBecomeThree) {
   EXPECT_EQ(curves[1].kind, CurveKind::face);
   // The second one ran the other way: what was on its left is on its right now.
   ASSERT_EQ(curves[1].triples.size(), 2u);
-  EXPECT_EQ(curves[1].triples[0], triple(0, 1, 2, 1));
-  EXPECT_EQ(curves[1].triples[1], triple(9, 10, 11, -1));
+  EXPECT_EQ(curves[1].triples[0], edge_triple(0, 1, 2, 1));
+  EXPECT_EQ(curves[1].triples[1], edge_triple(9, 10, 11, -1));
   EXPECT_EQ(curves[1].jump, (std::array<double, 3>{0, 0, 0}));
 }
 
@@ -164,7 +164,7 @@ TEST(MergeCurves, EqualTriplesCountOnceAndOppositeOnesTwice) {
     std::vector<DiscontinuityCurve> curves = {segment(0, {0, 0}, {1, 0}),
                                               segment(7, {0, 0}, {1, 0})};
     if (reversed) curves[1].arc = straight_arc({1, 0}, {0, 0});
-    curves[1].triples = {triple(0, 1, 2, sign)};
+    curves[1].triples = {edge_triple(0, 1, 2, sign)};
     merge_coincident(curves, tolerance);
     EXPECT_EQ(curves.size(), 1u);
     EXPECT_EQ(curves[0].sources.size(), 2u);

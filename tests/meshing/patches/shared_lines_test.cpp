@@ -11,7 +11,7 @@
 namespace halfshade {
 namespace {
 
-using test::add_surface;
+using test::add_lit_surface;
 using test::finish;
 
 std::set<int> surfaces_of(const SharedLines& shared, const SharedLine& line) {
@@ -44,8 +44,8 @@ TEST(SharedLines, ACubeHasTwelveWithTwoBorderLinesEach) {
 
 TEST(SharedLines, BorderLinesAreListedBySurfaceRingsFirst) {
   SoundScene scene;
-  add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  add_surface(scene, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
+  add_lit_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  add_lit_surface(scene, {{0, 0, 5}, {1, 0, 5}, {0, 1, 5}});
   scene.surfaces[0].contacts = {{Vec2(-0.1, 0), Vec2(0.1, 0)}};
   finish(scene);
   const SharedLines shared = find_shared_lines(scene);
@@ -62,10 +62,10 @@ TEST(SharedLines, BorderLinesAreListedBySurfaceRingsFirst) {
 TEST(SharedLines, EdgesOfDifferentLengthAndContactLinesShareOne) {
   SoundScene scene;
   // Two pages of different height on a floor, one above the other's edge in part; a far third.
-  add_surface(scene, {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}});
-  add_surface(scene, {{1, 2, 0}, {3, 2, 0}, {3, 2, 1}, {1, 2, 1}});
-  add_surface(scene, {{2, 2, 0}, {3.5, 2, 0}, {3.5, 3, 1}, {2, 3, 1}});
-  add_surface(scene, {{3.6, 2, 0}, {3.9, 2, 0}, {3.9, 2, 1}, {3.6, 2, 1}});
+  add_lit_surface(scene, {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}});
+  add_lit_surface(scene, {{1, 2, 0}, {3, 2, 0}, {3, 2, 1}, {1, 2, 1}});
+  add_lit_surface(scene, {{2, 2, 0}, {3.5, 2, 0}, {3.5, 3, 1}, {2, 3, 1}});
+  add_lit_surface(scene, {{3.6, 2, 0}, {3.9, 2, 0}, {3.9, 2, 1}, {3.6, 2, 1}});
   const PlaneFrame& floor = scene.surfaces[0].frame;
   scene.surfaces[0].contacts = {{floor.to_plane({1, 2, 0}), floor.to_plane({3.5, 2, 0})},
                                 {floor.to_plane({3.6, 2, 0}), floor.to_plane({3.9, 2, 0})}};
@@ -78,10 +78,10 @@ TEST(SharedLines, EdgesOfDifferentLengthAndContactLinesShareOne) {
 
 TEST(SharedLines, TouchingInAPointIsNotSharing) {
   SoundScene scene;
-  add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  add_surface(scene, {{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}});  // continues an edge
-  add_surface(scene, {{0, 1, 0}, {1, 2, 0}, {0, 2, 1}});             // touches a corner
-  add_surface(scene, {{0.5, 0, 0}, {0.6, -1, 0}, {0.4, -1, 0.3}});   // touches an edge
+  add_lit_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  add_lit_surface(scene, {{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}});  // continues an edge
+  add_lit_surface(scene, {{0, 1, 0}, {1, 2, 0}, {0, 2, 1}});             // touches a corner
+  add_lit_surface(scene, {{0.5, 0, 0}, {0.6, -1, 0}, {0.4, -1, 0.3}});   // touches an edge
   finish(scene);
   EXPECT_TRUE(find_shared_lines(scene).lines.empty());
 }
@@ -89,9 +89,9 @@ TEST(SharedLines, TouchingInAPointIsNotSharing) {
 TEST(SharedLines, CornersThatReachPastEachOtherAreNotShared) {
   SoundScene scene;
   const double past = 1e-7;
-  add_surface(scene, {{-past, 0, 0}, {1, 0, 0}, {1, 1, 0}});
-  add_surface(scene, {{past, 0, 0}, {-0.3, 0.9, 0.1}, {-1, 0, 0.5}});
-  add_surface(scene, {{0, past, past}, {-0.3, -0.9, 0.1}, {0.2, -1, 0}});
+  add_lit_surface(scene, {{-past, 0, 0}, {1, 0, 0}, {1, 1, 0}});
+  add_lit_surface(scene, {{past, 0, 0}, {-0.3, 0.9, 0.1}, {-1, 0, 0.5}});
+  add_lit_surface(scene, {{0, past, past}, {-0.3, -0.9, 0.1}, {0.2, -1, 0}});
   finish(scene);
   EXPECT_TRUE(find_shared_lines(scene).lines.empty());
 }
@@ -99,9 +99,9 @@ TEST(SharedLines, CornersThatReachPastEachOtherAreNotShared) {
 TEST(SharedLines, CoplanarBorderLinesMustTouchWithinTheTolerance) {
   for (const double gap : {0.5, 2.}) {
     SoundScene scene;
-    add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    add_lit_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
     const double x = 1 + gap * 1e-9 * std::sqrt(5);
-    add_surface(scene, {{x, 0, 0}, {2, 0, 0}, {2, 1, 0}, {x, 1, 0}});
+    add_lit_surface(scene, {{x, 0, 0}, {2, 0, 0}, {2, 1, 0}, {x, 1, 0}});
     finish(scene);
     EXPECT_EQ(find_shared_lines(scene).lines.size(), gap < 1 ? 1u : 0u);
   }
@@ -112,9 +112,10 @@ TEST(SharedLines, BorderLinesOfPlanesOffTheirCornersAreFoundInOrderOfDistance) {
   // A floor with its border at x = 0 and a contact line 1e-7 beside it; a border off by 3e-8 and a
   // box's side off by as much from the contact line.
   const double gap = 1e-7, off = 3e-8;
-  add_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-  add_surface(scene, {{-off, 0, 0}, {-off, 1, 0}, {-off, 1, 1}, {-off, 0, 1}});
-  add_surface(scene, {{gap + off, 0, 0}, {gap + off, 0, 1}, {gap + off, 1, 1}, {gap + off, 1, 0}});
+  add_lit_surface(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+  add_lit_surface(scene, {{-off, 0, 0}, {-off, 1, 0}, {-off, 1, 1}, {-off, 0, 1}});
+  add_lit_surface(scene,
+                  {{gap + off, 0, 0}, {gap + off, 0, 1}, {gap + off, 1, 1}, {gap + off, 1, 0}});
   const PlaneFrame& floor = scene.surfaces[0].frame;
   scene.surfaces[0].contacts = {{floor.to_plane({gap, 0, 0}), floor.to_plane({gap, 1, 0})}};
   finish(scene);

@@ -1,6 +1,7 @@
 #include "meshing/core/error.h"
 #include "meshing/triangulation/curve_mesh.h"
 #include "tests/support/mesh_invariants.h"
+#include "tests/support/rings.h"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +14,8 @@ namespace {
 
 using test::angle_and_length;
 using test::expect_sound;
-
-const Ring unit_square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-const Ring square_hole = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
+using test::square_hole;
+using test::unit_square;
 
 Ring rectangle(double width, double height) {
   return {{0, 0}, {width, 0}, {width, height}, {0, height}};

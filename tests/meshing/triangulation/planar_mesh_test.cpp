@@ -1,6 +1,7 @@
 #include "meshing/triangulation/planar_mesh.h"
 
 #include "tests/support/mesh_invariants.h"
+#include "tests/support/rings.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +9,8 @@ namespace halfshade {
 namespace {
 
 using test::expect_sound;
-
-const Ring unit_square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-const Ring square_hole = {{0.4, 0.4}, {0.4, 0.6}, {0.6, 0.6}, {0.6, 0.4}};
+using test::square_hole;
+using test::unit_square;
 
 TEST(Triangulate, AddsNoPoints) {
   const std::vector<Ring> rings = {unit_square, square_hole};

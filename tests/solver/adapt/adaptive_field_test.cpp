@@ -1,8 +1,8 @@
 #include "solver/adapt/adaptive_field.h"
 
 #include "tests/support/expect_error.h"
+#include "tests/support/fitted_functions.h"
 #include "tests/support/sound_scenes.h"
-#include "tests/support/true_error.h"
 
 #include <gtest/gtest.h>
 
@@ -16,35 +16,17 @@
 namespace halfshade {
 namespace {
 
-/// Of a position.
-using Function = std::function<double(const Vec3&)>;
-
-Rgb in_channels(double value) { return {value, 0.5 * value, 2 * value}; }
-
-FieldAt field_of(const Function& f) {
-  return [f](std::span<const FieldPoint> points, const Progress&) {
-    std::vector<Rgb> values;
-    for (const FieldPoint& point : points) values.push_back(in_channels(f(point.point.position)));
-    return values;
-  };
-}
-
-double true_error(const AdaptiveField& fit, const Function& f, int parts = 1) {
-  return test::true_relative_error(
-      fit.elements, fit.field, [&](const Vec3& p) { return in_channels(f(p)); }, parts);
-}
+using test::field_of;
+using test::Function;
+using test::in_channels;
+using test::mesh_of;
+using test::true_error;
 
 /// The unit square in z = 0.
 SoundScene square() {
   SoundScene scene = test::empty_sound_scene(std::sqrt(2.));
   test::add_surface(scene, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 0);
   return scene;
-}
-
-PatchMesh mesh_of(const SoundScene& scene, double max_length) {
-  PlanarMeshOptions options;
-  options.max_length = max_length;
-  return PatchMesh(scene, options);
 }
 
 /// A line across the square that no regular mesh follows.

@@ -12,12 +12,12 @@ namespace halfshade {
 namespace {
 
 /// Of a place in the standard triangle.
-using Function = std::function<double(const TrianglePlace&)>;
+using InPlane = std::function<double(const TrianglePlace&)>;
 
 constexpr double in_channel[3] = {1, 0.5, 2};
 
 /// The function in all channels, in different sizes.
-ElementFit fit(int order, const Function& f) {
+ElementFit fit(int order, const InPlane& f) {
   const TriangleRule& rule = sampling_rule(order);
   ChannelArray samples(rule.weights.size(), 3);
   for (std::size_t k = 0; k < rule.places.size(); ++k)
@@ -32,7 +32,7 @@ Rgb value(const ElementFit& fit, const TrianglePlace& place) {
   return fit.coefficients.matrix().transpose() * basis;
 }
 
-double true_error(const ElementFit& fit, const Function& f, int parts) {
+double true_error(const ElementFit& fit, const InPlane& f, int parts) {
   return std::sqrt(test::triangle_mean(parts, [&](const TrianglePlace& place) {
     const Rgb off = f(place) * Rgb(in_channel[0], in_channel[1], in_channel[2]) - value(fit, place);
     return off.matrix().squaredNorm();
@@ -78,7 +78,7 @@ TEST(ElementFit, OneDegreeMoreIsAllError) {
 }
 
 TEST(ElementFit, TheErrorOfSmoothFunctionsIsClose) {
-  for (const Function& f : {Function(exponential), Function(near_light)})
+  for (const InPlane& f : {InPlane(exponential), InPlane(near_light)})
     for (int order = 0; order <= max_order; ++order) {
       const ElementFit of = fit(order, f);
       const double ratio = of.error / true_error(of, f, 2);
@@ -94,7 +94,7 @@ double error_ratio_of_breaks(int order, int parts, const std::function<double(do
   double estimated = 0, actual = 0;
   for (int i = 0; i < 40; ++i) {
     const double angle = random(0, 6.28), offset = random(-0.25, 0.25);
-    const Function broken = [&](const TrianglePlace& p) {
+    const InPlane broken = [&](const TrianglePlace& p) {
       return f(std::cos(angle) * (p.x() - 1. / 3) + std::sin(angle) * (p.y() - 1. / 3) - offset);
     };
     const ElementFit of = fit(order, broken);
@@ -154,7 +154,7 @@ TEST(ElementFit, APartHasThePolynomialOfTheWhole) {
 }
 
 TEST(ElementFit, DroppingADegreeCostsItsLayer) {
-  for (const Function& f : {Function(exponential), Function(near_light)}) {
+  for (const InPlane& f : {InPlane(exponential), InPlane(near_light)}) {
     ElementFit of = fit(max_order, f);
     while (of.order > 0) {
       const ElementFit before = of;

@@ -1,8 +1,8 @@
 #include "solver/adapt/adaptive_field.h"
+#include "tests/support/fitted_functions.h"
 #include "tests/support/mesh_invariants.h"
 #include "tests/support/random.h"
 #include "tests/support/sound_scenes.h"
-#include "tests/support/true_error.h"
 
 #include <gtest/gtest.h>
 
@@ -14,25 +14,13 @@
 namespace halfshade {
 namespace {
 
-/// Of a position.
-using Function = std::function<double(const Vec3&)>;
-
-FieldAt field_of(const Function& f) {
-  return [f](std::span<const FieldPoint> points, const Progress&) {
-    std::vector<Rgb> values;
-    for (const FieldPoint& point : points)
-      values.push_back(f(point.point.position) * Rgb(1, 0.5, 2));
-    return values;
-  };
-}
-
-double true_error(const AdaptiveField& fit, const Function& f, int parts = 1) {
-  return test::true_relative_error(
-      fit.elements, fit.field, [&](const Vec3& p) -> Rgb { return f(p) * Rgb(1, 0.5, 2); }, parts);
-}
+using test::field_of;
+using test::Function;
+using test::mesh_of;
+using test::true_error;
 
 /// The unit square in z = 0 with elements along the line y = 3 x − 1.
-SoundScene square_with_line() {
+SoundScene merged_square() {
   SoundScene scene = test::empty_sound_scene(std::sqrt(2.));
   test::add_surface(scene, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 0);
   Surface& surface = scene.surfaces[0];
@@ -49,13 +37,9 @@ std::vector<int> all_of(const PatchMesh& mesh) {
   return all;
 }
 
-PatchMesh mesh_of(const SoundScene& scene, double max_length) {
-  return PatchMesh(scene, {.max_length = max_length});
-}
-
 TEST(MergedField, PolynomialsStayExactThroughRoundsOfSplittingAndMerging) {
   test::Random random(12);
-  const SoundScene scene = square_with_line();
+  const SoundScene scene = merged_square();
   PatchMesh mesh = mesh_of(scene, 0.5);
   const int least = mesh.element_count();
   int gone = 0;
@@ -97,18 +81,18 @@ TEST(MergedField, PolynomialsStayExactThroughRoundsOfSplittingAndMerging) {
   EXPECT_GT(gone, 20);
 }
 
-struct Case {
+struct MergedCase {
   const char* name;
   double (*f)(const Vec3&);
 };
 
-class MergedFieldAccuracy : public testing::TestWithParam<Case> {};
+class MergedFieldAccuracy : public testing::TestWithParam<MergedCase> {};
 
 TEST_P(MergedFieldAccuracy, WhatIsSmallerThanItNeedsBeIsMergedAndStaysRight) {
   const auto f = GetParam().f;
   for (const int order : {-1, 2})
     for (const double tolerance : {1e-2, 1e-4}) {
-      const SoundScene scene = square_with_line();
+      const SoundScene scene = merged_square();
       AdaptiveFieldOptions options;
       options.tolerance = tolerance;
       options.order = order;
@@ -134,13 +118,17 @@ TEST_P(MergedFieldAccuracy, WhatIsSmallerThanItNeedsBeIsMergedAndStaysRight) {
 
 INSTANTIATE_TEST_SUITE_P(
     Functions, MergedFieldAccuracy,
-    testing::Values(
-        Case{"smooth",
-             [](const Vec3& p) { return 1 + std::exp(p.x() - 0.7 * p.y()) * std::sin(2 * p.y()); }},
-        Case{"broken_at_the_line",
-             [](const Vec3& p) { return 1 + std::sin(2 * p.y()) + (is_right_of_line(p) ? 1 : 0); }},
-        Case{"kinked_elsewhere",
-             [](const Vec3& p) { return 1 + std::abs(p.x() + 0.3 * p.y() - 0.95); }}),
+    testing::Values(MergedCase{"smooth",
+                               [](const Vec3& p) {
+                                 return 1 + std::exp(p.x() - 0.7 * p.y()) * std::sin(2 * p.y());
+                               }},
+                    MergedCase{"broken_at_the_line",
+                               [](const Vec3& p) {
+                                 return 1 + std::sin(2 * p.y()) + (is_right_of_line(p) ? 1 : 0);
+                               }},
+                    MergedCase{
+                        "kinked_elsewhere",
+                        [](const Vec3& p) { return 1 + std::abs(p.x() + 0.3 * p.y() - 0.95); }}),
     [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace

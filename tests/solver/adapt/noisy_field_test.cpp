@@ -2,8 +2,8 @@
 
 #include "meshing/geometry/mix_bits.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/fitted_functions.h"
 #include "tests/support/sound_scenes.h"
-#include "tests/support/true_error.h"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,9 @@
 namespace halfshade {
 namespace {
 
-using Function = std::function<double(const Vec3&)>;
+using test::Function;
+using test::in_channels;
+using test::true_error;
 
 constexpr double uniform_deviation = 0.28867513459481287;  // of numbers from 0 to 1
 
@@ -26,10 +28,8 @@ double noise_at(const Vec3& p, std::uint64_t which) {
   return (unit_share(bits) - 0.5) / uniform_deviation;
 }
 
-Rgb in_channels(double value) { return {value, 0.5 * value, 2 * value}; }
-
 /// With so much noise in the mean of two values.
-NoisyFieldAt field_of(const Function& f, double deviation) {
+NoisyFieldAt noisy_field_of(const Function& f, double deviation) {
   return [=](std::span<const FieldPoint> points, std::span<const double>, const Progress&) {
     std::vector<NoisyValue> values;
     for (const FieldPoint& point : points) {
@@ -52,12 +52,7 @@ PatchMesh unit_square(double max_length) {
 
 double one(const FieldPoint&) { return 1; }
 
-double true_error(const AdaptiveField& fit, const Function& f, int parts = 1) {
-  return test::true_relative_error(
-      fit.elements, fit.field, [&](const Vec3& p) { return in_channels(f(p)); }, parts);
-}
-
-double smooth(const Vec3& p) { return 1 + std::sin(5 * p.x()) * std::cos(4 * p.y()); }
+double waves(const Vec3& p) { return 1 + std::sin(5 * p.x()) * std::cos(4 * p.y()); }
 double step(const Vec3& p) { return p.x() + 0.37 * p.y() < 0.613 ? 1 : 0.2; }
 /// A shadow with a soft border, and a spot.
 double shadows(const Vec3& p) {
@@ -67,13 +62,14 @@ double shadows(const Vec3& p) {
 
 TEST(NoisyField, IsAsExactAsItSays) {
   int within_three = 0, runs = 0;
-  for (const Function& f : {Function(smooth), Function(step), Function(shadows)})
+  for (const Function& f : {Function(waves), Function(step), Function(shadows)})
     for (const double tolerance : {0.1, 0.05, 0.02})
       for (const double noise : {0., 0.5, 1.}) {
         PatchMesh mesh = unit_square(0.3);
         AdaptiveFieldOptions options;
         options.tolerance = tolerance;
-        const AdaptiveField fit = fit_noisy(mesh, field_of(f, noise * tolerance), one, options);
+        const AdaptiveField fit =
+            fit_noisy(mesh, noisy_field_of(f, noise * tolerance), one, options);
         ASSERT_EQ(fit.report.limit, FieldLimit::none);
         EXPECT_TRUE(fit.report.is_noisy);
         EXPECT_LE(fit.report.relative_error, tolerance);
@@ -92,7 +88,7 @@ TEST(NoisyField, TakesFewSamplesWhereLittleCanBe) {
     PatchMesh mesh = unit_square(0.02);
     AdaptiveFieldOptions options;
     options.tolerance = 0.1;
-    return fit_noisy(mesh, field_of(f, 0.01), bound, options).report.samples;
+    return fit_noisy(mesh, noisy_field_of(f, 0.01), bound, options).report.samples;
   };
   const std::size_t few = samples([&](const FieldPoint& p) { return f(p.point.position); });
   EXPECT_LT(4 * few, 3 * samples(one));
@@ -118,7 +114,8 @@ TEST(NoisyField, AllowsSmallElementsMoreNoise) {
                                    std::span<const double> slack, const Progress& progress) {
     std::vector<NoisyValue> values;
     for (std::size_t k = 0; k < points.size(); ++k) {
-      values.push_back(field_of(smooth, 0.1 * slack[k])(points.subspan(k, 1), {}, progress)[0]);
+      values.push_back(
+          noisy_field_of(waves, 0.1 * slack[k])(points.subspan(k, 1), {}, progress)[0]);
       (points[k].surface == 0 ? least : most) =
           points[k].surface == 0 ? std::min(least, slack[k]) : std::max(most, slack[k]);
       allowed += slack[k] > 1;
@@ -133,7 +130,7 @@ TEST(NoisyField, AllowsSmallElementsMoreNoise) {
   EXPECT_LT(most, 4);
   EXPECT_GT(allowed, all / 10);
   EXPECT_LE(fit.report.relative_error, options.tolerance);
-  EXPECT_LE(true_error(fit, smooth), 1.15 * fit.report.relative_error);
+  EXPECT_LE(true_error(fit, waves), 1.15 * fit.report.relative_error);
 }
 
 TEST(NoisyField, SaysWhenALimitStopsIt) {
@@ -141,7 +138,7 @@ TEST(NoisyField, SaysWhenALimitStopsIt) {
   AdaptiveFieldOptions options;
   options.tolerance = 0.01;
   options.max_elements = 2 * mesh.element_count();
-  const AdaptiveField fit = fit_noisy(mesh, field_of(step, 0.01), one, options);
+  const AdaptiveField fit = fit_noisy(mesh, noisy_field_of(step, 0.01), one, options);
   EXPECT_EQ(fit.report.limit, FieldLimit::elements);
   EXPECT_GT(fit.report.relative_error, 0.01);
   EXPECT_LE(fit.elements.count(), 1.3 * options.max_elements);
@@ -154,7 +151,7 @@ TEST(NoisyField, EndsWhenItIsStopped) {
   stop.request_stop();
   AdaptiveFieldOptions options;
   const AdaptiveField fit =
-      fit_noisy(mesh, field_of(smooth, 0), one, options, {stop.get_token(), {}});
+      fit_noisy(mesh, noisy_field_of(waves, 0), one, options, {stop.get_token(), {}});
   EXPECT_EQ(fit.report.limit, FieldLimit::stopped);
   EXPECT_EQ(fit.field.count(), mesh.element_count());
 }
@@ -163,13 +160,13 @@ TEST(NoisyField, IsTheSameInAnyUnit) {
   AdaptiveFieldOptions options;
   options.tolerance = 0.05;
   PatchMesh mesh = unit_square(0.3), other = unit_square(0.3);
-  const AdaptiveField fit = fit_noisy(mesh, field_of(shadows, 0.02), one, options);
+  const AdaptiveField fit = fit_noisy(mesh, noisy_field_of(shadows, 0.02), one, options);
   const double unit = 0x1p500;
   const AdaptiveField strong = fit_noisy(
       other,
       [&](std::span<const FieldPoint> points, std::span<const double> slack,
           const Progress& progress) {
-        auto values = field_of(shadows, 0.02)(points, slack, progress);
+        auto values = noisy_field_of(shadows, 0.02)(points, slack, progress);
         for (NoisyValue& value : values) value = {unit * value.a, unit * value.b};
         return values;
       },
@@ -180,8 +177,8 @@ TEST(NoisyField, IsTheSameInAnyUnit) {
 
 TEST(NoisyField, IsDarkWhereAllIs) {
   PatchMesh mesh = unit_square(0.3);
-  const AdaptiveField fit =
-      fit_noisy(mesh, field_of([](const Vec3&) { return 0.; }, 0), one, AdaptiveFieldOptions{});
+  const AdaptiveField fit = fit_noisy(mesh, noisy_field_of([](const Vec3&) { return 0.; }, 0), one,
+                                      AdaptiveFieldOptions{});
   EXPECT_EQ(fit.report.relative_error, 0);
   EXPECT_TRUE((fit.field.coefficients == 0).all());
 }
@@ -190,7 +187,7 @@ TEST(NoisyField, RefusesWhatIsOutOfRange) {
   PatchMesh mesh = unit_square(0.3);
   AdaptiveFieldOptions options;
   options.tolerance = 0;
-  test::expect_error([&] { fit_noisy(mesh, field_of(smooth, 0), one, options); },
+  test::expect_error([&] { fit_noisy(mesh, noisy_field_of(waves, 0), one, options); },
                      ErrorCode::contract, {"out of range"});
 }
 

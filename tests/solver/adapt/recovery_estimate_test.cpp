@@ -11,7 +11,7 @@
 namespace halfshade {
 namespace {
 
-ElementTable unit_square(double max_length) {
+ElementTable square_elements(double max_length) {
   Scene scene;
   test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                     test::add_material(scene, 0.5, 1));
@@ -56,7 +56,7 @@ double total(const ElementTable& elements, const Eigen::ArrayXd& estimate) {
 TEST(RecoveryEstimate, ApproachesTheTrueErrorOfSmoothFunctions) {
   const auto smooth = [](double x, double y) { return 2 + std::sin(3 * x) * std::cos(2 * y); };
   for (const double length : {0.1, 0.05, 0.025}) {
-    const ElementTable elements = unit_square(length);
+    const ElementTable elements = square_elements(length);
     const auto [means, error] = projected(elements, smooth);
     const double ratio = total(elements, recovery_estimate(elements, means)) / error;
     EXPECT_NEAR(ratio, 1, 4 * length) << elements.count() << " elements";
@@ -64,7 +64,7 @@ TEST(RecoveryEstimate, ApproachesTheTrueErrorOfSmoothFunctions) {
 }
 
 TEST(RecoveryEstimate, IsZeroForAConstantAndRelativeToTheNorm) {
-  const ElementTable elements = unit_square(0.3);
+  const ElementTable elements = square_elements(0.3);
   const ChannelArray constant = ChannelArray::Constant(elements.count(), 3, 7.);
   const Eigen::ArrayXd estimate = recovery_estimate(elements, constant);
   EXPECT_LE(estimate.maxCoeff(), 1e-14);

@@ -78,7 +78,7 @@ double distance_to_lines(const SoundScene& scene, const Discontinuities& found, 
   return best;
 }
 
-struct Tally {
+struct LabelTally {
   int points = 0, near_a_curve = 0, rounding = 0;
   std::array<int, 4> by_region{};
 };
@@ -94,7 +94,7 @@ bool is_lit_to_rounding(const DirectLightIndex& index, const SurfacePoint& point
 }
 
 void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m, int count,
-             Tally& tally) {
+             LabelTally& tally) {
   const SoundScene& scene = named.scene;
   ASSERT_EQ(m.labels.size(), static_cast<std::size_t>(m.elements.count()) * m.sources.size());
   VisiblePartFinder finder(opaque);
@@ -138,7 +138,7 @@ void compare(const NamedScene& named, const OpaqueScene& opaque, const Meshed& m
 }
 
 TEST(DiscontinuityLabels, HoldForWholeElementsOfSoundMeshes) {
-  Tally tally;
+  LabelTally tally;
   for (const NamedScene& named : test::discontinuity_scenes()) {
     if (!test::is_wanted(named.name)) continue;
     SCOPED_TRACE(named.name);
@@ -167,7 +167,7 @@ TEST(DiscontinuityLabels, HoldCloserToConicsWhereThatIsAsked) {
   options.deviation = 1e-7;
   const Meshed m(scene, opaque, options);
   EXPECT_LT(m.mesh.report.deviation, 2 * options.deviation * scene.diagonal);
-  Tally tally;
+  LabelTally tally;
   compare({"skew_bars", scene}, opaque, m, 10000 * test::effort(), tally);
   EXPECT_LT(tally.near_a_curve, tally.points / 1000);
 }
@@ -250,7 +250,7 @@ TEST(DiscontinuityLabels, MeshesOfDegenerateScenesAreSound) {
     const Meshed m(named.scene, opaque, {});
     test::expect_sound(m.elements, named.scene);
     EXPECT_EQ(m.mesh.report.unfinished_surfaces, 0u);
-    Tally tally;
+    LabelTally tally;
     compare(named, opaque, m, 300 * test::effort(), tally);
     expect_alike(m, named.scene.diagonal);
   }

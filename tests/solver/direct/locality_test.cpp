@@ -13,7 +13,7 @@
 namespace halfshade {
 namespace {
 
-const Vec3 up = Vec3::UnitZ(), down = -Vec3::UnitZ();
+const Vec3 upwards = Vec3::UnitZ(), downwards = -Vec3::UnitZ();
 
 /// A square in a horizontal plane, seen from above or below.
 std::vector<Vec3> square(double half, double z, bool faces_up, const Vec2& centre = {0, 0}) {
@@ -50,7 +50,8 @@ TEST(Locality, PlatesExchangeLightAcrossAnyGapInWhateverOrder) {
       if (light_first) plates.add(square(0.5, 0, true), plates.light);
       plates.add(square(0.5, gap, false), plates.black);
       if (!light_first) plates.add(square(0.5, 0, true), plates.light);
-      EXPECT_NEAR(plates.irradiance({0, 0, gap}, down) / above_centre(0.5, gap), 1, 1e-9) << gap;
+      EXPECT_NEAR(plates.irradiance({0, 0, gap}, downwards) / above_centre(0.5, gap), 1, 1e-9)
+          << gap;
     }
 }
 
@@ -60,7 +61,7 @@ TEST(Locality, AFarTriangleChangesNothing) {
     plates.add(square(0.5, 0, true), plates.light);
     plates.add(square(0.5, 1, false), plates.black);
     plates.add({{far, 0, 0}, {1.000001 * far, 0, 0}, {far, 1, 1}}, plates.black);
-    EXPECT_NEAR(plates.irradiance({0.2, 0.1, 1}, down),
+    EXPECT_NEAR(plates.irradiance({0.2, 0.1, 1}, downwards),
                 test::point_parallel_rectangle(0.7, 0.6, 1) +
                     test::point_parallel_rectangle(0.3, 0.6, 1) +
                     test::point_parallel_rectangle(0.7, 0.4, 1) +
@@ -74,7 +75,7 @@ TEST(Locality, ALightMuchWiderThanItsFloorIsSeenWhole) {
   Layout wide;
   wide.add(square(0.5, 0, true), wide.black);
   wide.add(square(5e5, 1, false), wide.light);
-  EXPECT_NEAR(wide.irradiance({0.1, 0.2, 0}, up), 1, 1e-9);
+  EXPECT_NEAR(wide.irradiance({0.1, 0.2, 0}, upwards), 1, 1e-9);
 }
 
 TEST(Locality, ATableUnderADistantSunThrowsItsShadow) {
@@ -85,9 +86,9 @@ TEST(Locality, ATableUnderADistantSunThrowsItsShadow) {
       sun.add(square(2, 0, true), sun.black);
       sun.add(square(0.5, height, true), sun.black);
       sun.add(square(half, distance, false), sun.light);
-      EXPECT_NEAR(sun.irradiance({1.5, 0, 0}, up) / above_centre(half, distance), 1, 1e-9)
+      EXPECT_NEAR(sun.irradiance({1.5, 0, 0}, upwards) / above_centre(half, distance), 1, 1e-9)
           << height << " " << distance;
-      EXPECT_EQ(sun.irradiance({0.1, 0.2, 0}, up), 0) << height << " " << distance;
+      EXPECT_EQ(sun.irradiance({0.1, 0.2, 0}, upwards), 0) << height << " " << distance;
     }
 }
 

@@ -14,7 +14,7 @@
 namespace halfshade {
 namespace {
 
-constexpr int lamps_each_way = 8, lamps = lamps_each_way * lamps_each_way;
+constexpr int lamps_each_way = 8, lamp_count = lamps_each_way * lamps_each_way;
 
 struct LitHall {
   SoundScene scene;
@@ -105,7 +105,7 @@ TEST(ManyLamps, HaveTheMeanAndTheDeviationAskedForWithFewRays) {
     EXPECT_LT(std::abs(product), 0.3 * half_square);
     // One ray to each lamp for each of two estimates would be more.
     if (share > 0.1) {
-      EXPECT_LT(rays / count, 0.5 * 2 * lamps);
+      EXPECT_LT(rays / count, 0.5 * 2 * lamp_count);
     }
     EXPECT_GT(rays, rays_before);
     rays_before = rays;

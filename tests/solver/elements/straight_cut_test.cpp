@@ -13,12 +13,12 @@ namespace halfshade {
 namespace {
 
 /// Elements of all orders and different sizes, with coefficients of all sizes.
-struct Sample {
+struct CutSample {
   std::vector<std::array<Vec3, 3>> triangles;
   std::vector<double> areas;
   ElementField field;
 
-  explicit Sample(double size = 1) {
+  explicit CutSample(double size = 1) {
     test::Random random(51);
     std::vector<int> order;
     for (int e = 0; e < 2 * (max_order + 1); ++e) order.push_back(e % (max_order + 1));
@@ -37,7 +37,7 @@ struct Sample {
 };
 
 /// Mean square over each element of polynomial less straight pieces, by a rule on each of them.
-std::vector<double> mean_squares(const Sample& sample, std::span<const int> along_edge) {
+std::vector<double> mean_squares(const CutSample& sample, std::span<const int> along_edge) {
   const LinearPieces pieces = linear_pieces(sample.triangles, sample.field, along_edge);
   const TriangleRule& rule = gauss_rule(2 * max_order);
   std::vector<double> square(sample.triangles.size(), 0.);
@@ -58,7 +58,7 @@ std::vector<double> mean_squares(const Sample& sample, std::span<const int> alon
 }
 
 /// The error of a cut in the L2 norm, relative.
-double error_of(const Sample& sample, const StraightCut& cut) {
+double error_of(const CutSample& sample, const StraightCut& cut) {
   const std::vector<double> off = mean_squares(sample, cut.along_edge);
   double error = 0, norm = 0;
   for (int e = 0; e < sample.field.count(); ++e) {
@@ -71,7 +71,7 @@ double error_of(const Sample& sample, const StraightCut& cut) {
 constexpr int many = 2'000'000;
 
 TEST(StraightError, IsThatOfThePiecesHoweverManyThereAre) {
-  const Sample sample;
+  const CutSample sample;
   StraightError error(sample.field, 1);
   for (const int n : {1, 2, 3, 7, 8, 9, 20}) {
     const std::vector<double> right =
@@ -107,7 +107,7 @@ TEST(StraightError, OfAParabolaIsInClosedForm) {
 TEST(StraightCut, KeepsWhatIsAllowedWithoutWaste) {
   // Squares of sizes beyond 1e154 are out of range.
   for (const double size : {1., 1e-170, 1e170}) {
-    const Sample sample(size);
+    const CutSample sample(size);
     for (const double allowed : {0.3, 0.03, 3e-3, 3e-4}) {
       const StraightCut cut = straight_cut(sample.field, sample.areas, allowed, many);
       EXPECT_FALSE(cut.is_limited);
@@ -121,7 +121,7 @@ TEST(StraightCut, KeepsWhatIsAllowedWithoutWaste) {
 }
 
 TEST(StraightCut, SaysHowFarOffEachElementIs) {
-  const Sample sample;
+  const CutSample sample;
   const StraightCut cut = straight_cut(sample.field, sample.areas, 0.02, many);
   const std::vector<double> right = mean_squares(sample, cut.along_edge);
   long long pieces = 0;
@@ -133,7 +133,7 @@ TEST(StraightCut, SaysHowFarOffEachElementIs) {
 }
 
 TEST(StraightCut, TakesFewerPiecesThanAllElementsAlike) {
-  const Sample sample;
+  const CutSample sample;
   const StraightCut cut = straight_cut(sample.field, sample.areas, 0.02, many);
   StraightCut alike = cut;
   for (int n = 1; n < 1000; ++n) {
@@ -144,7 +144,7 @@ TEST(StraightCut, TakesFewerPiecesThanAllElementsAlike) {
 }
 
 TEST(StraightCut, StopsAtTheMostPiecesAndSaysSo) {
-  const Sample sample;
+  const CutSample sample;
   double last = 10;
   for (const int most : {30, 100, 1000}) {
     const StraightCut cut = straight_cut(sample.field, sample.areas, 1e-6, most);

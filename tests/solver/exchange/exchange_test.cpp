@@ -17,11 +17,11 @@
 namespace halfshade {
 namespace {
 
-struct Meshed {
+struct MeshedRoom {
   SoundScene scene;
   ElementTable elements;
 
-  Meshed(const Scene& input, double max_length) : scene(make_sound(input)) {
+  MeshedRoom(const Scene& input, double max_length) : scene(make_sound(input)) {
     PlanarMeshOptions options;
     options.max_length = max_length;
     elements = PatchMesh(scene, options).elements();
@@ -48,7 +48,7 @@ Scene unit_room() {
 }
 
 TEST(Exchange, ElementsOfACubeAddUpToTheClosedForms) {
-  const Meshed cube(unit_room(), 0.3);
+  const MeshedRoom cube(unit_room(), 0.3);
   const Exchange exchange = cube.exchange({.tolerance = 1e-6, .closure = Closure::leave});
   EXPECT_NEAR(cube.between(exchange, 0, 1), 0.199824895698, 1e-6);
   EXPECT_NEAR(cube.between(exchange, 0, 2), 0.200043776075, 1e-6);
@@ -61,7 +61,7 @@ TEST(Exchange, ElementsOfACubeAddUpToTheClosedForms) {
 }
 
 TEST(Exchange, TheToleranceIsKept) {
-  const Meshed cube(unit_room(), 0.2);
+  const MeshedRoom cube(unit_room(), 0.2);
   for (const double tolerance : {1e-2, 1e-4, 1e-6})
     EXPECT_LE(
         cube.exchange({.tolerance = tolerance, .closure = Closure::leave}).report.closure_error_max,
@@ -69,7 +69,7 @@ TEST(Exchange, TheToleranceIsKept) {
 }
 
 TEST(Exchange, IsSymmetricToTheBitAndEnforcedClosureIsExact) {
-  const Meshed room(test::l_room(true), 0.4);
+  const MeshedRoom room(test::l_room(true), 0.4);
   const Exchange exchange = room.exchange();
   const ExchangeMatrix transposed = exchange.matrix.transpose();
   EXPECT_EQ((exchange.matrix - transposed).norm(), 0);
@@ -96,7 +96,7 @@ Scene squares_with_screen(double cover) {
 
 TEST(Exchange, AScreenBlocksWhatItCovers) {
   const auto through = [](double cover) {
-    const Meshed scene(squares_with_screen(cover), 0.2);
+    const MeshedRoom scene(squares_with_screen(cover), 0.2);
     const Exchange exchange = scene.exchange();
     EXPECT_FALSE(exchange.report.closed);
     return scene.between(exchange, 0, 1);
@@ -145,7 +145,7 @@ TEST(RayVisibility, WeighsRaysWithTheKernel) {
 }
 
 TEST(Exchange, ClosureErrorShrinksWithTheNumberOfRays) {
-  const Meshed room(test::l_room(true), 0.35);
+  const MeshedRoom room(test::l_room(true), 0.35);
   const auto error = [&](int rays) {
     return room.exchange({.rays_per_pair = rays, .closure = Closure::leave})
         .report.closure_error_rms;
@@ -158,17 +158,17 @@ TEST(Exchange, ClosureErrorShrinksWithTheNumberOfRays) {
 TEST(Exchange, OpenScenesAreRecognised) {
   Scene open = unit_room();
   open.faces.pop_back();
-  const Exchange exchange = Meshed(open, 0.5).exchange();
+  const Exchange exchange = MeshedRoom(open, 0.5).exchange();
   EXPECT_FALSE(exchange.report.closed);
   EXPECT_FALSE(exchange.report.closure_enforced);
   EXPECT_NEAR(exchange.report.escaping_fraction, 0.2, 1e-4);
   Scene inside_out = unit_room();
   std::reverse(inside_out.faces[5].vertices.begin(), inside_out.faces[5].vertices.end());
-  EXPECT_FALSE(Meshed(inside_out, 0.5).exchange().report.closed);
+  EXPECT_FALSE(MeshedRoom(inside_out, 0.5).exchange().report.closed);
 }
 
 TEST(Exchange, DoesNotDependOnTheNumberOfThreads) {
-  const Meshed room(test::l_room(true), 0.5);
+  const MeshedRoom room(test::l_room(true), 0.5);
   Exchange one, many;
   tbb::task_arena(1).execute([&] { one = room.exchange(); });
   tbb::task_arena(2).execute([&] { many = room.exchange(); });
@@ -178,7 +178,7 @@ TEST(Exchange, DoesNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Exchange, StopsWhenAsked) {
-  const Meshed cube(unit_room(), 0.3);
+  const MeshedRoom cube(unit_room(), 0.3);
   std::stop_source stop;
   stop.request_stop();
   const Exchange exchange = cube.exchange({}, {stop.get_token(), {}});
@@ -187,7 +187,7 @@ TEST(Exchange, StopsWhenAsked) {
 }
 
 TEST(Exchange, RefusesWhatDoesNotFit) {
-  Meshed cube(unit_room(), 1);
+  MeshedRoom cube(unit_room(), 1);
   const ElementTable& few = cube.elements;
   try {
     ElementTable many;

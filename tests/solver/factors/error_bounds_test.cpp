@@ -1,5 +1,6 @@
 #include "solver/factors/factor_matrix.h"
 #include "tests/support/analytic.h"
+#include "tests/support/face_factors.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -9,13 +10,6 @@
 
 namespace halfshade {
 namespace {
-
-FactorMatrix factors(const Scene& scene, double tolerance) {
-  FactorOptions options;
-  options.unit = FactorUnit::face;
-  options.tolerance = tolerance;
-  return form_factor_matrix(scene, options);
-}
 
 /// A rectangle in a plane z = height.
 struct Sheet {
@@ -44,8 +38,8 @@ void add_box(Scene& scene, const Vec3& low, const Vec3& high, bool inwards) {
 TEST(ErrorBounds, AreSharpForTwoPlates) {
   for (const double gap : {0.3, 1., 2.5})
     for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-6}) {
-      const FactorMatrix matrix =
-          factors(scene_of({{0, 1, 0, 1, 0, true}, {0, 1, 0, 1, gap, false}}), tolerance);
+      const FactorMatrix matrix = test::face_factors(
+          scene_of({{0, 1, 0, 1, 0, true}, {0, 1, 0, 1, gap, false}}), tolerance);
       const double expected = test::opposed_rectangles(1, 1, gap);
       for (Eigen::Index row = 0; row < 2; ++row) {
         const double off = std::max(std::abs(matrix.factors(row, 1 - row) - expected),
@@ -65,7 +59,7 @@ TEST(ErrorBounds, ThinShieldsBetweenPlates) {
   for (const auto& [gap, expected] : {Case{1e-2, 0.340695213056}, Case{1e-3, 0.358008420390},
                                       Case{1e-4, 0.359800098863}, Case{1e-5, 0.359980001135}})
     for (const double tolerance : {1e-2, 1e-3}) {
-      const FactorMatrix matrix = factors(
+      const FactorMatrix matrix = test::face_factors(
           scene_of(
               {{0, 1, 0, 1, 0, true}, {0, 1, 0, 1, gap, false}, {.1, .9, .1, .9, gap / 2, true}}),
           tolerance);
@@ -83,7 +77,7 @@ TEST(ErrorBounds, BoxesThatStandHideTheRoomFromTheirInside) {
   add_box(scene, {.2, 1.18, 0}, {.86, 1.72, .53}, false);
   add_box(scene, {1.1, 1.11, .42}, {1.61, 1.74, .88}, false);
   for (const double tolerance : {1e-2, 1e-3}) {
-    const FactorMatrix matrix = factors(scene, tolerance);
+    const FactorMatrix matrix = test::face_factors(scene, tolerance);
     EXPECT_LT((matrix.row_sum - 1).abs().maxCoeff(), tolerance);
     EXPECT_EQ(matrix.report.rows_not_reached, 0) << tolerance;
     // The floor's backs are those of the box that stands, seen from below it.

@@ -1,6 +1,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/mutual_sight.h"
 #include "tests/support/analytic.h"
+#include "tests/support/face_factors.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ struct Span {
 };
 
 /// A sheet parallel to the unit squares in z = 0 and z = 1, at height h.
-struct Sheet {
+struct HidingSheet {
   Span x, y;
   double h;
 };
@@ -58,7 +59,7 @@ double integrate(const std::vector<double>& breaks, F f) {
 }
 
 /// Form factor between the squares: a closed form at points, integrated between its kinks.
-double expected_factor(const Sheet& sheet) {
+double expected_factor(const HidingSheet& sheet) {
   const double hidden = integrate(breaks(sheet.x, sheet.h), [&](double x) {
     const Span in_x = shadow(x, sheet.x, sheet.h);
     return integrate(breaks(sheet.y, sheet.h), [&](double y) {
@@ -69,7 +70,7 @@ double expected_factor(const Sheet& sheet) {
   return test::opposed_rectangles(1, 1, 1) - hidden;
 }
 
-Scene scene_of(const Sheet& sheet) {
+Scene scene_of(const HidingSheet& sheet) {
   Scene scene;
   const int material = test::add_material(scene, 0.5, 0);
   test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, material);
@@ -81,27 +82,20 @@ Scene scene_of(const Sheet& sheet) {
   return scene;
 }
 
-FactorMatrix factors(const Scene& scene, double tolerance) {
-  FactorOptions options;
-  options.unit = FactorUnit::face;
-  options.tolerance = tolerance;
-  return form_factor_matrix(scene, options);
-}
-
-const std::vector<Sheet> sheets = {{{.25, .75}, {.25, .75}, .5},  {{.1, .4}, {.3, .95}, .3},
-                                   {{.4, .6}, {.45, .55}, .7},    {{.49, .51}, {.49, .51}, .5},
-                                   {{-.3, .5}, {.2, 1.4}, .4},    {{.2, .7}, {.3, .6}, .05},
-                                   {{.31, .62}, {.17, .48}, .01}, {{.05, .95}, {.05, .95}, .9}};
+const std::vector<HidingSheet> sheets = {
+    {{.25, .75}, {.25, .75}, .5},  {{.1, .4}, {.3, .95}, .3},   {{.4, .6}, {.45, .55}, .7},
+    {{.49, .51}, {.49, .51}, .5},  {{-.3, .5}, {.2, 1.4}, .4},  {{.2, .7}, {.3, .6}, .05},
+    {{.31, .62}, {.17, .48}, .01}, {{.05, .95}, {.05, .95}, .9}};
 
 /// Factor between the squares and its error.
-MutualSight see(const Sheet& sheet, double tolerance) {
+MutualSight see(const HidingSheet& sheet, double tolerance) {
   const FactorScene sound = make_factor_scene(scene_of(sheet), FactorUnit::face);
   const SightScene sight = make_sight_scene(sound.sound);
   return partial_sight(sight, 0, 1, {tolerance, tolerance, 300000});
 }
 
 TEST(HiddenFactors, SquaresWithASheetBetweenThem) {
-  for (const Sheet& sheet : sheets) {
+  for (const HidingSheet& sheet : sheets) {
     const MutualSight seen = see(sheet, 1e-7);
     EXPECT_NEAR(seen.value, expected_factor(sheet), 1e-7) << sheet.h;
     EXPECT_TRUE(seen.is_reached) << sheet.h;
@@ -109,7 +103,7 @@ TEST(HiddenFactors, SquaresWithASheetBetweenThem) {
 }
 
 TEST(HiddenFactors, TheErrorIsABound) {
-  for (const Sheet& sheet : sheets) {
+  for (const HidingSheet& sheet : sheets) {
     const double expected = expected_factor(sheet);
     for (const double tolerance : {3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-5, 1e-6}) {
       const MutualSight seen = see(sheet, tolerance);
@@ -120,8 +114,9 @@ TEST(HiddenFactors, TheErrorIsABound) {
 }
 
 TEST(HiddenFactors, RowsSumToOne) {
-  for (const Sheet& sheet : sheets)
-    EXPECT_LT((factors(scene_of(sheet), 1e-4).row_sum - 1).abs().maxCoeff(), 2e-4) << sheet.h;
+  for (const HidingSheet& sheet : sheets)
+    EXPECT_LT((test::face_factors(scene_of(sheet), 1e-4).row_sum - 1).abs().maxCoeff(), 2e-4)
+        << sheet.h;
 }
 
 TEST(HiddenFactors, TinyThingsAreNotOverlooked) {
@@ -130,7 +125,7 @@ TEST(HiddenFactors, TinyThingsAreNotOverlooked) {
   double expected =
       test::opposed_rectangles(1, 1, 1) - expected_factor({{.2, .21}, {.7, .71}, .01});
   for (int k = 1; k < 6; ++k) {
-    const Sheet sheet{{.12 * k, .12 * k + .01}, {.6 - .06 * k, .61 - .06 * k}, .03 + .13 * k};
+    const HidingSheet sheet{{.12 * k, .12 * k + .01}, {.6 - .06 * k, .61 - .06 * k}, .03 + .13 * k};
     const int first = static_cast<int>(scene.vertices.size());
     const Scene other = scene_of(sheet);
     Face face = other.faces[2];
@@ -139,7 +134,7 @@ TEST(HiddenFactors, TinyThingsAreNotOverlooked) {
     scene.faces.push_back(face);
     expected += test::opposed_rectangles(1, 1, 1) - expected_factor(sheet);
   }
-  const FactorMatrix matrix = factors(scene, 1e-4);
+  const FactorMatrix matrix = test::face_factors(scene, 1e-4);
   const double hidden = test::opposed_rectangles(1, 1, 1) - matrix.factors(0, 1);
   EXPECT_NEAR(hidden, expected, 0.02 * expected + matrix.error[0]);
   EXPECT_GT(hidden, 0);

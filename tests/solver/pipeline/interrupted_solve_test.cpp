@@ -1,5 +1,6 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/cornell.h"
+#include "tests/support/has_warning.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -41,11 +42,6 @@ double distance(const SolveResult& a, const SolveResult& b) {
                    (area * b.solution.irradiance.square().rowwise().mean()).sum());
 }
 
-bool has_warning(const SolveResult& result, Warning::Kind kind) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-                     [&](const Warning& warning) { return warning.kind == kind; });
-}
-
 /// Open, as it comes: light leaves through its front.
 Scene open_room() { return test::cornell_box(); }
 
@@ -68,7 +64,7 @@ TEST_P(InterruptedSolve, IsAsBrightAsACompleteOne) {
   EXPECT_GT(part.exchange.estimated_share, 0);
   // Rows shrink towards the last one, and those may be done first.
   EXPECT_LT(part.exchange.estimated_share, 1.1 - fraction * fraction);
-  EXPECT_TRUE(has_warning(part, Warning::Kind::exchange_estimated));
+  EXPECT_TRUE(test::has_warning(part, Warning::Kind::exchange_estimated));
   EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
   // Nothing is left dark.
   EXPECT_GT((part.solution.irradiance / complete.solution.irradiance).minCoeff(), 0.3);
@@ -87,7 +83,7 @@ TEST(InterruptedSolveEnds, OneThatIsCompleteHasNoEstimates) {
   const SolveResult result = solve(closed_room(), coarse());
   EXPECT_TRUE(result.exchange.complete);
   EXPECT_EQ(result.exchange.estimated_share, 0);
-  EXPECT_FALSE(has_warning(result, Warning::Kind::exchange_estimated));
+  EXPECT_FALSE(test::has_warning(result, Warning::Kind::exchange_estimated));
 }
 
 /// Stopped when reflected light is solved for once more, or, if at once, for the first time.

@@ -53,7 +53,7 @@ Mean walked(double gap, double rho, int walks) {
 
 SolveResult solved(double gap, double rho) { return solve(plates(gap, rho), SolveOptions{}); }
 
-double mean_irradiance(const SolveResult& result) {
+double mean_of_gap(const SolveResult& result) {
   const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(), result.elements.count());
   return (area * result.solution.irradiance.col(0)).sum() / area.sum();
 }
@@ -64,7 +64,7 @@ TEST(NarrowGap, IsSolvedAsExactlyAsClaimed) {
     const Mean mean = walked(gap, rho, 40000);
     EXPECT_LE(result.relative_error, 0.01);
     EXPECT_TRUE(result.not_reached.empty());
-    EXPECT_NEAR(mean_irradiance(result), mean.value,
+    EXPECT_NEAR(mean_of_gap(result), mean.value,
                 3 * mean.deviation + result.relative_error * mean.value)
         << gap;
   }
@@ -76,7 +76,7 @@ TEST(NarrowGap, TooNarrowToSeeWhatGetsLostIsTold) {
   EXPECT_EQ(result.reflected.end, ReflectedEnd::elements);
   EXPECT_FALSE(result.not_reached.empty());
   EXPECT_GT(result.relative_error, 0.01);
-  EXPECT_NEAR(mean_irradiance(result), mean.value,
+  EXPECT_NEAR(mean_of_gap(result), mean.value,
               3 * mean.deviation + result.relative_error * mean.value);
 }
 
@@ -192,7 +192,7 @@ TEST(NarrowGap, ElementsOfTheMatrixThatAreTooLongTellSo) {
   const SolveResult wide = solve(plates(0.1, 0.99), options);
   const Mean mean = walked(0.1, 0.99, 40000);
   EXPECT_TRUE(wide.not_reached.empty());
-  EXPECT_NEAR(mean_irradiance(wide), mean.value, 0.05 * mean.value);
+  EXPECT_NEAR(mean_of_gap(wide), mean.value, 0.05 * mean.value);
 }
 
 TEST(NarrowGap, RaysThatNeverSeeItTellSo) {

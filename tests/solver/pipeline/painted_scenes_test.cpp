@@ -54,7 +54,7 @@ TEST(PaintedScenes, APictureOfTwoColoursIsAsTwoFaces) {
 }
 
 /// Of all surfaces.
-Rgb mean_irradiance(const SolveResult& result) {
+Rgb colour_of_means(const SolveResult& result) {
   Rgb sum = Rgb::Zero();
   double area = 0;
   for (int e = 0; e < result.elements.count(); ++e) {
@@ -70,7 +70,7 @@ TEST(PaintedScenes, MethodMatrixTakesTheMeansOfElements) {
   matrix.elements = 600;
   const SolveResult faces = solve(test::two_coloured_room(false), matrix);
   const SolveResult picture = solve(test::two_coloured_room(true), matrix);
-  EXPECT_LT((mean_irradiance(picture) / mean_irradiance(faces) - 1).abs().maxCoeff(), 0.01);
+  EXPECT_LT((colour_of_means(picture) / colour_of_means(faces) - 1).abs().maxCoeff(), 0.01);
 }
 
 TEST(PaintedScenes, RandomWalksSeeThePicture) {

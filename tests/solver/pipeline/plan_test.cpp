@@ -173,7 +173,7 @@ SolveResult solve_with_factors(const Scene& scene, Closure closure) {
   return solve(scene, options);
 }
 
-double mean_irradiance(const SolveResult& result) {
+double mean_of_channel(const SolveResult& result) {
   double power = 0, area = 0;
   for (int e = 0; e < result.elements.count(); ++e) {
     power += result.elements.area[at(e)] * result.solution.irradiance(e, 0);
@@ -191,7 +191,7 @@ TEST(ForcedStages, RaysFindNothingWhereNothingComesBetween) {
   test::add_polygon(scene, {{.5, .5, .5}, {.5001, .5, .5}, {.5, .5001, .5}}, dark);
   const SolveResult forced = solve_with_factors(scene, Closure::automatic);
   EXPECT_FALSE(is_left_out(forced, "visibility rays"));
-  EXPECT_NEAR(mean_irradiance(planned), mean_irradiance(forced), 1e-3 * mean_irradiance(planned));
+  EXPECT_NEAR(mean_of_channel(planned), mean_of_channel(forced), 1e-3 * mean_of_channel(planned));
 }
 
 /// What gets out by a hole a thousandth as wide as a room is within the tolerance, so that rows
@@ -217,7 +217,7 @@ TEST(ForcedStages, ClosureAgreesWhereHardlyAnyLightGetsOut) {
   EXPECT_TRUE(is_left_out(planned, "closure"));
   const SolveResult forced = solve_with_factors(scene, Closure::enforce);
   EXPECT_FALSE(is_left_out(forced, "closure"));
-  EXPECT_NEAR(mean_irradiance(planned), mean_irradiance(forced), 0.01 * mean_irradiance(planned));
+  EXPECT_NEAR(mean_of_channel(planned), mean_of_channel(forced), 0.01 * mean_of_channel(planned));
 }
 
 TEST(ForcedStages, ExactDirectLightAgreesWithTheMatrix) {

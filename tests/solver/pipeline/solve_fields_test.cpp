@@ -117,7 +117,7 @@ std::vector<Vec2> power_and_area(const SolveResult& result) {
   return sums;
 }
 
-double mean_irradiance(const SolveResult& result) {
+double mean_over_surfaces(const SolveResult& result) {
   Vec2 sum = Vec2::Zero();
   for (const Vec2& surface : power_and_area(result)) sum += surface;
   return sum.x() / sum.y();
@@ -171,7 +171,7 @@ TEST(SolveFields, AClosedCubeKeepsItsPower) {
   const SolveResult result = solve(cube, within(1e-2));
   EXPECT_EQ(result.not_reached, "");
   // Φ / (A (1 − ρ))
-  EXPECT_NEAR(mean_irradiance(result), 1. / 3, 1e-3 / 3);
+  EXPECT_NEAR(mean_over_surfaces(result), 1. / 3, 1e-3 / 3);
   EXPECT_GT(result.reflected.systems, 0);
 }
 

@@ -9,6 +9,7 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/has_warning.h"
 #include "tests/support/scenes.h"
 #include "tests/support/triangle_soups.h"
 
@@ -207,11 +208,6 @@ TEST(SolveWithLines, SecondarySourcesAddLines) {
   EXPECT_GT(solve(scene, options).curves, without);
 }
 
-bool has_warning(const SolveResult& result, Warning::Kind kind) {
-  return std::any_of(result.warnings.begin(), result.warnings.end(),
-                     [&](const Warning& warning) { return warning.kind == kind; });
-}
-
 TEST(SolveWithLines, RefusesOptionsOutOfRange) {
   SolveOptions negative, none;
   negative.tolerance = -0.1;
@@ -236,7 +232,7 @@ TEST(SolveWithLines, SaysWhatTheElementsAskedForDoNotDo) {
   options.elements = 30;
   const SolveResult result = solve(slats(8), options);
   EXPECT_LE(result.elements.count(), make_solve_mesh(result.scene, options).elements.count());
-  EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised));
+  EXPECT_TRUE(test::has_warning(result, Warning::Kind::tolerance_raised));
 }
 
 TEST(SolveWithLines, ThinLouvresStayWithinTheElementsAskedFor) {
@@ -257,8 +253,8 @@ TEST(SolveWithLines, ThinLouvresStayWithinTheElementsAskedFor) {
       EXPECT_LE(result.elements.count(), asked);
       EXPECT_GE(result.elements.count(), 0.6 * asked);
       EXPECT_LT(result.mesh.kept, result.curves);
-      EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised) ||
-                  has_warning(result, Warning::Kind::curves_left_out));
+      EXPECT_TRUE(test::has_warning(result, Warning::Kind::tolerance_raised) ||
+                  test::has_warning(result, Warning::Kind::curves_left_out));
     }
   }
 }
@@ -271,7 +267,7 @@ TEST(SolveWithLines, ContactLinesAreLeftOutWhereTheyTakeTooManyElements) {
   options.max_elements = 1000;
   options.events.most_work = 300;
   const SolveResult result = solve(soup, options);
-  EXPECT_TRUE(has_warning(result, Warning::Kind::contacts_left_out));
+  EXPECT_TRUE(test::has_warning(result, Warning::Kind::contacts_left_out));
   for (const Surface& surface : result.scene.surfaces) EXPECT_TRUE(surface.contacts.empty());
   EXPECT_LE(result.elements.count(), 1000);
   EXPECT_GT(result.solution.irradiance.maxCoeff(), 0);
@@ -292,10 +288,10 @@ TEST(SolveWithLines, SoupsAreSolvedAndSayWhatIsLeftOut) {
     EXPECT_GT(*std::max_element(result.discontinuities.left_out.begin(),
                                 result.discontinuities.left_out.end()),
               0);
-    EXPECT_TRUE(has_warning(result, Warning::Kind::curves_left_out));
-    EXPECT_TRUE(has_warning(result, Warning::Kind::elements_exceeded) ||
+    EXPECT_TRUE(test::has_warning(result, Warning::Kind::curves_left_out));
+    EXPECT_TRUE(test::has_warning(result, Warning::Kind::elements_exceeded) ||
                 result.elements.count() <= options.elements);
-    EXPECT_TRUE(has_warning(result, Warning::Kind::tolerance_raised) ||
+    EXPECT_TRUE(test::has_warning(result, Warning::Kind::tolerance_raised) ||
                 result.discontinuity_tolerance <= options.tolerance);
   }
 }

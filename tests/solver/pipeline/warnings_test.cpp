@@ -12,7 +12,7 @@
 namespace halfshade {
 namespace {
 
-SolveOptions coarse() {
+SolveOptions coarse_options() {
   SolveOptions options;
   options.method = SolveMethod::matrix;
   options.elements = 200;
@@ -26,7 +26,7 @@ std::string sentence_of(const SolveResult& result, Warning::Kind kind) {
 }
 
 TEST(Warnings, NoneInARoomInOrder) {
-  EXPECT_TRUE(solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse()).warnings.empty());
+  EXPECT_TRUE(solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse_options()).warnings.empty());
 }
 
 TEST(Warnings, SurfacesThatLookAwayFromEveryLight) {
@@ -35,8 +35,9 @@ TEST(Warnings, SurfacesThatLookAwayFromEveryLight) {
   for (const auto& face : test::box_faces({0, 0, 0}, {1, 1, 1}, false))
     test::add_polygon(scene, face, grey);
   test::add_polygon(scene, {{.3, .3, .5}, {.3, .6, .5}, {.6, .6, .5}, {.6, .3, .5}}, light);
-  EXPECT_NE(sentence_of(solve(scene, coarse()), Warning::Kind::nothing_lit).find("--orient"),
-            std::string::npos);
+  EXPECT_NE(
+      sentence_of(solve(scene, coarse_options()), Warning::Kind::nothing_lit).find("--orient"),
+      std::string::npos);
 }
 
 TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
@@ -47,7 +48,7 @@ TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
   test::add_polygon(scene, {{0, .1, 1}, {.1, .1, 1}, {.1, 0, 1}, {0, 0, 1}}, grey);
   test::add_polygon(scene, {{.5, .5, 1}, {.6, .5, 1}, {.6, .6, 1}, {.5, .6, 1}}, grey);
   for (int f = 0; f < 3; ++f) scene.faces[at(f)].group = f;
-  const SolveResult result = solve(scene, coarse());
+  const SolveResult result = solve(scene, coarse_options());
   EXPECT_NE(sentence_of(result, Warning::Kind::light_escapes).find("99"), std::string::npos);
   const std::string dark = sentence_of(result, Warning::Kind::dark_groups);
   EXPECT_NE(dark.find("turned"), std::string::npos);
@@ -60,7 +61,8 @@ TEST(Warnings, WhatIsReflectedOutIsNotForSurfacesThatLookAway) {
   const int light = test::add_material(scene, 1, 1), white = test::add_material(scene, 1, 0);
   test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
   test::add_polygon(scene, {{0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 0, 1}}, white);
-  const std::string sentence = sentence_of(solve(scene, coarse()), Warning::Kind::light_escapes);
+  const std::string sentence =
+      sentence_of(solve(scene, coarse_options()), Warning::Kind::light_escapes);
   EXPECT_NE(sentence.find("all of the light leaves"), std::string::npos) << sentence;
   EXPECT_EQ(sentence.find("--flip"), std::string::npos) << sentence;
 }
@@ -78,7 +80,7 @@ TEST(Warnings, RoomsThatLoseNearlyAllSayHowMuch) {
   };
   SolveOptions fields;
   fields.tolerance = 0.1;
-  for (const SolveOptions& options : {coarse(), fields}) {
+  for (const SolveOptions& options : {coarse_options(), fields}) {
     const auto said = [&](double absorbed) {
       return sentence_of(solve(room(absorbed), options), Warning::Kind::light_escapes);
     };
@@ -93,7 +95,7 @@ TEST(Warnings, RoomsThatLoseNearlyAllSayHowMuch) {
 }
 
 TEST(Warnings, LostLightIsPutRightByWhatFactorsAreMadeOf) {
-  SolveResult room = solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse());
+  SolveResult room = solve(test::lit_cube({.5, .5, .5, .5, .5, .5}), coarse_options());
   room.exchange.unfinished = 1;
   const auto advice = [&room](FactorsBy by) {
     room.exchange.by = by;
@@ -112,7 +114,7 @@ TEST(Warnings, LostLightIsPutRightByWhatFactorsAreMadeOf) {
 TEST(Warnings, ARepairThatChangesTheLight) {
   Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
   test::add_polygon(scene, face_corners(scene, 4), test::add_material(scene, .9, 0));
-  EXPECT_NE(sentence_of(solve(scene, coarse()), Warning::Kind::faces_changed), "");
+  EXPECT_NE(sentence_of(solve(scene, coarse_options()), Warning::Kind::faces_changed), "");
 }
 
 TEST(Solve, AsksForAnEmitterAfterTheRepair) {
@@ -120,23 +122,25 @@ TEST(Solve, AsksForAnEmitterAfterTheRepair) {
   scene.materials[5].exitance.setZero();
   test::add_polygon(scene, {{.1, .1, .5}, {.2, .1, .5}, {.3, .1, .5}},
                     test::add_material(scene, 0, 1));
-  test::expect_error([&] { solve(scene, coarse()); }, ErrorCode::invalid_input, {"light", "left"});
+  test::expect_error([&] { solve(scene, coarse_options()); }, ErrorCode::invalid_input,
+                     {"light", "left"});
 }
 
 TEST(Solve, RefusesLightThatNumbersDoNotHold) {
   for (const double exitance : {1e300, 1e-300}) {
     Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
     scene.materials[5].exitance = Rgb::Constant(exitance);
-    test::expect_error([&] { solve(scene, coarse()); }, ErrorCode::invalid_input, {"emits"});
+    test::expect_error([&] { solve(scene, coarse_options()); }, ErrorCode::invalid_input,
+                       {"emits"});
   }
 }
 
 TEST(Solve, ScalesWithTheLight) {
   Scene scene = test::lit_cube({.5, .3, .7, .5, .9, .2});
-  const SolveResult one = solve(scene, coarse());
+  const SolveResult one = solve(scene, coarse_options());
   for (const int exponent : {-500, 500}) {
     scene.materials[5].exitance = Rgb::Constant(std::ldexp(1., exponent));
-    const SolveResult result = solve(scene, coarse());
+    const SolveResult result = solve(scene, coarse_options());
     EXPECT_LE((result.solution.radiosity * std::ldexp(1., -exponent) - one.solution.radiosity)
                   .abs()
                   .maxCoeff(),
@@ -147,13 +151,14 @@ TEST(Solve, ScalesWithTheLight) {
 
 TEST(Solve, ARoomThatAbsorbsNextToNothing) {
   const double rho = 1 - 1e-12;
-  const SolveResult result = solve(test::lit_cube({rho, rho, rho, rho, rho, rho}), coarse());
+  const SolveResult result =
+      solve(test::lit_cube({rho, rho, rho, rho, rho, rho}), coarse_options());
   // Φ/(A (1 − ρ)) everywhere, but for some W/m².
   const double expected = 1 / (6 * (1 - rho));
   EXPECT_LE((result.solution.irradiance / expected - 1).abs().maxCoeff(), 1e-9);
   test::expect_error(
       [&] {
-        solve(test::lit_cube({1, 1, 1, 1, 1, 1}), coarse());
+        solve(test::lit_cube({1, 1, 1, 1, 1, 1}), coarse_options());
       },
       ErrorCode::invalid_input, {"group all", "reflectance"});
 }
@@ -164,7 +169,7 @@ TEST(Solve, RoomsSideBySideAreSystemsOfTheirOwn) {
   const int bright = test::add_material(scene, .7, 1e30);
   const auto faces = test::box_faces({1, 0, 0}, {2, 1, 1}, true);  // they share a wall
   for (std::size_t f = 0; f < 6; ++f) test::add_polygon(scene, faces[f], f == 5 ? bright : 0);
-  const SolveResult result = solve(scene, coarse());
+  const SolveResult result = solve(scene, coarse_options());
   EXPECT_EQ(result.radiosity.systems, 2);
   Eigen::Array2d power = Eigen::Array2d::Zero();
   for (int e = 0; e < result.elements.count(); ++e)
@@ -181,7 +186,7 @@ TEST(Solve, PlatesWithANarrowGapLoseLight) {
     const int light = test::add_material(scene, rho, 1), dark = test::add_material(scene, rho, 0);
     test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, light);
     test::add_polygon(scene, {{0, 1, 1e-3}, {1, 1, 1e-3}, {1, 0, 1e-3}, {0, 0, 1e-3}}, dark);
-    const SolveResult result = solve(scene, coarse());
+    const SolveResult result = solve(scene, coarse_options());
     EXPECT_FALSE(result.exchange.closed);
     // 1 − F of parallel unit squares at a distance of 1e-3, by the closed form.
     EXPECT_NEAR(result.exchange.escaping_fraction, 1.99437e-3, 1e-6);

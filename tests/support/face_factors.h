@@ -1,0 +1,15 @@
+#pragma once
+
+#include "solver/factors/factor_matrix.h"
+
+namespace halfshade::test {
+
+/// Between the faces of a scene.
+inline FactorMatrix face_factors(const Scene& scene, double tolerance) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  options.tolerance = tolerance;
+  return form_factor_matrix(scene, options);
+}
+
+}  // namespace halfshade::test

@@ -20,6 +20,7 @@ constexpr double sure = 2;
 /// area to the power of .4: that is noise to the power of -.3, and less than twice as much of it in
 /// all as without any slack.
 constexpr double power_of_slack = 0.3, most_slack = 16;
+constexpr double most_peaks = 10;
 
 /// No element has more samples than this.
 constexpr int most_samples = 96;
@@ -76,6 +77,20 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples,
 
 double slack_of(const NoisyElement& element, double mean_area) {
   return std::clamp(std::pow(mean_area / element.area, power_of_slack), 1., most_slack);
+}
+
+double peaks_of(std::span<const NoisyElement> elements) {
+  double lit = 0, square = 0;
+  Rgb sum = Rgb::Zero();
+  for (const NoisyElement& element : elements) {
+    const Rgb mean = element.coefficients.row(0);  // of the element: the first function is 1
+    if (!(mean.sum() > 0)) continue;
+    lit += element.area;
+    sum += element.area * mean;
+    square += element.area * element.coefficients.matrix().squaredNorm();
+  }
+  const double even = sum.square().sum();
+  return even > 0 ? std::clamp(std::sqrt(square * lit / even), 1., most_peaks) : 1;
 }
 
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place) {

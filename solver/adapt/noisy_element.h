@@ -42,6 +42,10 @@ struct NoisyElement {
 /// the mean, ≥ 1.
 double slack_of(const NoisyElement& element, double mean_area);
 
+/// The root mean square of the values where they are positive, relative to their mean there, from 1
+/// to 10: what is off is judged by the one, noise by the other.
+double peaks_of(std::span<const NoisyElement> elements);
+
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
 
 /// Fits the order of 0 to 2 with the least error to an element's samples by least squares. What is

@@ -164,7 +164,7 @@ class NoisyFit {
         places.push_back(spread_place(start + k));
         points.push_back(point_at(element, places.back()));
       }
-      slack.resize(points.size(), slack_of(element, mean_area));
+      slack.resize(points.size(), peaks_ * slack_of(element, mean_area));
     }
     first.push_back(places.size());
     const std::vector<NoisyValue> values = sample(points, slack);
@@ -214,6 +214,7 @@ class NoisyFit {
       square_ += element.area * element.coefficients.matrix().squaredNorm();
       unknowns_ += static_cast<std::size_t>(element.coefficients.rows());
     }
+    peaks_ = peaks_of(elements_);
   }
 
   /// Compares the elements with samples that they do not know, at places that are drawn where the
@@ -247,7 +248,8 @@ class NoisyFit {
         points.push_back(point_at(element, places.back().second));
       }
     }
-    const std::vector<NoisyValue> values = sample(points, std::vector<double>(points.size(), 1));
+    const std::vector<NoisyValue> values =
+        sample(points, std::vector<double>(points.size(), peaks_));
     if (values.size() < points.size() || points.empty()) return;
     double mean = 0, mean_square = 0;
     for (std::size_t k = 0; k < values.size(); ++k) {
@@ -380,6 +382,7 @@ class NoisyFit {
   double last_square_error_ = HUGE_VAL;  ///< square_error_ of the round before
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;
+  double peaks_ = 1;  ///< as last known: values may be so much noisier than usual
   std::size_t unknowns_ = 0;
   AdaptiveFieldReport report_;
 };

@@ -76,12 +76,12 @@ class NoisyFit {
       if (report_.limit != FieldLimit::none) break;
       if (square_error_ <= allowed()) {
         compare();
-        if (square_error_ * correction_ <= allowed() || progress_.stopped()) break;
+        if (corrected() <= allowed() || progress_.stopped()) break;
       }
       if (!improve()) break;
     }
     if (correction_of_round_ != report_.rounds && !progress_.stopped()) compare();
-    if (report_.limit != FieldLimit::stopped && square_error_ * correction_ <= allowed())
+    if (report_.limit != FieldLimit::stopped && corrected() <= allowed())
       report_.limit = FieldLimit::none;
     return result();
   }
@@ -93,8 +93,10 @@ class NoisyFit {
     return sum;
   }
 
-  /// Square of the error.
+  /// Squares of errors. Noise may make square_error_ negative.
   double allowed() const { return options_.tolerance * options_.tolerance * square_; }
+  double estimated() const { return std::max(square_error_, least_estimate * allowed()); }
+  double corrected() const { return correction_ * estimated(); }
 
   FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) const {
     return {{position(element.triangle, place), element.normal}, element.surface};
@@ -220,14 +222,13 @@ class NoisyFit {
   /// Compares the elements with samples that they do not know, at places that are drawn where the
   /// error is thought to be, and elsewhere.
   void compare() {
-    const double estimated = std::max(square_error_, least_estimate * allowed());
-    const double even = even_share / 2 * estimated / counted_.area;
+    const double even = even_share / 2 * estimated() / counted_.area;
     const double reaches = sum_of_reaches();
     // Of places that are drawn, but for a factor: where light may reach far, it may be far off.
     const auto density = [&](const NoisyElement& element) {
       return (1 - even_share) * element.known_error() +
              (counts(options_, element.surface) ? even : 0) +
-             (reaches > 0 ? even_share / 2 * estimated * element.reach / reaches : 0);
+             (reaches > 0 ? even_share / 2 * estimated() * element.reach / reaches : 0);
     };
     double sum = 0;
     for (const NoisyElement& element : elements_) sum += element.area * density(element);
@@ -262,7 +263,7 @@ class NoisyFit {
       element.samples.push_back({places[k].second, values[k]});
     }
     // How many there are is random, too: nothing is known of the mean beforehand.
-    correction_ = std::max((mean + deviations * std::sqrt(mean_square / count)) / estimated, 1.);
+    correction_ = std::max((mean + deviations * std::sqrt(mean_square / count)) / estimated(), 1.);
     correction_of_round_ = report_.rounds;
   }
 
@@ -316,7 +317,7 @@ class NoisyFit {
     }
     progress_(fmt::format("refinement, round {}: {} elements, {} unknowns, error {:.2g}",
                           report_.rounds + 1, elements_.size(), static_cast<long>(unknowns),
-                          std::sqrt(correction_ * square_error_ / square_)),
+                          std::sqrt(corrected() / square_)),
               0);
     return true;
   }
@@ -362,7 +363,7 @@ class NoisyFit {
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;
     report_.is_noisy = true;
-    report_.relative_error = square_ > 0 ? std::sqrt(correction_ * square_error_ / square_) : 0;
+    report_.relative_error = square_ > 0 ? std::sqrt(corrected() / square_) : 0;
     out.report = report_;
     return out;
   }

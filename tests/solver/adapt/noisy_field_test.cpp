@@ -133,6 +133,38 @@ TEST(NoisyField, AllowsSmallElementsMoreNoise) {
   EXPECT_LE(true_error(fit, waves), 1.15 * fit.report.relative_error);
 }
 
+/// A small surface and a large one, each evenly lit: noise may grow with the norm over the mean.
+TEST(NoisyField, AllowsMoreNoiseWhereAFewPlacesCarryTheNorm) {
+  SoundScene scene = test::empty_sound_scene(2.);
+  test::add_surface(scene, {{{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}}, 0);
+  test::add_surface(scene, {{{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}}}, 0);
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.01;
+  for (const double hot : {1., 30., 100.}) {
+    const Function f = [=](const Vec3& p) { return p.x() < 0.5 ? hot : 1; };
+    std::vector<double> least;  // of the large surface, by call
+    const NoisyFieldAt noisier = [&](std::span<const FieldPoint> points,
+                                     std::span<const double> slack, const Progress& progress) {
+      least.push_back(1e9);
+      std::vector<NoisyValue> values;
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        values.push_back(noisy_field_of(f, 0.02 * slack[k])(points.subspan(k, 1), {}, progress)[0]);
+        if (points[k].surface == 1) least.back() = std::min(least.back(), slack[k]);
+      }
+      return values;
+    };
+    PatchMesh mesh(scene, {});
+    const AdaptiveField fit = fit_noisy(mesh, noisier, one, options);
+    const double small = 0.01, all = 1 + small;
+    const double norm = std::sqrt((1 + small * hot * hot) / all), mean = (1 + small * hot) / all;
+    ASSERT_GE(least.size(), 2u);
+    EXPECT_EQ(least.front(), 1) << hot;
+    EXPECT_NEAR(least.back(), norm / mean, 0.05 * norm / mean) << hot;
+    EXPECT_LE(fit.report.relative_error, options.tolerance) << hot;
+    EXPECT_LE(true_error(fit, f), 1.15 * fit.report.relative_error) << hot;
+  }
+}
+
 TEST(NoisyField, SaysWhenALimitStopsIt) {
   PatchMesh mesh = unit_square(0.2);
   AdaptiveFieldOptions options;

@@ -1,6 +1,7 @@
 #include "solver/pipeline/solve.h"
 #include "tests/support/cornell.h"
 #include "tests/support/has_warning.h"
+#include "tests/support/mean_irradiance.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -28,11 +29,6 @@ SolveResult solve_until(const Scene& scene, double fraction) {
     if (stage == "form factors" && done >= fraction) stop.request_stop();
   };
   return solve(scene, coarse(), {stop.get_token(), report});
-}
-
-double mean_irradiance(const SolveResult& result) {
-  const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(), result.elements.count());
-  return (area * result.solution.irradiance.rowwise().mean()).sum() / area.sum();
 }
 
 double distance(const SolveResult& a, const SolveResult& b) {
@@ -65,7 +61,8 @@ TEST_P(InterruptedSolve, IsAsBrightAsACompleteOne) {
   // Rows shrink towards the last one, and those may be done first.
   EXPECT_LT(part.exchange.estimated_share, 1.1 - fraction * fraction);
   EXPECT_TRUE(test::has_warning(part, Warning::Kind::exchange_estimated));
-  EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
+  EXPECT_NEAR(test::mean_irradiance(part).mean(), test::mean_irradiance(complete).mean(),
+              0.02 * test::mean_irradiance(complete).mean());
   // Nothing is left dark.
   EXPECT_GT((part.solution.irradiance / complete.solution.irradiance).minCoeff(), 0.3);
   const double error = distance(part, complete);
@@ -105,7 +102,8 @@ TEST(InterruptedFields, KeepTheReflectedLightOfTheLastRound) {
   EXPECT_TRUE(part.interrupted);
   EXPECT_EQ(part.reflected.rounds, 1);
   EXPECT_GE(part.relative_error, part.reflected.error);
-  EXPECT_NEAR(mean_irradiance(part), mean_irradiance(complete), 0.02 * mean_irradiance(complete));
+  EXPECT_NEAR(test::mean_irradiance(part).mean(), test::mean_irradiance(complete).mean(),
+              0.02 * test::mean_irradiance(complete).mean());
 }
 
 TEST(InterruptedFields, WithoutAnyReflectedLightClaimNothing) {

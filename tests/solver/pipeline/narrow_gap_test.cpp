@@ -1,6 +1,7 @@
 #include "meshing/repair/repair.h"
 #include "solver/pipeline/solve.h"
 #include "solver/reference/reference_light.h"
+#include "tests/support/mean_irradiance.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -53,18 +54,13 @@ Mean walked(double gap, double rho, int walks) {
 
 SolveResult solved(double gap, double rho) { return solve(plates(gap, rho), SolveOptions{}); }
 
-double mean_of_gap(const SolveResult& result) {
-  const Eigen::Map<const Eigen::ArrayXd> area(result.elements.area.data(), result.elements.count());
-  return (area * result.solution.irradiance.col(0)).sum() / area.sum();
-}
-
 TEST(NarrowGap, IsSolvedAsExactlyAsClaimed) {
   for (const auto& [gap, rho] : {std::pair(0.1, 0.9), {0.03, 0.99}}) {
     const SolveResult result = solved(gap, rho);
     const Mean mean = walked(gap, rho, 40000);
     EXPECT_LE(result.relative_error, 0.01);
     EXPECT_TRUE(result.not_reached.empty());
-    EXPECT_NEAR(mean_of_gap(result), mean.value,
+    EXPECT_NEAR(test::mean_irradiance(result)[0], mean.value,
                 3 * mean.deviation + result.relative_error * mean.value)
         << gap;
   }
@@ -76,7 +72,7 @@ TEST(NarrowGap, TooNarrowToSeeWhatGetsLostIsTold) {
   EXPECT_EQ(result.reflected.end, ReflectedEnd::elements);
   EXPECT_FALSE(result.not_reached.empty());
   EXPECT_GT(result.relative_error, 0.01);
-  EXPECT_NEAR(mean_of_gap(result), mean.value,
+  EXPECT_NEAR(test::mean_irradiance(result)[0], mean.value,
               3 * mean.deviation + result.relative_error * mean.value);
 }
 
@@ -192,7 +188,7 @@ TEST(NarrowGap, ElementsOfTheMatrixThatAreTooLongTellSo) {
   const SolveResult wide = solve(plates(0.1, 0.99), options);
   const Mean mean = walked(0.1, 0.99, 40000);
   EXPECT_TRUE(wide.not_reached.empty());
-  EXPECT_NEAR(mean_of_gap(wide), mean.value, 0.05 * mean.value);
+  EXPECT_NEAR(test::mean_irradiance(wide)[0], mean.value, 0.05 * mean.value);
 }
 
 TEST(NarrowGap, RaysThatNeverSeeItTellSo) {

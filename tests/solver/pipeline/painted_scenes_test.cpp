@@ -2,6 +2,7 @@
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/solve.h"
 #include "solver/reference/reference_light.h"
+#include "tests/support/mean_irradiance.h"
 #include "tests/support/painted.h"
 
 #include <gtest/gtest.h>
@@ -53,24 +54,14 @@ TEST(PaintedScenes, APictureOfTwoColoursIsAsTwoFaces) {
   }
 }
 
-/// Of all surfaces.
-Rgb colour_of_means(const SolveResult& result) {
-  Rgb sum = Rgb::Zero();
-  double area = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
-    sum += result.elements.area[at(e)] * result.solution.irradiance.row(e).transpose();
-    area += result.elements.area[at(e)];
-  }
-  return sum / area;
-}
-
 TEST(PaintedScenes, MethodMatrixTakesTheMeansOfElements) {
   SolveOptions matrix;
   matrix.method = SolveMethod::matrix;
   matrix.elements = 600;
   const SolveResult faces = solve(test::two_coloured_room(false), matrix);
   const SolveResult picture = solve(test::two_coloured_room(true), matrix);
-  EXPECT_LT((colour_of_means(picture) / colour_of_means(faces) - 1).abs().maxCoeff(), 0.01);
+  EXPECT_LT((test::mean_irradiance(picture) / test::mean_irradiance(faces) - 1).abs().maxCoeff(),
+            0.01);
 }
 
 TEST(PaintedScenes, RandomWalksSeeThePicture) {

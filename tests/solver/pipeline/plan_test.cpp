@@ -5,6 +5,7 @@
 #include "solver/pipeline/explain.h"
 #include "solver/pipeline/solve.h"
 #include "solver/pipeline/sources.h"
+#include "tests/support/mean_irradiance.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -173,15 +174,6 @@ SolveResult solve_with_factors(const Scene& scene, Closure closure) {
   return solve(scene, options);
 }
 
-double mean_of_channel(const SolveResult& result) {
-  double power = 0, area = 0;
-  for (int e = 0; e < result.elements.count(); ++e) {
-    power += result.elements.area[at(e)] * result.solution.irradiance(e, 0);
-    area += result.elements.area[at(e)];
-  }
-  return power / area;
-}
-
 /// Rays have no switch: something dark that can come between, and is too small to be seen.
 TEST(ForcedStages, RaysFindNothingWhereNothingComesBetween) {
   Scene scene = test::lit_cube({.5, .5, .5, .5, .5, 0});
@@ -191,7 +183,8 @@ TEST(ForcedStages, RaysFindNothingWhereNothingComesBetween) {
   test::add_polygon(scene, {{.5, .5, .5}, {.5001, .5, .5}, {.5, .5001, .5}}, dark);
   const SolveResult forced = solve_with_factors(scene, Closure::automatic);
   EXPECT_FALSE(is_left_out(forced, "visibility rays"));
-  EXPECT_NEAR(mean_of_channel(planned), mean_of_channel(forced), 1e-3 * mean_of_channel(planned));
+  EXPECT_NEAR(test::mean_irradiance(planned)[0], test::mean_irradiance(forced)[0],
+              1e-3 * test::mean_irradiance(planned)[0]);
 }
 
 /// What gets out by a hole a thousandth as wide as a room is within the tolerance, so that rows
@@ -217,7 +210,8 @@ TEST(ForcedStages, ClosureAgreesWhereHardlyAnyLightGetsOut) {
   EXPECT_TRUE(is_left_out(planned, "closure"));
   const SolveResult forced = solve_with_factors(scene, Closure::enforce);
   EXPECT_FALSE(is_left_out(forced, "closure"));
-  EXPECT_NEAR(mean_of_channel(planned), mean_of_channel(forced), 0.01 * mean_of_channel(planned));
+  EXPECT_NEAR(test::mean_irradiance(planned)[0], test::mean_irradiance(forced)[0],
+              0.01 * test::mean_irradiance(planned)[0]);
 }
 
 TEST(ForcedStages, ExactDirectLightAgreesWithTheMatrix) {

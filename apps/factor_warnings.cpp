@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace halfshade {
 namespace {
@@ -103,6 +104,24 @@ std::string note_of(const Scene& scene, const FactorMatrix& matrix) {
   for (const Repair& repair : matrix.scene.repairs)
     if (is_cut(scene, repair) && !matters(scene, repair)) cuts.push_back(&repair);
   return sentence_of(scene, matrix, cuts);
+}
+
+std::string missing_rows(const Scene& scene, const FactorMatrix& matrix, FactorUnit unit) {
+  if (unit == FactorUnit::face) return {};
+  const bool is_by_group = unit == FactorUnit::group;
+  std::set<int> used;
+  for (const Face& face : scene.faces) used.insert(is_by_group ? face.group : face.material);
+  const std::set<std::string> names(matrix.names.begin(), matrix.names.end());
+  std::vector<std::string> missing;
+  for (const int id : used)
+    if (!names.contains(row_name(scene, unit, {id, false})) &&
+        !names.contains(row_name(scene, unit, {id, true})))
+      missing.push_back(fmt::format("'{}'", row_name(scene, unit, {id, false})));
+  if (missing.empty()) return {};
+  return fmt::format("{} {} {}: none of {} faces was left when the scene was made sound",
+                     fmt::join(missing, ", "), missing.size() > 1 ? "have" : "has",
+                     missing.size() > 1 ? "no rows" : "no row",
+                     missing.size() > 1 ? "their" : "its");
 }
 
 }  // namespace halfshade

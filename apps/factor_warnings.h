@@ -17,4 +17,8 @@ std::vector<Warning> warnings_of(const Scene& scene, const FactorMatrix& matrix)
 /// flush on larger faces, whose rows have less area for it. Empty if there are none.
 std::string note_of(const Scene& scene, const FactorMatrix& matrix);
 
+/// Groups or materials whose faces all had no area or were dropped, so that they have no row. Empty
+/// if there are none, and for faces: what was dropped of those tells it.
+std::string missing_rows(const Scene& scene, const FactorMatrix& matrix, FactorUnit unit);
+
 }  // namespace halfshade

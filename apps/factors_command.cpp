@@ -25,10 +25,13 @@ CommandFiles checked_files(const FactorsCommand& command, const CommonOptions& c
   return files;
 }
 
-void print_doubts(const SceneFile& file, const FactorMatrix& matrix, const Context& context) {
+void print_doubts(const SceneFile& file, const FactorMatrix& matrix, FactorUnit unit,
+                  const Context& context) {
   print_warnings(file, warnings_of(file.scene, matrix), context);
-  const std::string note = note_of(file.scene, matrix);
-  if (!context.common.quiet && !note.empty()) complain("note: {}\n", note);
+  if (context.common.quiet) return;
+  for (const std::string& note :
+       {note_of(file.scene, matrix), missing_rows(file.scene, matrix, unit)})
+    if (!note.empty()) complain("note: {}\n", note);
 }
 
 void print_summary(const FactorMatrix& matrix, const Context& context) {
@@ -50,6 +53,12 @@ void print_summary(const FactorMatrix& matrix, const Context& context) {
     fmt::print(out, "enforced     factors changed by up to {:.2g} %\n", 100 * report.enforced_by);
 }
 
+/// What to do about rows that are not exact enough, or what tells that they are not.
+const char* remedy(const FactorReport& report, double tolerance) {
+  if (report.pairs_at_limit > 0) return ", and allow more with --max-points";
+  return report.row_sum_error_max > tolerance ? ": sums of rows tell it" : "";
+}
+
 /// Why the matrix is not what was asked for; empty if it is.
 std::string not_reached(const FactorMatrix& matrix, const FactorOptions& options) {
   if (options.enforce && !matrix.report.is_enforced)
@@ -57,9 +66,9 @@ std::string not_reached(const FactorMatrix& matrix, const FactorOptions& options
   if (matrix.report.rows_not_reached > 0)
     return fmt::format(
         "{} of {} rows have form factors whose error is up to {:.2g}, and {:.2g} was asked for; "
-        "see 'error', and allow more with --max-points",
+        "see 'error'{}",
         matrix.report.rows_not_reached, matrix.names.size(), matrix.error.maxCoeff(),
-        options.tolerance);
+        options.tolerance, remedy(matrix.report, options.tolerance));
   return {};
 }
 
@@ -81,7 +90,7 @@ ExitCode run(const FactorsCommand& command, const Context& context) {
   write_factors(matrix, context.provenance, command.output);
   if (!context.common.json.empty())
     write_report(matrix, run_info(context, code, outputs), context.common.json);
-  print_doubts(file, matrix, context);
+  print_doubts(file, matrix, command.options.unit, context);
   if (!context.common.quiet) {
     print_summary(matrix, context);
     print_outputs(context, outputs);

@@ -54,8 +54,9 @@ double log_potential(const Vec3& x, const Vec3& a, const Vec3& b, double unit) {
 /// closed form and adaptive quadrature along the outer one.
 class ContourIntegral {
  public:
-  ContourIntegral(std::span<const Vec3> inner, const FormFactorOptions& options, double unit)
-      : inner_(inner), options_(options), unit_(unit) {}
+  ContourIntegral(std::span<const Vec3> inner, const FormFactorOptions& options, double unit,
+                  const std::stop_token& stop)
+      : inner_(inner), options_(options), unit_(unit), stop_(stop) {}
 
   MutualArea integrate(std::span<const Vec3> outer) {
     for (std::size_t k = 0; k < outer.size(); ++k)
@@ -142,7 +143,7 @@ class ContourIntegral {
   void refine() {
     const auto worse = [](const Interval& a, const Interval& b) { return a.error < b.error; };
     std::make_heap(intervals_.begin(), intervals_.end(), worse);
-    while (!intervals_.empty() && result_.points < options_.max_points) {
+    while (!intervals_.empty() && result_.points < options_.max_points && !stop_.stop_requested()) {
       double value = 0, error = 0;
       for (const Interval& interval : intervals_) {
         value += interval.value;
@@ -163,6 +164,7 @@ class ContourIntegral {
   std::span<const Vec3> inner_;
   FormFactorOptions options_;
   double unit_;
+  const std::stop_token& stop_;
   std::vector<Piece> pieces_;
   std::vector<Interval> intervals_;
   MutualArea result_;
@@ -230,7 +232,7 @@ int sufficient_degree(double ratio, double tolerance) {
 }
 
 MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
-                       const FormFactorOptions& options) {
+                       const FormFactorOptions& options, const std::stop_token& stop) {
   const Vec3 p_area = area_vector(p), q_area = area_vector(q);
   const double p_size = p_area.norm(), q_size = q_area.norm();
   if (!(p_size > 0 && q_size > 0)) return {};
@@ -251,7 +253,7 @@ MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
     result.error = result.value * options.tolerance;
     return result;
   }
-  return ContourIntegral(inner, options, distance).integrate(outer);
+  return ContourIntegral(inner, options, distance, stop).integrate(outer);
 }
 
 double form_factor(std::span<const Vec3> p, std::span<const Vec3> q,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <stop_token>
 
 namespace halfshade {
 
@@ -47,9 +48,10 @@ struct MutualArea {
 /// it, or are separated by a tiny gap converge like distant ones. (Area quadrature with collapsed
 /// coordinates, Duffy 1982, does as well on shared edges but needs 1/gap points for gaps.) Far
 /// apart, it is Lambert's closed form integrated over p. Either may be non-convex. Both
-/// counter-clockwise seen from their fronts, of at least 3 vertices, planar.
+/// counter-clockwise seen from their fronts, of at least 3 vertices, planar. If stopped, the error
+/// is what it is by then. Where one is far larger, rounding does less if p is the smaller.
 MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
-                       const FormFactorOptions& options = {});
+                       const FormFactorOptions& options = {}, const std::stop_token& stop = {});
 
 /// F(p,q) of two unobstructed planar polygons; see mutual_area.
 double form_factor(std::span<const Vec3> p, std::span<const Vec3> q,

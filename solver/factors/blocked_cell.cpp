@@ -84,8 +84,8 @@ struct BlockedCells::Sum {
 };
 
 BlockedCells::BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
-                           const SightTolerance& tolerance)
-    : scene_(scene), looks_(looks), a_(a), b_(b), tolerance_(tolerance) {
+                           const SightTolerance& tolerance, const std::stop_token& stop)
+    : scene_(scene), looks_(looks), a_(a), b_(b), tolerance_(tolerance), stop_(stop) {
   few_.emplace(scene, a, b);
   if (!few_->is_applicable()) few_.reset();
 }
@@ -283,7 +283,7 @@ BlockedCell BlockedCells::raise(const BlockedCell& old) {
 BlockedCell BlockedCells::closed_form(const BlockedCell& dark) const {
   SightTolerance fine = tolerance_;
   fine.absolute *= 1e-3;
-  const MutualSight all = clear_sight(scene_, dark.corners, b_, fine);
+  const MutualSight all = clear_sight(scene_, dark.corners, b_, fine, stop_);
   BlockedCell cell = dark;
   cell.is_exact = true;
   cell.value = all.value;

@@ -52,11 +52,11 @@ struct BlockedCell {
   bool is_steep = false;  ///< what rises before its corners is most that it may be off by
 };
 
-/// Evaluates cells of one pair of surfaces.
+/// Evaluates cells of one pair of surfaces. All that it is made of must outlive it.
 class BlockedCells {
  public:
   BlockedCells(const SightScene& scene, PointLooks& looks, int a, int b,
-               const SightTolerance& tolerance);
+               const SightTolerance& tolerance, const std::stop_token& stop);
 
   /// A first look, by the rules of degree 1 and 2.
   BlockedCell look(const Triangle3& corners);
@@ -88,6 +88,7 @@ class BlockedCells {
   PointLooks& looks_;
   int a_, b_;
   SightTolerance tolerance_;
+  const std::stop_token& stop_;
   std::optional<FewBlockers> few_;
   std::size_t points_ = 0;
 };

@@ -1,3 +1,4 @@
+#include "meshing/core/plane_frame.h"
 #include "solver/factors/mutual_sight.h"
 
 #include <cmath>
@@ -8,13 +9,17 @@ namespace {
 /// What rounding may do to the value, relative to it, beside what quadrature does: contours of
 /// distant polygons cancel.
 constexpr double rounding = 1e-12;
+/// In area; rounding does not decide which.
+constexpr double far_larger = 2;
 
 void add(MutualSight& sum, const MutualArea& area, const FormFactorOptions& options,
          const SightTolerance& tolerance) {
   sum.value += area.value;
   sum.error += area.error + rounding * std::abs(area.value);
-  sum.is_reached = sum.is_reached &&
-                   area.error <= std::max(options.floor, tolerance.relative * std::abs(area.value));
+  const bool is_reached =
+      area.error <= std::max(options.floor, tolerance.relative * std::abs(area.value));
+  sum.is_reached = sum.is_reached && is_reached;
+  sum.is_at_limit = sum.is_at_limit || (!is_reached && area.points >= options.max_points);
 }
 
 FormFactorOptions options_of(const SightTolerance& tolerance, std::size_t pairs) {
@@ -25,28 +30,40 @@ FormFactorOptions options_of(const SightTolerance& tolerance, std::size_t pairs)
   return options;
 }
 
+/// What is integrated along is the smaller one's contour: what rounding does goes like its length
+/// and the distance. Along the larger one's it would be lost in a box of surroundings 1e8 as large.
+MutualArea area_between(std::span<const Vec3> p, double p_area, const SightSurface& surface,
+                        std::size_t piece, const FormFactorOptions& options,
+                        const std::stop_token& stop) {
+  const Polygon3& q = surface.pieces[piece];
+  const bool is_larger = p_area > far_larger * surface.far_pieces[piece].area;
+  return is_larger ? mutual_area(q, p, options, stop) : mutual_area(p, q, options, stop);
+}
+
 }  // namespace
 
-MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance) {
+MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
+                        const std::stop_token& stop) {
   const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
   const FormFactorOptions options = options_of(tolerance, p.pieces.size() * q.pieces.size());
   MutualSight sum;
   for (std::size_t k = 0; k < p.pieces.size(); ++k)
     for (std::size_t l = 0; l < q.pieces.size(); ++l) {
       const auto far = far_area(p.far_pieces[k], q.far_pieces[l], options);
-      add(sum, far ? *far : mutual_area(p.pieces[k], q.pieces[l], options), options, tolerance);
+      add(sum, far ? *far : area_between(p.pieces[k], p.far_pieces[k].area, q, l, options, stop),
+          options, tolerance);
     }
   return sum;
 }
 
 MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
-                        const SightTolerance& tolerance) {
-  const auto& q = scene.surfaces[at(b)].pieces;
+                        const SightTolerance& tolerance, const std::stop_token& stop) {
+  const SightSurface& q = scene.surfaces[at(b)];
+  const double area = area_vector(part).norm();
+  const FormFactorOptions options = options_of(tolerance, q.pieces.size());
   MutualSight sum;
-  for (const Polygon3& other : q) {
-    const FormFactorOptions options = options_of(tolerance, q.size());
-    add(sum, mutual_area(part, other, options), options, tolerance);
-  }
+  for (std::size_t l = 0; l < q.pieces.size(); ++l)
+    add(sum, area_between(part, area, q, l, options, stop), options, tolerance);
   return sum;
 }
 

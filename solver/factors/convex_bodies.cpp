@@ -183,9 +183,10 @@ void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silh
     const auto& [ends, sides] = body.edges[k];
     const bool left = silhouette.is_front[at(sides[0])], right = silhouette.is_front[at(sides[1])];
     if (left == right) continue;
-    const Vec3 from = body.vertices[at(ends[left ? 0 : 1])] - point;
-    const Vec3 to = body.vertices[at(ends[left ? 1 : 0])] - point;
-    silhouette.edges.push_back({from.cross(to), static_cast<std::uint32_t>(k)});
+    const Vec3 &from = body.vertices[at(ends[left ? 0 : 1])],
+               &to = body.vertices[at(ends[left ? 1 : 0])];
+    silhouette.edges.push_back(
+        {(from - point).cross(to - from), to, static_cast<std::uint32_t>(k)});
   }
 }
 

@@ -45,6 +45,7 @@ bool is_within_sight(const ConvexBody& body, const std::vector<std::vector<Vec3>
 struct Silhouette {
   struct Edge {
     Vec3 normal;          ///< of the plane through the point and the edge; outwards, any length
+    Vec3 corner;          ///< an end of it
     std::uint32_t index;  ///< of ConvexBody::edges
   };
   std::vector<Edge> edges;

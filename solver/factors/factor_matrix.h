@@ -36,6 +36,8 @@ struct FactorReport {
   std::size_t clear_pairs = 0;    ///< of surfaces that nothing comes between
   std::size_t partial_pairs = 0;  ///< that something may come between
   std::size_t points = 0;         ///< at which exactly visible parts were found
+  std::size_t pairs_at_limit =
+      0;  ///< that took FactorOptions::max_points, and are not exact enough
   std::size_t rays = 0;
   int rows_not_reached = 0;      ///< with an entry that is less exact than asked for
   double row_sum_error_max = 0;  ///< largest |row_sum − 1|

@@ -18,7 +18,7 @@ constexpr double nearness_of_target = 1e-11;
 constexpr double edge_on = 1e-12;
 /// Targets that fill more of the view, as the sine of half the angle, are not asked what lies
 /// beside them; and balls count as larger by what rounding is.
-constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9;
+constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9, of_distance = 1e-15;
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
 /// Borders of one shade are numbered from a multiple of this on.
 constexpr std::uint32_t borders_of_shade = 1024;
@@ -168,11 +168,12 @@ double FewBlockers::hidden_by(std::size_t thing, const Vec3& point) {
   return sum;
 }
 
-/// What lies behind a plane through the point. False if nothing of the target does; a plane that
+/// What lies behind a plane through the point and a corner, which is nearer to the target and loses
+/// less to rounding. False if nothing of the target does; a plane that
 /// all of it lies behind cuts off nothing and is left out.
-bool FewBlockers::add_plane(const Vec3& normal, std::uint32_t border) {
+bool FewBlockers::add_plane(const Vec3& normal, const Vec3& corner, std::uint32_t border) {
   const Vec2 a(target_.frame.e1.dot(normal), target_.frame.e2.dot(normal));
-  const double b = -normal.dot(from_frame_), steepness = length_about(a);
+  const double b = normal.dot(target_.frame.origin - corner), steepness = length_about(a);
   // Parallel to the target.
   if (!(steepness > edge_on * length_about(normal))) return b <= 0;
   const FlatParts::HalfPlane plane{a, b, nearness_ * steepness, border};
@@ -197,11 +198,10 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
   if (farthest >= -near) return false;
   if (nearest > near) shadow_.push_back({side * shade.a, side * shade.b, near, border});
   const std::vector<Vec3>& corners = shade.blocker->corners;
-  Vec3 from = corners.back() - point_;
-  for (const Vec3& corner : corners) {
-    const Vec3 to = corner - point_;
-    if (!add_plane(side * from.cross(to), ++border)) return false;
-    from = to;
+  const Vec3* from = &corners.back();
+  for (const Vec3& to : corners) {
+    if (!add_plane(side * (*from - point_).cross(to - *from), to, ++border)) return false;
+    from = &to;
   }
   return true;
 }
@@ -209,7 +209,7 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
 /// The same: the cone through the silhouette.
 bool FewBlockers::make_shadow(const Silhouette& silhouette, std::uint32_t border) {
   for (const Silhouette::Edge& edge : silhouette.edges)
-    if (!add_plane(edge.normal, border + edge.index + 1)) return false;
+    if (!add_plane(edge.normal, edge.corner, border + edge.index + 1)) return false;
   return !silhouette.edges.empty();
 }
 
@@ -285,8 +285,8 @@ bool FewBlockers::is_beside(const Ball& ball) const {
   if (tangent_ == HUGE_VAL) return false;
   const Vec3 to = ball.centre - point_;
   const double along = towards_.dot(to);
-  const double reach = along * tangent_ + ball.radius * secant_ * slightly_more;
-  return reach < 0 || to.squaredNorm() - along * along > reach * reach;
+  const double reach = along * (tangent_ + of_distance) + ball.radius * secant_ * slightly_more;
+  return reach < 0 || (to - along * towards_).squaredNorm() > reach * reach;
 }
 
 /// Leaves the parts that are seen. False if there are too many.

@@ -1,33 +1,13 @@
 #include "solver/factors/finished_matrix.h"
 
 #include "solver/exchange/exchange.h"
+#include "solver/factors/row_sums.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace halfshade {
 namespace {
-
-/// Of a sum of a row.
-constexpr double sum_rounding = 1e-13;
-
-/// What rows sum to beside one, and what their entries together claim to be off by at most, as
-/// mutual areas.
-struct RowSums {
-  Eigen::ArrayXd missing, claimed;
-
-  RowSums(const FactorScene& scene, const RowExchange& exchange) {
-    const Eigen::Map<const Eigen::ArrayXd> area(scene.areas.data(), scene.rows());
-    missing = (exchange.mutual.rowwise().sum().array() + exchange.space - area).abs() +
-              sum_rounding * area;
-    claimed = exchange.mutual_error.rowwise().sum().array() + exchange.space_error;
-  }
-  /// The most that an entry can be off by, so far as the others are what they claim to be.
-  double bound(Eigen::Index row, double error) const {
-    return missing[row] > claimed[row] ? HUGE_VAL
-                                       : missing[row] + std::max(0., claimed[row] - error);
-  }
-};
 
 /// Rows sum to one: so no entry is off by more than their sum is, and all the others together. That
 /// is sharp where one is worse than the others.
@@ -71,9 +51,7 @@ void fill_report(double tolerance, const RowSums& sums, FactorMatrix& result) {
     result.error[i] = std::max(result.error[i], missing / entries);
     // Space is found on its own: what a sum of many good entries misses is in one that is not. The
     // others may make it look smaller than it is.
-    if (missing > 2 * tolerance ||
-        sums.missing[i] > sums.claimed[i] + 2 * sum_rounding * result.area[i])
-      result.error[i] += missing;
+    if (missing > 2 * tolerance || sums.is_refuted(i)) result.error[i] += missing;
     const bool is_off = result.error[i] > tolerance;
     report.rows_not_reached += is_off ? 1 : 0;
     report.row_sum_error_max = std::max(report.row_sum_error_max, missing);

@@ -73,11 +73,12 @@ class PairOnLattices {
   /// `quads` are what it looks from: goes on if there is a lattice that neither the other surface
   /// nor anything in between is too narrow for. Shadows are wider than what casts them.
   PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
-                 std::span<const Quad> quads, SharedShadows& shadows, TargetMemory& memory)
+                 std::span<const Quad> quads, SharedShadows& shadows, TargetMemory& memory,
+                 const std::stop_token& stop)
       : PairOnLattices(
             scene, a, pair, quads,
             FewBlockers(scene, a, pair.other, {pair.blockers.begin(), pair.blockers.end()}),
-            shadows, memory) {}
+            shadows, memory, stop) {}
 
   bool goes_on() const { return goes_on_; }
   const MutualSight& sight() const { return sight_; }
@@ -121,7 +122,7 @@ class PairOnLattices {
  private:
   PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
                  std::span<const Quad> quads, const FewBlockers& few, SharedShadows& shadows,
-                 TargetMemory& memory)
+                 TargetMemory& memory, const std::stop_token& stop)
       : target_(few.shaded_target(shadows, memory)), hidden_allowed_(pair.tolerance) {
     sight_.is_reached = false;
     if (!few.is_applicable()) return;
@@ -135,7 +136,7 @@ class PairOnLattices {
         across <= most() && static_cast<double>(square_lattices().front().places.size()) <= most();
     if (!goes_on_) return;
     fewest_ = static_cast<std::size_t>(across);
-    whole_ = clear_sight(scene, a, pair.other, unhidden);
+    whole_ = clear_sight(scene, a, pair.other, unhidden, stop);
   }
 
   /// What it sees from one quadrilateral, times what that stretches the square by.
@@ -189,7 +190,7 @@ class PairOnLattices {
 
 /// Looks at all of some pairs from one lattice after the other.
 void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
-             SharedShadows& shadows) {
+             SharedShadows& shadows, const std::stop_token& stop) {
   const auto lattices = square_lattices();
   std::size_t first = 0;
   for (std::size_t level = 0; level < lattices.size(); ++level) {
@@ -198,6 +199,7 @@ void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
     const SquareLattice& lattice = lattices[level];
     for (std::size_t q = 0; q < quads.size(); ++q) {
       const auto look_from = [&](const Vec2& at, bool is_corner) {
+        if (stop.stop_requested()) return;
         const Place place = place_in(quads[q], at);
         shadows.move_to(place.position);
         for (PairOnLattices* pair : pairs) pair->look(place.weight, q, is_corner);
@@ -207,6 +209,7 @@ void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
       for (std::size_t k = 0; level == 0 && k < lattice.corners.size(); ++k)
         look_from(lattice.corner(k), true);
     }
+    if (stop.stop_requested()) return;
     for (PairOnLattices* pair : pairs) pair->settle(lattice, level + 1 == lattices.size());
     first = lattice.places.size();
   }
@@ -235,7 +238,8 @@ PartBefore part_before(const SightSurface& surface, const SightSurface& other) {
 }  // namespace
 
 std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, int a,
-                                                      std::span<const LatticePair> pairs) {
+                                                      std::span<const LatticePair> pairs,
+                                                      const std::stop_token& stop) {
   if (pairs.empty()) return {};
   const SightSurface& own = scene.surfaces[at(a)];
   std::vector<Quad> all;
@@ -247,16 +251,18 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
   TargetMemory memory;
   for (const LatticePair& pair : pairs) {
     looks.push_back(nullptr);
-    if (!in_all_cells_of(scene, a, pair.other)) continue;
+    if (stop.stop_requested() || !in_all_cells_of(scene, a, pair.other)) continue;
     const PartBefore part = part_before(own, scene.surfaces[at(pair.other)]);
-    looks.back() = std::make_unique<PairOnLattices>(scene, a, pair, part.quads, shadows, memory);
+    looks.back() =
+        std::make_unique<PairOnLattices>(scene, a, pair, part.quads, shadows, memory, stop);
     PairOnLattices* look = looks.back().get();
     if (part.is_all)
       from_all.push_back(look);
     else
-      look_at({look}, part.quads, shadows);
+      look_at({look}, part.quads, shadows, stop);
   }
-  look_at(from_all, all, shadows);
+  look_at(from_all, all, shadows, stop);
+  if (stop.stop_requested()) return std::vector<std::optional<MutualSight>>(pairs.size());
   std::vector<std::optional<MutualSight>> result;
   for (std::size_t k = 0; k < looks.size(); ++k) {
     const PairOnLattices* look = looks[k].get();

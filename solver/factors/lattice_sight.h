@@ -21,8 +21,10 @@ struct LatticePair {
 /// are everywhere that takes a fraction of the points that partial_sight takes, whose cells follow
 /// each of them; and points serve all pairs. Nothing for pairs that no lattice of 4,096 points
 /// suffices for, or that are all or nothing from all points. In a trial 64 points are the most, and
-/// what is not reached is told, too. Cost: a microsecond a point and pair.
+/// what is not reached is told, too. If
+/// stopped, nothing. Cost: a microsecond a point and pair.
 std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, int a,
-                                                      std::span<const LatticePair> pairs);
+                                                      std::span<const LatticePair> pairs,
+                                                      const std::stop_token& stop = {});
 
 }  // namespace halfshade

@@ -5,6 +5,7 @@
 #include "solver/factors/sight_scene.h"
 
 #include <cstddef>
+#include <stop_token>
 
 namespace halfshade {
 
@@ -18,18 +19,21 @@ struct SightTolerance {
 
 /// Mutual area of what two surfaces see of each other.
 struct MutualSight {
-  double value = 0;        ///< A_a F(a,b) = A_b F(b,a), squared scene units
-  double error = 0;        ///< bound of its absolute error
-  std::size_t points = 0;  ///< at which visible parts were found
-  bool is_reached = true;  ///< the error is as small as asked for
+  double value = 0;          ///< A_a F(a,b) = A_b F(b,a), squared scene units
+  double error = 0;          ///< bound of its absolute error
+  std::size_t points = 0;    ///< at which visible parts were found
+  bool is_reached = true;    ///< the error is as small as asked for
+  bool is_at_limit = false;  ///< it is not, for it would take more than SightTolerance::max_points
 };
 
-/// Of two surfaces as if nothing were between them: mutual_area, by convex pieces.
-MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance);
+/// Of two surfaces as if nothing were between them: mutual_area, by convex pieces. If stopped, the
+/// error is what it is by then.
+MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
+                        const std::stop_token& stop = {});
 
 /// Of a part of surface `a` alone.
 MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
-                        const SightTolerance& tolerance);
+                        const SightTolerance& tolerance, const std::stop_token& stop = {});
 
 /// Of two surfaces that something may come between: what they would see without it less what it
 /// hides, by cubature of exact point factors over `a`; see factors.md. If stopped, the error is

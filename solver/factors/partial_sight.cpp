@@ -45,8 +45,9 @@ Total total_of(const std::vector<BlockedCell>& cells) {
 class HiddenIntegral {
  public:
   HiddenIntegral(const SightScene& scene, PointLooks& looks, int a, int b,
-                 const FacingTriangles& facing, const SightTolerance& tolerance)
-      : evaluator_(scene, looks, a, b, tolerance) {
+                 const FacingTriangles& facing, const SightTolerance& tolerance,
+                 const std::stop_token& stop)
+      : evaluator_(scene, looks, a, b, tolerance, stop) {
     for (const Triangle3& triangle : facing.triangles) cells_.push_back(evaluator_.look(triangle));
     std::make_heap(cells_.begin(), cells_.end(), is_worse);
     total_ = total_of(cells_);
@@ -86,14 +87,15 @@ class HiddenIntegral {
 
 /// Two surfaces without what is between them.
 MutualSight unhidden(const SightScene& scene, int a, int b, const FacingTriangles& facing,
-                     const SightTolerance& tolerance) {
-  if (facing.is_all) return clear_sight(scene, a, b, tolerance);
+                     const SightTolerance& tolerance, const std::stop_token& stop) {
+  if (facing.is_all) return clear_sight(scene, a, b, tolerance, stop);
   MutualSight sum;
   for (const Triangle3& triangle : facing.triangles) {
-    const MutualSight part = clear_sight(scene, triangle, b, tolerance);
+    const MutualSight part = clear_sight(scene, triangle, b, tolerance, stop);
     sum.value += part.value;
     sum.error += part.error;
     sum.is_reached = sum.is_reached && part.is_reached;
+    sum.is_at_limit = sum.is_at_limit || part.is_at_limit;
   }
   return sum;
 }
@@ -110,8 +112,9 @@ struct OneSide {
   HiddenIntegral hidden;
   SightTolerance tolerance;
 
-  OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const SightTolerance& asked)
-      : OneSide(scene, looks, a, b, facing_triangles(scene, a, b), asked) {}
+  OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const SightTolerance& asked,
+          const std::stop_token& stop)
+      : OneSide(scene, looks, a, b, facing_triangles(scene, a, b), asked, stop) {}
 
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
@@ -120,18 +123,21 @@ struct OneSide {
   bool is_believed() const {
     return hidden.points() >= points_to_believe || hidden.total().error <= far_smaller * allowed();
   }
-  void refine_to(std::size_t points, const std::stop_token& stop) {
-    while (!(is_reached() && is_believed()) && hidden.points() < points && !stop.stop_requested())
+  void refine_to(std::size_t points) {
+    while (!(is_reached() && is_believed()) && hidden.points() < points && !stop_.stop_requested())
       hidden.refine_worst(hidden.total().error > far_off * allowed());
     hidden.settle();
   }
 
  private:
   OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const FacingTriangles& facing,
-          const SightTolerance& asked)
-      : whole(unhidden(scene, a, b, facing, share_of(asked, share_of_whole))),
-        hidden(scene, looks, a, b, facing, asked),
-        tolerance(share_of(asked, share_of_hidden)) {}
+          const SightTolerance& asked, const std::stop_token& stop)
+      : whole(unhidden(scene, a, b, facing, share_of(asked, share_of_whole), stop)),
+        hidden(scene, looks, a, b, facing, asked, stop),
+        tolerance(share_of(asked, share_of_hidden)),
+        stop_(stop) {}
+
+  const std::stop_token& stop_;
 };
 
 }  // namespace
@@ -145,18 +151,20 @@ MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTole
 MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int b,
                           const SightTolerance& tolerance, const std::stop_token& stop) {
   const auto most = static_cast<std::size_t>(tolerance.max_points);
-  OneSide first(scene, looks, a, b, tolerance);
-  first.refine_to(std::min(points_to_try, most), stop);
+  OneSide first(scene, looks, a, b, tolerance, stop);
+  first.refine_to(std::min(points_to_try, most));
   std::optional<OneSide> second;
   if (!first.is_reached()) {
-    second.emplace(scene, looks, b, a, tolerance);
-    second->refine_to(std::min(points_to_try, most), stop);
+    second.emplace(scene, looks, b, a, tolerance, stop);
+    second->refine_to(std::min(points_to_try, most));
   }
   const bool is_second_better = second && second->error() < first.error();
   OneSide& better = is_second_better ? *second : first;
-  if (!tolerance.is_trial) better.refine_to(most, stop);
+  if (!tolerance.is_trial) better.refine_to(most);
   MutualSight result = better.whole;
   result.is_reached = result.is_reached && better.is_reached();
+  result.is_at_limit =
+      result.is_at_limit || (!better.is_reached() && better.hidden.points() >= most);
   result.value = better.value();
   result.error = better.error();
   result.points = first.hidden.points() + (second ? second->hidden.points() : 0);

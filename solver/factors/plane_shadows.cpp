@@ -164,15 +164,15 @@ void PlaneShadows::find_open_box(const Shadow& shadow, FlatBox& box) const {
   box = {open.left - off, open.low - off, open.right + off, open.high + off};
 }
 
-/// The plane through the point and an edge.
+/// The plane through the point and an edge, from the edge on: the point may be so far off that
+/// rounding there is more than the edge is long.
 void PlaneShadows::add_side(std::size_t from, std::size_t to, double sign, Shadow& shadow) const {
-  const double x = point_.x(), y = point_.y(), z = point_.z();
-  const double from_x = shadow.x[from] - x, from_y = shadow.y[from] - y,
-               from_z = shadow.z[from] - z;
-  const double to_x = shadow.x[to] - x, to_y = shadow.y[to] - y, to_z = shadow.z[to] - z;
-  const double ax = sign * (from_y * to_z - from_z * to_y);
-  const double ay = sign * (from_z * to_x - from_x * to_z);
-  const double az = sign * (from_x * to_y - from_y * to_x);
+  const double x = shadow.x[from], y = shadow.y[from], z = shadow.z[from];
+  const double from_x = x - point_.x(), from_y = y - point_.y(), from_z = z - point_.z();
+  const double along_x = shadow.x[to] - x, along_y = shadow.y[to] - y, along_z = shadow.z[to] - z;
+  const double ax = sign * (from_y * along_z - from_z * along_y);
+  const double ay = sign * (from_z * along_x - from_x * along_z);
+  const double az = sign * (from_x * along_y - from_y * along_x);
   const double steepness = std::abs(ax) + std::abs(ay), b = -(ax * x + ay * y + az * z);
   if (steepness > edge_on_plane * (steepness + std::abs(az)))
     shadow.sides.push_back({ax, ay, b});

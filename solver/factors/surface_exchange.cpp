@@ -4,6 +4,7 @@
 #include "solver/factors/error_shares.h"
 #include "solver/factors/lattice_sight.h"
 #include "solver/factors/pair_search.h"
+#include "solver/factors/row_sums.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,11 @@ namespace {
 constexpr std::size_t few_clear_pairs = 10000;
 constexpr int points_to_rounding = 5000;
 constexpr double about_rounding = 1e-13;
+
+/// Rows that do not sum to one are looked at again, with so much of what their pairs may be off by,
+/// at most so often.
+constexpr double share_again = 0.1;
+constexpr int most_times_again = 3;
 
 /// A pair that something may come between, and where its result belongs.
 struct HardPair {
@@ -109,22 +115,45 @@ class ExactPairs {
     return see_by_cells();
   }
 
-  void add_to(RowExchange& exchange) const {
+  /// Pairs of these rows that something may come between once more, so much more exactly, but for
+  /// those that took all points that they may.
+  bool see_again(const std::vector<bool>& rows, double share) {
+    hard_.clear();  // those that are not found so exactly have taken all points
+    const auto is_asked = [&](int row) { return row >= 0 && rows[at(row)]; };
+    for (std::size_t a = 0; a < pairs_.size(); ++a)
+      for (std::size_t k = 0; k < pairs_[a].size(); ++k) {
+        if (pairs_[a][k].sight == Sight::clear || found_[a][k].is_at_limit) continue;
+        HardPair pair = hard_pair(sight_, static_cast<int>(a), pairs_[a][k].other, k);
+        if (!is_asked(row(pair)) && !is_asked(other_row(pair))) continue;
+        pair.tolerance = for_partial_;
+        pair.tolerance.relative *= share;
+        pair.tolerance.absolute = share * shares_.even_share(row(pair), other_row(pair));
+        hard_.push_back(pair);
+      }
+    return see_by_lattices(LookFrom::own) && see_by_lattices(LookFrom::other) && see_by_cells();
+  }
+
+  RowExchange exchange() const {
+    RowExchange exchange(scene_.rows());
     for (std::size_t a = 0; a < pairs_.size(); ++a)
       for (std::size_t k = 0; k < found_[a].size(); ++k)
         exchange.add(scene_.row[a], scene_.row[at(pairs_[a][k].other)], pairs_[a][k].sight,
                      found_[a][k]);
+    return exchange;
   }
 
  private:
   MutualSight see_clear(int a, int b) const {
-    const MutualSight seen = clear_sight(sight_, a, b, for_clear_);
+    const MutualSight seen = clear_sight(sight_, a, b, for_clear_, progress_.stop);
     const double area = std::min(sight_.surfaces[at(a)].area, sight_.surfaces[at(b)].area);
     if (clear_pairs_ > few_clear_pairs || seen.error <= about_rounding * area) return seen;
     const SightTolerance fine{about_rounding, about_rounding * area,
                               std::min(points_to_rounding, for_clear_.max_points)};
-    const MutualSight better = clear_sight(sight_, a, b, fine);
-    return better.error < seen.error ? better : seen;
+    MutualSight better = clear_sight(sight_, a, b, fine, progress_.stop);
+    if (!(better.error < seen.error)) return seen;
+    better.is_reached = seen.is_reached;
+    better.is_at_limit = seen.is_at_limit;
+    return better;
   }
 
   int row(const HardPair& pair) const { return scene_.row[at(pair.low)]; }
@@ -178,7 +207,7 @@ class ExactPairs {
       for (const std::size_t h : from[s])
         some.push_back({side == LookFrom::own ? hard_[h].other : hard_[h].own, hard_[h].tolerance,
                         pairs_[at(hard_[h].low)][hard_[h].place].blockers});
-      const auto seen = lattice_sight(sight_, static_cast<int>(s), some);
+      const auto seen = lattice_sight(sight_, static_cast<int>(s), some, progress_.stop);
       for (std::size_t k = 0; k < seen.size(); ++k)
         if (seen[k]) note(*seen[k], hard_[from[s][k]]);
     };
@@ -215,6 +244,16 @@ class ExactPairs {
   std::vector<HardPair> hard_;  // that are not found yet
 };
 
+/// Rows whose sums tell that an entry is off by more than it claims, and so far that it matters.
+std::vector<bool> refuted_rows(const RowSums& sums, double tolerance) {
+  std::vector<bool> rows;
+  for (Eigen::Index i = 0; i < sums.area.size(); ++i) {
+    const double missing = sums.missing[i] / sums.area[i];
+    rows.push_back(missing > 2 * tolerance || (missing > tolerance / 2 && sums.is_refuted(i)));
+  }
+  return rows;
+}
+
 }  // namespace
 
 void RowExchange::add(int row, int other, double value, double error) {
@@ -235,14 +274,22 @@ void RowExchange::add(int row, int other, Sight sight, const MutualSight& seen) 
   add(row, other, seen.value, seen.error);
   (sight == Sight::clear ? report.clear_pairs : report.partial_pairs) += 1;
   report.points += seen.points;
+  report.pairs_at_limit += seen.is_at_limit ? 1 : 0;
 }
 
 RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
                            const FactorOptions& options, const Progress& progress) {
   ExactPairs pairs(scene, sight, options, progress);
-  RowExchange exchange(scene.rows());
-  exchange.report.is_complete = pairs.see_clear() && pairs.see_partial();
-  pairs.add_to(exchange);
+  bool is_complete = pairs.see_clear() && pairs.see_partial();
+  RowExchange exchange = pairs.exchange();
+  double share = share_again;
+  for (int times = 0; times < most_times_again && is_complete; ++times, share *= share_again) {
+    const std::vector<bool> rows = refuted_rows(RowSums(scene, exchange), options.tolerance);
+    if (std::find(rows.begin(), rows.end(), true) == rows.end()) break;
+    is_complete = pairs.see_again(rows, share);
+    exchange = pairs.exchange();
+  }
+  exchange.report.is_complete = is_complete;
   return exchange;
 }
 

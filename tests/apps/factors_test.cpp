@@ -160,6 +160,20 @@ TEST_F(Factors, WarnOfFacesThatWereLostOrMoved) {
          "of 0.5, which face 2 (line 10) keeps\n");
 }
 
+TEST_F(Factors, TellGroupsThatHaveNoRow) {
+  write("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\ng flat\nf 1 2 4\ng full\nf 1 2 3\n");
+  const std::string note =
+      "note: 'flat' has no row: none of its faces was left when the scene was made sound\n";
+  const test::Outcome by_group = factors({"flat.obj", "-o", "f.csv"});
+  EXPECT_EQ(by_group.exit_code, 0);
+  EXPECT_NE(by_group.err.find(note), std::string::npos) << by_group.err;
+  ASSERT_EQ(rows("f.csv").size(), 2u);
+  EXPECT_EQ(rows("f.csv")[1][0], "full");
+  for (const std::string unit : {"material", "face"})
+    EXPECT_EQ(factors({"flat.obj", "-o", "f.csv", "--by", unit}).err.find("has no row"),
+              std::string::npos);
+}
+
 TEST_F(Factors, TellWhatWasLeftOutAndScaled) {
   const std::vector<std::string> sparse = {l_room,  "--by",           "face", "-o",
                                            "f.mtx", "--sparse-below", "0.05"};

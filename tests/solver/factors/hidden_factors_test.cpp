@@ -7,7 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <stop_token>
 
 namespace halfshade {
 namespace {
@@ -138,6 +140,32 @@ TEST(HiddenFactors, TinyThingsAreNotOverlooked) {
   const double hidden = test::opposed_rectangles(1, 1, 1) - matrix.factors(0, 1);
   EXPECT_NEAR(hidden, expected, 0.02 * expected + matrix.error[0]);
   EXPECT_GT(hidden, 0);
+}
+
+/// So close to one of them rows of few points are off by more than all entries claim.
+TEST(HiddenFactors, ASheetCloseToASquare) {
+  const HidingSheet sheet{{.0309, .5167}, {.2789, 1.1066}, .02};
+  const FactorMatrix matrix = test::face_factors(scene_of(sheet), 1e-6);
+  EXPECT_NEAR(matrix.factors(0, 1), expected_factor(sheet), matrix.error[0]);
+  EXPECT_LE(matrix.error.maxCoeff(), 1e-6);
+  EXPECT_LE((matrix.row_sum - 1).abs().maxCoeff(), 2e-6);
+  EXPECT_EQ(matrix.report.rows_not_reached, 0);
+}
+
+/// Nothing is asked of the machine any more once a run was stopped, whatever a pair would take.
+TEST(HiddenFactors, StoppedPairsEndAtOnce) {
+  Scene scene;
+  const int material = test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1.1, 1, 0}, {0, 1, 0}}, material);
+  test::add_polygon(scene, {{0, 0, 1e-6}, {0, 1, 1e-6}, {1, 1.1, 1e-6}, {1, 0, 1e-6}}, material);
+  const FactorScene sound = make_factor_scene(scene, FactorUnit::face);
+  const SightScene sight = make_sight_scene(sound.sound);
+  std::stop_source source;
+  source.request_stop();
+  const auto before = std::chrono::steady_clock::now();
+  const SightTolerance unreachable{1e-300, 0, 100000000};
+  EXPECT_FALSE(clear_sight(sight, 0, 1, unreachable, source.get_token()).is_reached);
+  EXPECT_LT(std::chrono::steady_clock::now() - before, std::chrono::seconds(1));
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+#include "solver/factors/factor_matrix.h"
+#include "tests/support/face_factors.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace halfshade {
+namespace {
+
+/// Rows are as exact as asked for, and say so.
+void expect_reached(const FactorMatrix& matrix, double tolerance, const std::string& what) {
+  EXPECT_LE((matrix.row_sum - 1).abs().maxCoeff(), 2 * tolerance) << what << " " << tolerance;
+  EXPECT_LE(matrix.error.maxCoeff(), tolerance) << what << " " << tolerance;
+  EXPECT_EQ(matrix.report.rows_not_reached, 0) << what << " " << tolerance;
+}
+
+/// The side of a cylinder of radius 1 and height 4, seen from outside.
+void add_cylinder(Scene& scene, double middle, int sides) {
+  const auto corner = [&](int k, double z) {
+    const double angle = 2 * std::numbers::pi * (k % sides) / sides;
+    return Vec3(middle + std::cos(angle), std::sin(angle), z);
+  };
+  const int group = static_cast<int>(scene.groups.size());
+  scene.groups.push_back("cylinder " + std::to_string(group));
+  for (int k = 0; k < sides; ++k) {
+    test::add_polygon(scene, {corner(k, 0), corner(k + 1, 0), corner(k + 1, 4), corner(k, 4)}, 0);
+    scene.faces.back().group = group;
+  }
+}
+
+/// Lattices of points agree about some pairs of their sides, and are wrong: rows tell.
+TEST(RowSums, TwoCylinders) {
+  for (const int sides : {8, 16}) {
+    Scene scene;
+    test::add_material(scene, 0.5, 0);
+    add_cylinder(scene, 0, sides);
+    add_cylinder(scene, 3, sides);
+    for (const FactorUnit unit : {FactorUnit::face, FactorUnit::group})
+      for (const double tolerance : {1e-3, 1e-4}) {
+        FactorOptions options;
+        options.unit = unit;
+        options.tolerance = tolerance;
+        expect_reached(form_factor_matrix(scene, options), tolerance,
+                       std::to_string(sides) + (unit == FactorUnit::face ? " faces" : " groups"));
+      }
+  }
+}
+
+Scene squares_and_sheets() {
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, 0);
+  test::add_polygon(scene, {{0, 1, 1}, {1, 1, 1}, {1, 0, 1}, {0, 0, 1}}, 0);
+  test::add_polygon(scene, {{.31, .17, .3}, {.62, .17, .3}, {.62, .48, .3}, {.31, .48, .3}}, 0);
+  test::add_polygon(scene, {{.1, .1, .6}, {.8, .2, .7}, {.3, .9, .5}}, 0);
+  return scene;
+}
+
+/// What stands far off makes the box of the surroundings large, and changes nothing else: neither
+/// points on the box, from which all the rest is next to nothing, nor its contour are rounded away.
+TEST(RowSums, SomethingFarOff) {
+  const FactorMatrix alone = test::face_factors(squares_and_sheets(), 1e-6);
+  for (const double far : {1e3, 1e8})
+    for (const double tolerance : {1e-4, 1e-5}) {
+      Scene scene = squares_and_sheets();
+      test::add_polygon(scene, {{far, 0, 0}, {far, 1, 0}, {far, 0, 1}}, 0);
+      const FactorMatrix matrix = test::face_factors(scene, tolerance);
+      expect_reached(matrix, tolerance, std::to_string(far));
+      EXPECT_LE((matrix.factors.topLeftCorner(4, 4) - alone.factors).cwiseAbs().maxCoeff(),
+                1.2 * tolerance)
+          << far << " " << tolerance;
+      EXPECT_LE((matrix.space.head(4) - alone.space).abs().maxCoeff(), 1.2 * tolerance)
+          << far << " " << tolerance;
+    }
+}
+
+/// Two coaxial disks by Howell's C-41, as polygons with so many corners: off by the square of their
+/// sides.
+TEST(RowSums, DisksConverge) {
+  constexpr double near = 1, far = 2, distance = 1.5;
+  const double x = 1 + (1 + std::pow(far / distance, 2)) / std::pow(near / distance, 2);
+  const double expected = 0.5 * (x - std::sqrt(x * x - 4 * std::pow(far / near, 2)));
+  double before = 0;
+  for (const int corners : {16, 32, 64}) {
+    Scene scene;
+    test::add_material(scene, 0.5, 0);
+    std::vector<Vec3> low, high;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      low.emplace_back(near * std::cos(angle), near * std::sin(angle), 0);
+      high.emplace_back(far * std::cos(angle), -far * std::sin(angle), distance);
+    }
+    test::add_polygon(scene, low, 0);
+    test::add_polygon(scene, high, 0);
+    const FactorMatrix matrix = test::face_factors(scene, 1e-5);
+    expect_reached(matrix, 1e-5, std::to_string(corners));
+    const double off = std::abs(matrix.factors(0, 1) - expected);
+    if (before > 0) {
+      EXPECT_NEAR(std::log2(before / off), 2, 0.05) << corners;
+    }
+    before = off;
+  }
+  EXPECT_LT(before, 1e-3);
+}
+
+/// A run that may look at few points says that it would take more.
+TEST(RowSums, PairsThatTakeAllPointsAreCounted) {
+  FactorOptions options;
+  options.unit = FactorUnit::face;
+  EXPECT_EQ(form_factor_matrix(squares_and_sheets(), options).report.pairs_at_limit, 0u);
+  options.tolerance = 1e-7;
+  options.max_points = 100;
+  const FactorReport report = form_factor_matrix(squares_and_sheets(), options).report;
+  EXPECT_GT(report.pairs_at_limit, 0u);
+  EXPECT_LE(report.pairs_at_limit, report.clear_pairs + report.partial_pairs);
+  EXPECT_GT(report.rows_not_reached, 0);
+}
+
+}  // namespace
+}  // namespace halfshade

@@ -1,5 +1,7 @@
 #include "solver/reflected/balance_estimate.h"
 
+#include "solver/reflected/loss_balance.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -97,7 +99,9 @@ bool is_grey(const ReflectedSystem& system) {
 
 /// What comes of each part of the points, beside what they found itself.
 std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
-                                          const ReflectionEstimate& estimate) {
+                                          const ElementField& irradiance,
+                                          const ReflectionEstimate& estimate,
+                                          const std::vector<UnsureLoss>& unsure) {
   const ReflectedMesh& mesh = system.mesh;
   const std::size_t at_once = is_grey(system) ? 3 : 1;
   static_assert(parts_of_probes % 3 == 0);
@@ -110,6 +114,7 @@ std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
           source.of(e)(0, c) = estimate.missing[at(e)][at_once == 3 ? p + at(c) : p][c] *
                                estimate.probed[at(e)] / (reach * mesh.area(e));
     ElementField all = missing_light(system, source);
+    balance_change(system, irradiance, unsure, all);
     all.coefficients -= source.coefficients;
     for (std::size_t k = 0; k < at_once; ++k) {
       parts.push_back(all);
@@ -124,9 +129,11 @@ std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
 }  // namespace
 
 ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                         const ReflectionEstimate& estimate, const std::vector<double>& weight) {
+                         const ReflectionEstimate& estimate, const std::vector<UnsureLoss>& unsure,
+                         const std::vector<double>& weight) {
   const ReflectedMesh& mesh = system.mesh;
-  const std::vector<ElementField> parts = reflected_parts(system, estimate);
+  const std::vector<ElementField> parts =
+      reflected_parts(system, irradiance.rest, estimate, unsure);
   const ElementField there = irradiance.whole(mesh, system.systems);
   constexpr double n = parts_of_probes;
   ReflectedOn on;

@@ -2,17 +2,11 @@
 
 #include "solver/reflected/reflected_system.h"
 #include "solver/reflected/reflection_estimate.h"
+#include "solver/reflected/unsure_loss.h"
 
 #include <vector>
 
 namespace halfshade {
-
-/// What is not known of the light that an element loses.
-struct UnsureLoss {
-  Rgb factor = Rgb::Zero();  ///< its form factors to all others may be off by this in the mean
-  double parts = 0;          ///< into which its length had to be cut to know; 0: unknown
-  double within = 1;         ///< by how much errors over a part of it grow as they are reflected on
-};
 
 /// What light is off because it is not known exactly how much of it gets lost.
 struct BalanceEstimate {
@@ -55,7 +49,8 @@ struct ReflectedOn {
 /// much. What is missing where all that leaves gets lost, as above a lamp close below a ceiling,
 /// does not count.
 ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                         const ReflectionEstimate& estimate, const std::vector<double>& weight);
+                         const ReflectionEstimate& estimate, const std::vector<UnsureLoss>& unsure,
+                         const std::vector<double>& weight);
 
 /// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays
 /// that all arrive, up to three in N may get lost (the rule of three, at 95 %).

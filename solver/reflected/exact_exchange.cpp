@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "solver/reflected/forest_field.h"
+#include "solver/reflected/near_slits.h"
 #include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 
 namespace halfshade {
 namespace {
+
+/// Where surfaces reflect more than this, what gets lost is looked for.
+constexpr double bright = 0.9;
 
 void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& elements) {
   if (mesh.forest.is_leaf(triangle)) {
@@ -46,6 +50,7 @@ bool ExactExchange::update(const ReflectedMesh& mesh, const Progress& progress) 
   if (fits(mesh)) return true;
   const RowMaker maker(sight_, mesh, accuracy_);
   rows_.assign(at(mesh.count()), {});
+  seen_.assign(at(mesh.count()), {});
   shadows_.assign(at(mesh.count()), {});
   return parallel_for(
       at(mesh.count()), [&](std::size_t e) { make_rows(maker, mesh, static_cast<int>(e)); },
@@ -58,7 +63,15 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
   const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
   for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
     rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
-  shadows_[at(element)] = backs_.shadow(mesh, element);
+  Eigen::VectorXd seen(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) seen[static_cast<Eigen::Index>(k)] = rows[k].sum;
+  BackShadow& shadow = shadows_[at(element)];
+  shadow = backs_.shadow(mesh, element);
+  const bool is_closed = scene_.cells.closed[at(scene_.cells.before(root))];
+  if (shadow.share == 0 && !is_closed && light_.mean_rho(mesh, element).maxCoeff() > bright)
+    shadow = slit_shadow({sight_, mesh, element, scene_.roots.normal[at(root)], targets}, seen);
+  seen_[at(element)] = element_nodes_of(mesh.order[at(t)]).fit * seen;
+  seen_[at(element)][0] += shadow.share;
 }
 
 ElementField ExactExchange::source(const ReflectedMesh& mesh) const {

@@ -29,6 +29,7 @@ class ExactExchange : public IrradianceOperator {
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
   bool stopped() const override { return stop_.stop_requested(); }
   double unsure(int element) const override;
+  Eigen::VectorXd seen(int element) const override { return seen_[at(element)]; }
   const BackShadow* shadow(int element) const override { return &shadows_[at(element)]; }
 
   /// The most that moments of a row missed its form factors by, before they were put right; in
@@ -50,7 +51,8 @@ class ExactExchange : public IrradianceOperator {
   NearBacks backs_;
   std::stop_token stop_;                          ///< of the last update
   std::vector<std::vector<IrradianceRow>> rows_;  ///< of each element's nodes
-  std::vector<BackShadow> shadows_;               ///< of each element
+  std::vector<Eigen::VectorXd> seen_;             ///< of each element, as the next
+  std::vector<BackShadow> shadows_;
 };
 
 /// A row for a point of a part of a root; in a closed cell it is scaled to sum to one, and `off`

@@ -33,6 +33,10 @@ class IrradianceOperator {
   /// square; 0 where that shows as noise.
   virtual double unsure(int /*element*/) const { return 0; }
 
+  /// Coefficients of the share of the hemisphere of an element's places that holds surfaces; what
+  /// nodes miss of it is in the mean. Empty where that is not known.
+  virtual Eigen::VectorXd seen(int /*element*/) const { return {}; }
+
   /// How much darker backs close before an element make it than its nodes see, where that is put
   /// right; null where it is not.
   virtual const BackShadow* shadow(int /*element*/) const { return nullptr; }

@@ -18,6 +18,8 @@ constexpr double least_height = 1e-9;  // of an element's size
 constexpr double share_of_distance = 0.93, least_part = 1e-7;
 /// Where nodes see less than this of what is not hidden, they do not tell how bright that is.
 constexpr double hardly_seen = 1e-3;
+/// What arrives past backs is not quite even: so much of what nodes miss is not known.
+constexpr double unsure_past_backs = 0.2;
 
 /// ∫ ω and ∫ ω (ω − π) over an element, in the mean.
 class ShadowIntegrals {
@@ -140,8 +142,9 @@ BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
   shadow.share = missed / std::max(integrals.all, hardly_seen);
   // What arrives past the backs if nothing were hidden: least squares over the nodes.
   const double seen = weights * past.cwiseAbs2();
-  if (seen > hardly_seen * hardly_seen)
-    shadow.of_nodes = (missed / seen) * weights.cwiseProduct(past.transpose());
+  if (!(seen > hardly_seen * hardly_seen)) return shadow;
+  shadow.of_nodes = (missed / seen) * weights.cwiseProduct(past.transpose());
+  shadow.unsure = unsure_past_backs;
   return shadow;
 }
 

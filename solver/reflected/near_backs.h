@@ -8,13 +8,14 @@
 
 namespace halfshade {
 
-/// What an element's nodes miss of how backs close before it darken it.
+/// What an element's nodes miss of how backs close before it, or slits along its edges, darken it.
 struct BackShadow {
   /// Adds what is missing to the mean, such that what of it gets out is right: a share of what
   /// arrives at each node. Empty if no back is near.
   Eigen::RowVectorXd of_nodes;
   double share = 0;   ///< the same as a share of what arrives in the mean, with its sign
-  double height = 0;  ///< of the element above the back
+  double unsure = 1;  ///< which part of that is not known
+  double height = 0;  ///< of the element above the back, or how far a slit reaches into it
 };
 
 /// Backs that swallow light close before elements. Light changes within some gaps' width of their

@@ -35,10 +35,6 @@ Rgb share_lost(const Rgb& rho, double gap) {
   return (4 * s / (1 + 3 * s)).min(1);
 }
 
-/// Of what nodes miss of backs so much is not known where it is put right: what arrives past them
-/// is not quite even.
-constexpr double unsure_shadow = 0.2;
-
 class GapSearch {
  public:
   GapSearch(const ReflectedSystem& system, const ReflectingScene& scene)
@@ -126,8 +122,7 @@ class GapSearch {
     const BackShadow* known = system_.exchange.shadow(element);
     const BackShadow shadow = known ? *known : backs_.shadow(system_.mesh, element);
     if (shadow.share == 0) return;
-    loss.factor +=
-        (shadow.of_nodes.size() > 0 && known ? unsure_shadow : 1) * std::abs(shadow.share);
+    loss.factor += (known ? shadow.unsure : 1) * std::abs(shadow.share);
     loss.parts =
         std::max(loss.parts, size / (seen_gaps * std::max(shadow.height, least_gap * size)));
   }

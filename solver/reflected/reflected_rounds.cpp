@@ -4,6 +4,7 @@
 #include "solver/reflected/allowed_error.h"
 #include "solver/reflected/exact_estimate.h"
 #include "solver/reflected/exact_exchange.h"
+#include "solver/reflected/loss_balance.h"
 #include "solver/reflected/near_factors.h"
 #include "solver/reflected/quiet_field.h"
 #include "solver/reflected/ray_passes.h"
@@ -27,15 +28,11 @@ constexpr double comes_back = 1.2, much_comes_back = 4;
 
 /// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
 constexpr double most_for_gaps = 2000;
-
 constexpr int points_of_projection = 20000;
-
 /// So many take hundreds of megabytes in each round that the next does not need.
 constexpr int many_to_free = 100000;
-
 /// Light of which not more than this share of the goal may get lost unseen is not looked into.
 constexpr double negligible = 0.01;
-
 /// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
 constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
 /// What is left of the residual may do this share of the tolerance.
@@ -163,6 +160,8 @@ class Rounds {
     ReflectedReport& report = state_.report;
     ReflectedSolution solution =
         all_bounces() ? solved(system) : sum_bounces(system, options_.bounces);
+    if (parts_ && all_bounces())
+      balance_loss(system, direct_.leaving(mesh, light), found.unsure, solution.irradiance.rest);
     report.systems = systems.count();
     report.closed_systems =
         static_cast<int>(std::count(systems.closed.begin(), systems.closed.end(), true));
@@ -297,9 +296,10 @@ class Rounds {
     const BalanceEstimate unbalanced =
         estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
                          found.weight, report.amplification, negligible * goal);
-    const ReflectedOn reflected = report.amplification >= much_comes_back
-                                      ? reflected_on(system, irradiance, estimate, found.weight)
-                                      : ReflectedOn{};
+    const ReflectedOn reflected =
+        report.amplification >= much_comes_back
+            ? reflected_on(system, irradiance, estimate, found.unsure, found.weight)
+            : ReflectedOn{};
     if (progress_.stopped()) return Next::end;
     const double on = reflected.at_most();
     report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),

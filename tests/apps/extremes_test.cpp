@@ -193,6 +193,28 @@ void furnaces(std::vector<Extreme>& all) {
   }
 }
 
+/// A unit box whose lid, the lamp, is lifted a little. To first order in the gap, ½ of what arrives
+/// everywhere gets out for each unit of its length and width from below, and π / 8 from the lid.
+void lifted_lids(std::vector<Extreme>& all) {
+  for (const double gap : {1e-3, 1e-4, 1e-5}) {
+    const double absorbed = gap / 10, z = 1 + gap;
+    SceneText scene = SceneText()
+                          .reflectance("wall", 1 - absorbed, 0)
+                          .reflectance("lamp", 1 - absorbed, 1)
+                          .polygon("lamp", "lid", {{0, 0, z}, {0, 1, z}, {1, 1, z}, {1, 0, z}})
+                          .polygon("wall", "walls", {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
+    const std::vector<Vec2> corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec2 &a = corners[k], &b = corners[(k + 1) % 4];
+      scene.polygon("wall", "walls",
+                    {{a.x(), a.y(), 0}, {a.x(), a.y(), 1}, {b.x(), b.y(), 1}, {b.x(), b.y(), 0}});
+    }
+    all.push_back(solve_group(fmt::format("lid_lifted_by_{:g}", gap), scene, "walls",
+                              (1 - absorbed) / (6 * absorbed + 4 * gap * (0.5 + M_PI / 8)), 0.01,
+                              {"--tolerance", "0.02"}));
+  }
+}
+
 void rooms(std::vector<Extreme>& all) {
   const SceneText scene = SceneText()
                               .room("dim", "dim_room", {0, 0, 0}, 1)
@@ -219,7 +241,7 @@ void doubled(std::vector<Extreme>& all) {
 std::vector<Extreme> extremes() {
   std::vector<Extreme> all;
   for (const auto& family : {gaps, lamps_above_floors, far_triangles, suns, light_extremes, units,
-                             furnaces, rooms, doubled})
+                             furnaces, lifted_lids, rooms, doubled})
     family(all);
   return all;
 }

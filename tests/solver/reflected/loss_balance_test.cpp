@@ -1,0 +1,61 @@
+#include "meshing/repair/repair.h"
+#include "solver/reflected/reflected_light.h"
+#include "tests/support/element_points.h"
+#include "tests/support/random.h"
+#include "tests/support/scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+// A unit box whose lid, the lamp, is lifted by a gap. What gets out there is all that limits how
+// much light is in it, and half of it comes from within a few gaps' width of the lid's edges. Right
+// are 30,000 to 1,000,000 random walks of a separate program.
+
+namespace halfshade {
+namespace {
+
+SoundScene box_with_a_lifted_lid(double gap, double rho) {
+  Scene scene;
+  const int white = test::add_material(scene, rho, 0), lamp = test::add_material(scene, rho, 1);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, white);
+  test::add_polygon(scene, {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, white);
+  test::add_polygon(scene, {{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}, white);
+  test::add_polygon(scene, {{1, 1, 0}, {1, 1, 1}, {0, 1, 1}, {0, 1, 0}}, white);
+  test::add_polygon(scene, {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0, 0}}, white);
+  const double z = 1 + gap;
+  test::add_polygon(scene, {{0, 0, z}, {0, 1, z}, {1, 1, z}, {1, 0, z}}, lamp);
+  return make_sound(scene);
+}
+
+TEST(LossBalance, SlitsLetOutWhatWalksSay) {
+  struct Case {
+    double gap, rho, irradiance, deviation;
+  };
+  for (const auto& [gap, rho, irradiance, deviation] : {Case{0.03, 0.99, 5.919, 0.005},
+                                                        {0.01, 0.999, 24.08, 0.04},
+                                                        {1e-3, 0.9999, 241, 1},
+                                                        {1e-3, 1, 281.6, 1.1}}) {
+    for (const double tolerance : {0.2, 0.05, 0.02}) {
+      ReflectedOptions options;
+      options.tolerance = tolerance;
+      options.visibility = ReflectedVisibility::exact;
+      options.through_operator = true;
+      const ReflectedLight light = reflected_light(box_with_a_lifted_lid(gap, rho), {}, options);
+      test::Random random(5);
+      double mean = 0, count = 0;
+      for (const auto& [surface, point] : test::spread_points(light.elements(), 20000, random)) {
+        mean += light.irradiance(surface, point.position)[0];
+        ++count;
+      }
+      mean /= count;
+      EXPECT_LE(light.report().error, tolerance) << gap << ", " << rho;
+      EXPECT_NEAR(mean, irradiance, 2 * deviation + 0.01 * irradiance)
+          << gap << ", " << rho << ", " << tolerance;
+      EXPECT_LE(std::abs(mean - irradiance), 2 * deviation + light.report().error * irradiance);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

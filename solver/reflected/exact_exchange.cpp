@@ -63,12 +63,13 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
   const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
   for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
     rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
-  Eigen::VectorXd seen(static_cast<Eigen::Index>(rows.size()));
-  for (std::size_t k = 0; k < rows.size(); ++k) seen[static_cast<Eigen::Index>(k)] = rows[k].sum;
   BackShadow& shadow = shadows_[at(element)];
   shadow = backs_.shadow(mesh, element);
+  if (shadow.share != 0) return;
+  Eigen::VectorXd seen(static_cast<Eigen::Index>(rows.size()));
+  for (std::size_t k = 0; k < rows.size(); ++k) seen[static_cast<Eigen::Index>(k)] = rows[k].sum;
   const bool is_closed = scene_.cells.closed[at(scene_.cells.before(root))];
-  if (shadow.share == 0 && !is_closed && light_.mean_rho(mesh, element).maxCoeff() > bright)
+  if (!is_closed && light_.mean_rho(mesh, element).maxCoeff() > bright)
     shadow = slit_shadow({sight_, mesh, element, scene_.roots.normal[at(root)], targets}, seen);
   seen_[at(element)] = element_nodes_of(mesh.order[at(t)]).fit * seen;
   seen_[at(element)][0] += shadow.share;

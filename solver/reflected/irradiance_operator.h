@@ -34,7 +34,7 @@ class IrradianceOperator {
   virtual double unsure(int /*element*/) const { return 0; }
 
   /// Coefficients of the share of the hemisphere of an element's places that holds surfaces; what
-  /// nodes miss of it is in the mean. Empty where that is not known.
+  /// nodes miss of it is in the mean. Empty where that is not known, as before backs close to it.
   virtual Eigen::VectorXd seen(int /*element*/) const { return {}; }
 
   /// How much darker backs close before an element make it than its nodes see, where that is put

@@ -16,7 +16,7 @@ std::vector<bool> known_systems(const ReflectedSystem& system,
   for (std::size_t s = 0; s < known.size(); ++s) known[s] = !systems.closed[s];
   for (int e = 0; e < mesh.count(); ++e) {
     const BackShadow* shadow = exchange.shadow(e);
-    const bool is_slit = shadow && shadow->share != 0 && shadow->of_nodes.size() == 0;
+    const bool is_slit = shadow && shadow->share != 0;
     if (exchange.seen(e).size() == 0 || ((unsure[at(e)].factor > 0).any() && !is_slit))
       known[at(systems.of_element[at(e)])] = false;
   }

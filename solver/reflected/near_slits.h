@@ -25,7 +25,7 @@ struct ElementView {
 /// strips that halve towards each edge; `seen_at_nodes` is ω at the element's nodes. Empty if there
 /// are none, or if a surface faces the element closer than half of what it is long, where light is
 /// not even (unsure_by_gaps tells of that). Exact to first order in gap / size for straight slits.
-/// Cost: 9 looks at all targets, and for each slit some 24 for each halving.
+/// Cost: at most 27 looks at all targets, and for each slit some 24 for each halving.
 BackShadow slit_shadow(const ElementView& view, const Eigen::VectorXd& seen_at_nodes);
 
 }  // namespace halfshade

@@ -128,14 +128,16 @@ class Cycle {
     });
     const auto put = [&](int i, const ChannelArray& values) {
       for_each([&](int s, int c, Projected& p) {
-        if (!p.is_done()) columns[at(3 * s + c)][i] = values(s, c);
+        if (!p.is_done()) columns[at(3 * s + c)][i] += values(s, c);
       });
     };
-    for (int i = 0; i <= k; ++i) {
-      const ChannelArray along = dots(groups_, basis_[at(i)], image);
-      add_scaled(groups_, -along, basis_[at(i)], image);
-      put(i, along);
-    }
+    // What is left once may be nearly all rounding, which lies along the others again.
+    for (int pass = 0; pass < 2; ++pass)
+      for (int i = 0; i <= k; ++i) {
+        const ChannelArray along = dots(groups_, basis_[at(i)], image);
+        add_scaled(groups_, -along, basis_[at(i)], image);
+        put(i, along);
+      }
     const ChannelArray length = dots(groups_, image, image).sqrt(), least = exhausted * whole;
     put(k + 1, (length > least).select(length, 0.));
     for_each([&](int s, int c, Projected& p) {

@@ -196,7 +196,7 @@ void furnaces(std::vector<Extreme>& all) {
 /// A unit box whose lid, the lamp, is lifted a little. To first order in the gap, ½ of what arrives
 /// everywhere gets out for each unit of its length and width from below, and π / 8 from the lid.
 void lifted_lids(std::vector<Extreme>& all) {
-  for (const double gap : {1e-3, 1e-4, 1e-5}) {
+  for (const double gap : {1e-3, 1e-4, 1e-5, 3e-6}) {
     const double absorbed = gap / 10, z = 1 + gap;
     SceneText scene = SceneText()
                           .reflectance("wall", 1 - absorbed, 0)

@@ -73,6 +73,33 @@ TEST(LockstepGmres, LeavesSystemsAloneThatAreSolved) {
   EXPECT_LE(result.amplification, 1.001 / smallest);
 }
 
+TEST(LockstepGmres, KnowsTheAmplificationWhereStepsEndInRounding) {
+  // Nearly all comes back, most of it evenly, so that few directions are left after some steps.
+  constexpr int n = 80;
+  constexpr double lost = 1e-7, less_each = 0.1;
+  test::Random random(3);
+  Eigen::MatrixXd any(n, n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) any(i, j) = random(-1, 1);
+  const Eigen::MatrixXd Q = Eigen::HouseholderQR<Eigen::MatrixXd>(any).householderQ();
+  Eigen::VectorXd comes_back(n);
+  for (int k = 0; k < n; ++k) comes_back[k] = (1 - lost) * std::pow(less_each, k);
+  const Eigen::MatrixXd A =
+      Eigen::MatrixXd::Identity(n, n) - Q * comes_back.asDiagonal() * Q.transpose();
+  const auto apply = [&](const ChannelArray& x) { return ChannelArray((A * x.matrix()).array()); };
+  ChannelArray b(n, 3);
+  for (int i = 0; i < n; ++i)
+    for (int c = 0; c < 3; ++c) b(i, c) = random(0, 1);
+  RowGroups groups{std::vector<int>(n, 0), Eigen::ArrayXd::Ones(n), 1};
+  for (const double tolerance : {1e-9, 1e-10, 1e-11}) {
+    const GmresResult result = gmres(apply, b, groups, tolerance, 600);
+    // To what rounding of A is of its smallest singular value.
+    EXPECT_NEAR(result.amplification * lost, 1, 1e-8) << tolerance;
+    const Eigen::MatrixXd expected = A.lu().solve(b.matrix());
+    EXPECT_LE((result.x.matrix() - expected).norm(), 1e-8 * expected.norm()) << tolerance;
+  }
+}
+
 TEST(LockstepGmres, GivesNothingForNothing) {
   RowGroups groups{{0, 0}, Eigen::ArrayXd::Ones(2), 1};
   const GmresResult result =

@@ -93,14 +93,27 @@ void SightCaster::collect_receivers(const SightLine& line) {
   reached_.clear();
   const double start = line.direction.dot(line.start - line.last);
   const double start_slack = margins::slack_at(line.start);
+  const Crossing* end = nullptr;
   for (const Crossing& crossing : crossings_) {
+    // Of two faces back to back, rounding says which comes first.
+    if (end && !is_as_near(crossing, *end)) continue;
     if (crossing.distance < start + std::max(start_slack, crossing.slack)) continue;
     const bool is_before = crossing.distance < -crossing.slack;
     if (is_before && crossing.is_clear) return;
     if (crossing.distance <= crossing.slack) continue;
     add_receiver(opaque_.triangles[at(crossing.triangle)].surface, line.direction);
-    if (crossing.is_clear) return;
+    if (crossing.is_clear && !end) end = &crossing;
   }
+}
+
+/// Whether the line meets a triangle where it meets one before, but for rounding. In their common
+/// plane they may lie farther apart than the slack if the line runs along it.
+bool SightCaster::is_as_near(const Crossing& crossing, const Crossing& before) const {
+  const auto plane = [&](const Crossing& c) {
+    return scene_.surfaces[at(opaque_.triangles[at(c.triangle)].surface)].plane;
+  };
+  return crossing.distance <= before.distance + std::max(crossing.slack, before.slack) ||
+         plane(crossing) == plane(before);
 }
 
 /// Adds a surface if it faces the line, else those on the back of its plane that do.

@@ -15,7 +15,8 @@ class SightCaster {
   SightCaster(const SoundScene& scene, const OpaqueScene& opaque);
 
   /// The surfaces that a line may end on after its last feature, if nothing clearly blocks it
-  /// before: the first that it clearly passes through, and those that it only grazes on the way.
+  /// before: the first that it clearly passes through, those that lie in the same place, and those
+  /// that it only grazes on the way.
   /// Surfaces that turn their back to the emitter are replaced by those on their other side. Each
   /// once, in the order of the line; valid until the next call. Cost grows with the faces whose
   /// boxes the line meets.
@@ -36,6 +37,7 @@ class SightCaster {
 
   void find_crossings(const SightLine& line);
   void collect_receivers(const SightLine& line);
+  bool is_as_near(const Crossing& crossing, const Crossing& before) const;
   void add_receiver(int surface, const Vec3& direction);
 
   const SoundScene& scene_;

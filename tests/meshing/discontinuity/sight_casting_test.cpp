@@ -1,6 +1,7 @@
 #include "meshing/discontinuity/sight_casting.h"
 
 #include "tests/support/lit_scene.h"
+#include "tests/support/random.h"
 
 #include <gtest/gtest.h>
 
@@ -52,6 +53,22 @@ TEST(SightCaster, EndsOnTheSideThatFacesTheLight) {
   const LitScene both(SceneMaker().square_light().floor().polygon(
       {{-0.3, 0.3, 1}, {0.3, 0.3, 1}, {0.3, -0.3, 1}, {-0.3, -0.3, 1}}, test::two_sided_grey));
   EXPECT_EQ(heights(both, downwards(0.1, 0.05, 1.5)), std::vector<double>{1});
+}
+
+// Rounding says which of two faces back to back a line meets first.
+TEST(SightCaster, EndsOnTheFaceThatLooksTowardsTheLightOfTwoBackToBack) {
+  test::Random random(4);
+  for (int i = 0; i < 40; ++i) {
+    const PlaneFrame plane = make_frame({0, 0, 1}, random.direction() + 1.5 * Vec3::UnitZ());
+    std::vector<Vec3> corners;
+    for (const Vec2& p : {Vec2(-0.7, -0.6), Vec2(0.6, -0.7), Vec2(0.8, 0.6), Vec2(-0.6, 0.7)})
+      corners.push_back(plane.to_space(p));
+    const std::vector<Vec3> under = {corners[2], corners[1], corners[0], corners[3]};
+    const LitScene lit(SceneMaker().square_light().floor().polygon(corners).polygon(under));
+    for (int k = 0; k < 20; ++k)
+      EXPECT_EQ(heights(lit, downwards(random(-0.3, 0.3), random(-0.3, 0.3), 1.8)).size(), 1u)
+          << "pair " << i;
+  }
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ constexpr double finer = 1e-3;
 /// edges come out the same then, whatever rounding says: quadrature begins at their first corner.
 constexpr double on_line = 1e-11;
 
+/// Light changes over no less than so many times the size of the leaves that were made for it.
+constexpr double even_leaves = 5;
+
 double signed_area(const Ring& ring) {
   double twice = 0;
   for (std::size_t k = 2; k < ring.size(); ++k)
@@ -54,12 +57,26 @@ std::vector<Ring> clip(const std::vector<Ring>& rings, const std::array<Vec2, 3>
   return result;
 }
 
+/// The distance of the farthest corner from the centroid.
+double size_of(const std::array<Vec2, 3>& triangle) {
+  const Vec2 centre = (triangle[0] + triangle[1] + triangle[2]) / 3;
+  double square = 0;
+  for (const Vec2& p : triangle) square = std::max(square, (p - centre).squaredNorm());
+  return std::sqrt(square);
+}
+
 /// The walk through the triangles of one surface.
 class Walk {
  public:
   Walk(const ReflectedMesh& mesh, std::span<const std::array<Vec2, 3>> corners,
-       const RowAccuracy& accuracy, const PointAbovePlane& from, IrradianceRow& row)
-      : mesh_(mesh), corners_(corners), accuracy_(accuracy), from_(from), row_(row) {}
+       std::span<const double> least, const RowAccuracy& accuracy, const PointAbovePlane& from,
+       IrradianceRow& row)
+      : mesh_(mesh),
+        corners_(corners),
+        least_(least),
+        accuracy_(accuracy),
+        from_(from),
+        row_(row) {}
 
   /// All of a triangle is seen.
   void whole(int t) {
@@ -97,18 +114,19 @@ class Walk {
 
   /// Whether the leaves below a triangle are too small to tell apart. Where all of it is seen, what
   /// the projection on it loses meets only what of the kernel it cannot take; where it is cut, it
-  /// has to be near what leaves the leaves.
+  /// has to be near what leaves the leaves: none of them is so small that light was found to change
+  /// there.
   bool can_stand(int t, bool is_whole) const {
     const auto& [a, b, c] = corners_[at(t)];
     const Vec2 centre = (a + b + c) / 3;
-    const double size = std::sqrt(std::max(
-        {(a - centre).squaredNorm(), (b - centre).squaredNorm(), (c - centre).squaredNorm()}));
+    const double size = size_of(corners_[at(t)]);
     const double distance =
         std::sqrt((centre - from_.foot).squaredNorm() + from_.height * from_.height);
     constexpr double too_close = 0.7;
     if (size > too_close * distance) return false;
     const double factor = std::min(1., mesh_.forest.area(t) / (M_PI * distance * distance));
-    const double share = std::min(size / (is_whole ? distance : accuracy_.length), 1.);
+    const double length = std::min(accuracy_.length, even_leaves * least_[at(t)]);
+    const double share = std::min(size / (is_whole ? distance : length), 1.);
     return factor * std::pow(share, mesh_.highest_order + 1) < accuracy_.collapse;
   }
 
@@ -122,6 +140,7 @@ class Walk {
 
   const ReflectedMesh& mesh_;
   std::span<const std::array<Vec2, 3>> corners_;
+  std::span<const double> least_;
   const RowAccuracy& accuracy_;
   PointAbovePlane from_;
   IrradianceRow& row_;
@@ -149,13 +168,19 @@ RowMaker::RowMaker(const ExactSight& sight, const ReflectedMesh& mesh, const Row
     const PlaneFrame& frame = sight.scene().surfaces[at(surface[at(mesh.forest.root(t))])].frame;
     corners_.push_back({frame.to_plane(a), frame.to_plane(b), frame.to_plane(c)});
   }
+  least_.resize(at(mesh.forest.count()));
+  for (int t = mesh.forest.count() - 1; t >= 0; --t) {
+    const int half = mesh.forest.is_leaf(t) ? -1 : mesh.forest.first_half(t);
+    least_[at(t)] =
+        half < 0 ? size_of(corners_[at(t)]) : std::min(least_[at(half)], least_[at(half + 1)]);
+  }
 }
 
 double RowAccuracy::allowed() const { return std::max(parts_off * moments, rounding_off); }
 
 double RowMaker::add(const SurfacePoint& point, int surface, const SeenPart& seen,
                      const RowAccuracy& accuracy, IrradianceRow& row) const {
-  Walk walk(mesh_, corners_, accuracy,
+  Walk walk(mesh_, corners_, least_, accuracy,
             above_plane(point.position, point.normal, sight_.scene().surfaces[at(surface)].frame),
             row);
   for (const int root : sight_.roots(surface))

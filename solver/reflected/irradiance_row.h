@@ -59,6 +59,7 @@ class RowMaker {
   const ReflectedMesh& mesh_;
   RowAccuracy accuracy_;
   std::vector<std::array<Vec2, 3>> corners_;  ///< of the forest's triangles, in their planes
+  std::vector<double> least_;                 ///< size of the smallest leaf of each of them
 };
 
 }  // namespace halfshade

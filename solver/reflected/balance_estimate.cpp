@@ -47,7 +47,8 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
   }
   estimate.square *= heaviest * std::pow(surely * amplification, 2);
   if (estimate.square <= negligible) return estimate;
-  const ElementField missing = missing_light(system, lost);
+  ElementField missing = missing_light(system, lost);
+  balance_missing(system, irradiance.rest, unsure, lost, missing);
   const ElementField there = irradiance.whole(mesh, systems);
   estimate.square = 0;
   double most = 0;
@@ -149,21 +150,6 @@ ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& i
   }
   on.square -= on.variance;
   return on;
-}
-
-void add_unsure_by_rays(const ReflectedSystem& system, const std::vector<double>& rays,
-                        std::vector<UnsureLoss>& unsure) {
-  const auto& [mesh, light, exchange, systems] = system;
-  constexpr double rule_of_three = 3;
-  std::vector<double> cast(at(systems.count()), 0);
-  for (int e = 0; e < mesh.count(); ++e)
-    cast[at(systems.of_element[at(e)])] +=
-        rays[at(e)] *
-        static_cast<double>(element_nodes_of(mesh.order[at(mesh.triangle[at(e)])]).places.size());
-  for (int e = 0; e < mesh.count(); ++e) {
-    const int s = systems.of_element[at(e)];
-    if (!systems.closed[at(s)]) unsure[at(e)].factor += rule_of_three / cast[at(s)];
-  }
 }
 
 }  // namespace halfshade

@@ -52,9 +52,4 @@ ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& i
                          const ReflectionEstimate& estimate, const std::vector<UnsureLoss>& unsure,
                          const std::vector<double>& weight);
 
-/// Adds what `rays`, as many from each node of each element, cannot tell of open systems: of N rays
-/// that all arrive, up to three in N may get lost (the rule of three, at 95 %).
-void add_unsure_by_rays(const ReflectedSystem& system, const std::vector<double>& rays,
-                        std::vector<UnsureLoss>& unsure);
-
 }  // namespace halfshade

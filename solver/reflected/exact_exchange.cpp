@@ -11,9 +11,6 @@
 namespace halfshade {
 namespace {
 
-/// Where surfaces reflect more than this, what gets lost is looked for.
-constexpr double bright = 0.9;
-
 void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& elements) {
   if (mesh.forest.is_leaf(triangle)) {
     elements.push_back(mesh.element[at(triangle)]);

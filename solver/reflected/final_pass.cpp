@@ -1,6 +1,7 @@
 #include "solver/reflected/final_pass.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,6 +8,8 @@
 
 namespace halfshade {
 
+struct LightSystems;
+
 /// K, irradiance from leaving light, between the elements of a mesh. All of one call belong to the
 /// mesh of the last update.
 class IrradianceOperator {
@@ -32,6 +34,17 @@ class IrradianceOperator {
   /// Form factor from an element of which it is not known where it leads, in the root of the mean
   /// square; 0 where that shows as noise.
   virtual double unsure(int /*element*/) const { return 0; }
+
+  /// Looks for the light that open systems lose, to a share `enough` of it, as far as `update` did
+  /// not. False if stopped.
+  virtual bool find_losses(const ReflectedMesh& /*mesh*/, const LightSystems& /*systems*/,
+                           double /*enough*/, const Progress& /*progress*/) {
+    return true;
+  }
+
+  /// What is not known of that for lack of rays: form factors of an element to all others, in the
+  /// mean.
+  virtual double unsure_loss(int /*element*/) const { return 0; }
 
   /// Coefficients of the share of the hemisphere of an element's places that holds surfaces; what
   /// nodes miss of it is in the mean. Empty where that is not known, as before backs close to it.

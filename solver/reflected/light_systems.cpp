@@ -1,6 +1,7 @@
 #include "solver/reflected/light_systems.h"
 
 #include "solver/exchange/shells.h"
+#include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
 

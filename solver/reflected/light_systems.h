@@ -1,8 +1,10 @@
 #pragma once
 
 #include "solver/reflected/direct_projection.h"
+#include "solver/reflected/first_light.h"
+#include "solver/reflected/irradiance_operator.h"
 #include "solver/reflected/lockstep_gmres.h"
-#include "solver/reflected/ray_exchange.h"
+#include "solver/reflected/reflecting_scene.h"
 
 #include <cstddef>
 #include <memory>

@@ -17,7 +17,8 @@ std::vector<bool> known_systems(const ReflectedSystem& system,
   for (int e = 0; e < mesh.count(); ++e) {
     const BackShadow* shadow = exchange.shadow(e);
     const bool is_slit = shadow && shadow->share != 0;
-    if (exchange.seen(e).size() == 0 || ((unsure[at(e)].factor > 0).any() && !is_slit))
+    const bool is_in_gap = unsure[at(e)].parts > 0 && (unsure[at(e)].factor > 0).any();
+    if (exchange.seen(e).size() == 0 || (is_in_gap && !is_slit))
       known[at(systems.of_element[at(e)])] = false;
   }
   return known;
@@ -67,10 +68,18 @@ void balance_loss(const ReflectedSystem& system, const ElementField& first_leavi
   add_share(system, unsure, ElementField(irradiance), lost, arriving / lost - 1, irradiance);
 }
 
+void balance_missing(const ReflectedSystem& system, const ElementField& irradiance,
+                     const std::vector<UnsureLoss>& unsure, const ElementField& source,
+                     ElementField& missing) {
+  const ChannelArray lost = lost_integrals(system, irradiance);
+  const ChannelArray unbalanced =
+      integrals(system.mesh, system.systems, source) - lost_integrals(system, missing);
+  add_share(system, unsure, irradiance, lost, unbalanced / lost, missing);
+}
+
 void balance_change(const ReflectedSystem& system, const ElementField& irradiance,
                     const std::vector<UnsureLoss>& unsure, ElementField& change) {
-  const ChannelArray lost = lost_integrals(system, irradiance);
-  add_share(system, unsure, irradiance, lost, -lost_integrals(system, change) / lost, change);
+  balance_missing(system, irradiance, unsure, zero_field(system.mesh), change);
 }
 
 }  // namespace halfshade

@@ -16,6 +16,12 @@ namespace halfshade {
 void balance_loss(const ReflectedSystem& system, const ElementField& first_leaving,
                   const std::vector<UnsureLoss>& unsure, ElementField& irradiance);
 
+/// What is missing of that irradiance where `source` of it is not there, by the same balance.
+/// `missing` is what the rows of K make of that.
+void balance_missing(const ReflectedSystem& system, const ElementField& irradiance,
+                     const std::vector<UnsureLoss>& unsure, const ElementField& source,
+                     ElementField& missing);
+
 /// What of a change of that irradiance is left when it is scaled so again.
 void balance_change(const ReflectedSystem& system, const ElementField& irradiance,
                     const std::vector<UnsureLoss>& unsure, ElementField& change);

@@ -8,6 +8,9 @@
 
 namespace halfshade {
 
+/// Where surfaces reflect more than this, what gets lost is looked for.
+inline constexpr double bright = 0.9;
+
 /// What an element's nodes miss of how backs close before it, or slits along its edges, darken it.
 struct BackShadow {
   /// Adds what is missing to the mean, such that what of it gets out is right: a share of what

@@ -64,6 +64,7 @@ class GapSearch {
       loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(height, least_gap * size)));
     }
     add_shadow(element, size, loss);
+    loss.factor += exchange.unsure_loss(element);
     return loss;
   }
 
@@ -135,8 +136,8 @@ class GapSearch {
 
 }  // namespace
 
-std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene,
-                                       const Progress& progress) {
+std::vector<UnsureLoss> unsure_losses(const ReflectedSystem& system, const ReflectingScene& scene,
+                                      const Progress& progress) {
   const GapSearch search(system, scene);
   std::vector<UnsureLoss> unsure(at(system.mesh.count()));
   parallel_for(

@@ -13,9 +13,9 @@ namespace halfshade {
 /// are long: it gets out within a few times the gap's width of the border, where nodes hardly ever
 /// lie, and what these see is taken for the mean. The mean form factor to the surface opposite is
 /// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen. Of
-/// backs that swallow light close before elements, what the exchange does not put right
-/// (NearBacks). If stopped, the rest is zero.
-std::vector<UnsureLoss> unsure_by_gaps(const ReflectedSystem& system, const ReflectingScene& scene,
-                                       const Progress& progress);
+/// backs that swallow light close before elements (NearBacks), and of slits, what the exchange does
+/// not put right. And what its rays are too few for. If stopped, the rest is zero.
+std::vector<UnsureLoss> unsure_losses(const ReflectedSystem& system, const ReflectingScene& scene,
+                                      const Progress& progress);
 
 }  // namespace halfshade

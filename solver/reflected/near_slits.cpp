@@ -21,7 +21,7 @@ constexpr std::array<double, 3> along_edge = {0.15, 0.5, 0.85};
 constexpr double even_strip = 1e-3;
 constexpr int most_strips = 30;
 constexpr int strip_degree = 6;
-/// What is not known of what nodes miss: this, and half of what the slit's width is of the element.
+/// See unsure_part_of_slit.
 constexpr double least_unsure = 0.01, unsure_of_width = 0.5;
 
 const TrianglePlace centroid(1. / 3, 1. / 3);
@@ -142,9 +142,12 @@ BackShadow slit_shadow(const ElementView& view, const Eigen::VectorXd& seen_at_n
   if (integrals.missed == 0) return shadow;
   shadow.share = integrals.missed;
   shadow.height = integrals.height;
-  shadow.unsure = std::min(
-      1., least_unsure + unsure_of_width * shadow.height / std::sqrt(view.mesh.area(view.element)));
+  shadow.unsure = unsure_part_of_slit(shadow.height / std::sqrt(view.mesh.area(view.element)));
   return shadow;
+}
+
+double unsure_part_of_slit(double width) {
+  return std::min(1., least_unsure + unsure_of_width * width);
 }
 
 }  // namespace halfshade

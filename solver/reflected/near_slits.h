@@ -24,8 +24,12 @@ struct ElementView {
 /// back that swallows light. ω, the share of a place's hemisphere that is seen, is integrated in
 /// strips that halve towards each edge; `seen_at_nodes` is ω at the element's nodes. Empty if there
 /// are none, or if a surface faces the element closer than half of what it is long, where light is
-/// not even (unsure_by_gaps tells of that). Exact to first order in gap / size for straight slits.
+/// not even (unsure_losses tells of that). Exact to first order in gap / size for straight slits.
 /// Cost: at most 27 looks at all targets, and for each slit some 24 for each halving.
 BackShadow slit_shadow(const ElementView& view, const Eigen::VectorXd& seen_at_nodes);
+
+/// What is not known of what is missed along a slit that is as wide as a share of the element's
+/// size.
+double unsure_part_of_slit(double width);
 
 }  // namespace halfshade

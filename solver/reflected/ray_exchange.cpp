@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -99,6 +100,34 @@ bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
       settle(mesh.forest, of_triangle_[at(mesh.triangle[e])]->halves.traced);
     });
   return complete;
+}
+
+bool RayExchange::find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,
+                              const Progress& progress) {
+  std::vector<Eigen::VectorXd> told;
+  std::vector<double> cast;
+  for (const int t : mesh.triangle) {
+    const TracedHemispheres& traced = of_triangle_[at(t)]->halves.traced;
+    const std::size_t nodes = traced.of_each.size() / 2;
+    Eigen::VectorXd seen(static_cast<Eigen::Index>(nodes));
+    cast.push_back(0);
+    for (std::size_t n = 0; n < nodes; ++n) {
+      const double rays = traced.of_each[2 * n].rays + traced.of_each[2 * n + 1].rays;
+      const std::size_t ends = traced.ends_of(2 * n).size() + traced.ends_of(2 * n + 1).size();
+      seen[static_cast<Eigen::Index>(n)] = rays > 0 ? static_cast<double>(ends) / rays : 0;
+      cast.back() += rays;
+    }
+    told.push_back(element_nodes_of(mesh.order[at(t)]).fit * seen);
+  }
+  losses_ = halfshade::find_losses(scene_, light_, mesh, systems, std::move(told), cast, enough,
+                                   progress);
+  traced_ += losses_.rays;
+  return !progress.stopped();
+}
+
+const BackShadow* RayExchange::shadow(int element) const {
+  const std::optional<BackShadow>& shadow = losses_.shadow[at(element)];
+  return shadow ? &*shadow : nullptr;
 }
 
 ElementField RayExchange::source(const ReflectedMesh& mesh) const {

@@ -4,6 +4,7 @@
 #include "solver/reflected/field_noise.h"
 #include "solver/reflected/gathering.h"
 #include "solver/reflected/irradiance_operator.h"
+#include "solver/reflected/ray_losses.h"
 #include "solver/reflected/reflected_mesh.h"
 
 #include <array>
@@ -36,6 +37,11 @@ class RayExchange : public IrradianceOperator {
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
   bool stopped() const override { return stop_.stop_requested(); }
+  bool find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,
+                   const Progress& progress) override;
+  double unsure_loss(int element) const override { return losses_.unsure[at(element)]; }
+  Eigen::VectorXd seen(int element) const override { return losses_.seen[at(element)]; }
+  const BackShadow* shadow(int element) const override;
 
   /// What K (S + leaving) is off because the rays are few.
   FieldNoise noise(const ReflectedMesh& mesh, const ElementField& leaving) const;
@@ -58,6 +64,7 @@ class RayExchange : public IrradianceOperator {
   std::size_t traced_ = 0;
   std::stop_token stop_;                                ///< of the last update
   std::vector<std::unique_ptr<NodeRays>> of_triangle_;  ///< of the forest; none where split
+  RayLosses losses_;
 };
 
 /// The origin of rays at a place of an element.

@@ -35,8 +35,8 @@ constexpr int many_to_free = 100000;
 constexpr double negligible = 0.01;
 /// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
 constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
-/// What is left of the residual may do this share of the tolerance.
-constexpr double most_of_solver = 0.03;
+/// Of the tolerance: what open systems lose may be off, relatively; what the residual may do.
+constexpr double loss_share = 0.15, most_of_solver = 0.03;
 
 // Of the goal, noise may have this share; after a pass elements, noise and twice the estimate's
 // deviation are to have a little less than all.
@@ -115,8 +115,8 @@ class Rounds {
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
-    found.unsure = unsure_by_gaps(system, state_.reflecting, progress_);
-    if (kept_rays_) add_unsure_by_rays(system, kept_rays_->rays_of_nodes(mesh_), found.unsure);
+    if (!kept.find_losses(mesh_, systems, loss_share * options_.tolerance, progress_)) return false;
+    found.unsure = unsure_losses(system, state_.reflecting, progress_);
     solve(system, found);
     if (is_amplified()) return false;
     ++report.rounds;
@@ -160,7 +160,7 @@ class Rounds {
     ReflectedReport& report = state_.report;
     ReflectedSolution solution =
         all_bounces() ? solved(system) : sum_bounces(system, options_.bounces);
-    if (parts_ && all_bounces())
+    if (all_bounces())
       balance_loss(system, direct_.leaving(mesh, light), found.unsure, solution.irradiance.rest);
     report.systems = systems.count();
     report.closed_systems =

@@ -89,6 +89,20 @@ inline Scene lit_cube(const std::array<double, 6>& rho) {
   return room({1, 1, 1}, faces);
 }
 
+/// A unit box whose lid, a lamp that reflects as all the rest, is lifted by a gap.
+inline Scene box_with_a_lifted_lid(double gap, double rho) {
+  Scene scene;
+  const int white = add_material(scene, rho, 0), lamp = add_material(scene, rho, 1);
+  add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, white);
+  add_polygon(scene, {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}, white);
+  add_polygon(scene, {{1, 0, 0}, {1, 0, 1}, {1, 1, 1}, {1, 1, 0}}, white);
+  add_polygon(scene, {{1, 1, 0}, {1, 1, 1}, {0, 1, 1}, {0, 1, 0}}, white);
+  add_polygon(scene, {{0, 1, 0}, {0, 1, 1}, {0, 0, 1}, {0, 0, 0}}, white);
+  const double z = 1 + gap;
+  add_polygon(scene, {{0, 0, z}, {0, 1, z}, {1, 1, z}, {1, 0, z}}, lamp);
+  return scene;
+}
+
 /// A floor of 2 × 2 at z = 0, below it nothing; a light of 1 × 1 at z = 2; a table at z = 1.
 inline Scene table_scene() {
   Scene scene;

@@ -14,12 +14,8 @@ namespace {
 constexpr double most_looks = 2e7;
 /// Of places in all: beyond them, those of middles only.
 constexpr std::size_t many_places = 4000;
-/// Of an outline.
-constexpr std::size_t most_corners = 8;
-/// So far from the middle towards corners: of sources, nearly all the way, for what arrives close
-/// to a wall comes from one side; of blockers, to share out their shadow. And so far on towards the
-/// next corner: lines of sight through symmetric places would end on edges of elements.
-constexpr double towards_corner = 0.893, half_way = 0.513, aside = 0.0371;
+/// So far from the middle of blockers towards their corners: to share out their shadow.
+constexpr double half_way = 0.513;
 /// The mean square of what a penumbra takes away, over the square of it in the middle: 4/3 of
 /// ramps, and places are few. And only half of a source is seen over the edge of a wall that stands
 /// below.
@@ -32,21 +28,6 @@ struct Landing {
   int surface = -1;
   double distance = 0;  ///< from the light, in units of that to the blocker
 };
-
-/// The middle of a surface, and so far from it towards its corners.
-std::vector<Vec3> middle_and_around(const Surface& surface, double towards) {
-  const Vec3 centre = middle(surface);
-  std::vector<Vec3> points = {centre};
-  const Ring& ring = surface.rings.front();
-  const std::size_t count = std::min(ring.size(), most_corners);
-  for (std::size_t k = 0; k < count; ++k) {
-    const std::size_t of_ring = k * ring.size() / count;
-    const Vec3 corner = surface.frame.to_space(ring[of_ring]),
-               next = surface.frame.to_space(ring[(of_ring + 1) % ring.size()]);
-    points.push_back(centre + towards * (corner - centre) + aside * (next - corner));
-  }
-  return points;
-}
 
 Landing land(const SoundScene& scene, int blocker, const Vec3& from, const Vec3& through) {
   Landing landing;

@@ -13,13 +13,15 @@
 namespace halfshade {
 namespace {
 
-/// What is wider than this share of a receiver is sampled densely enough.
+/// What is wider than this share of a receiver, with its penumbra, is sampled densely enough.
 constexpr double narrow = 0.15;
 /// Lines closer than this share of a receiver are the same edge of two faces.
 constexpr double same_line = 1e-9;
 /// Edges projected in all, and places.
 constexpr double most_edges = 1e7;
-constexpr std::size_t most_places = 4000;
+constexpr std::size_t most_narrow_places = 4000;
+/// Areas that are equal but for rounding differ by less.
+constexpr double same_area = 1e-9;
 /// Where along a line, unlike anything that elements are divided by.
 constexpr std::array<double, 3> along_line = {0.173, 0.471, 0.829};
 /// Edges end so far from the heights of the source and of the receiver, as a share of the
@@ -70,10 +72,13 @@ class Receiver {
       low_ = low_.cwiseMin(p);
       high_ = high_.cwiseMax(p);
     }
+    // Lines on the border itself border on nothing.
+    low_.array() += same_line * size_;
+    high_.array() -= same_line * size_;
   }
 
-  double size() const { return size_; }
   double height(const Vec3& p) const { return surface_.frame.height(p); }
+  bool is_below(const Vec3& p) const { return height(p) > least_height * size_; }
 
   /// What of an edge's shadow from a point `from` of a lamp of some size falls into the rectangle
   /// round the receiver; the edge is looked at only where the lamp shines.
@@ -116,7 +121,7 @@ class Receiver {
           const Vec2 p = edge.ends[0] + t * along;
           const double width = next(edges, tree, p, side * across);
           const Vec2 place = p + 0.5 * width * side * across;
-          if (!(width < narrow * size_) || !is_inside(surface_.rings, place)) continue;
+          if (!(width + edge.blur < narrow * size_) || !is_inside(surface_.rings, place)) continue;
           const double part = std::max(length / along_line.size(), std::min(length, width));
           places.push_back({{{surface_.frame.to_space(place), surface_.frame.normal}, id},
                             share * (width + edge.blur) * (part + std::min(edge.blur, part))});
@@ -157,11 +162,12 @@ std::vector<int> by_area(const SoundScene& scene) {
 
 /// The largest, in the order they were found.
 void keep_largest(std::vector<WatchedPlace>& places) {
-  if (places.size() <= most_places) return;
+  if (places.size() <= most_narrow_places) return;
   std::vector<double> areas;
   for (const WatchedPlace& place : places) areas.push_back(place.area);
-  std::nth_element(areas.begin(), areas.begin() + most_places, areas.end(), std::greater<>());
-  const double least = areas[most_places];
+  std::nth_element(areas.begin(), areas.begin() + most_narrow_places, areas.end(),
+                   std::greater<>());
+  const double least = (1 + same_area) * areas[most_narrow_places];
   std::erase_if(places, [&](const WatchedPlace& place) { return place.area <= least; });
 }
 
@@ -187,7 +193,7 @@ std::vector<WatchedPlace> narrow_places(const SoundScene& scene, std::span<const
     for (std::size_t r = 0; r < receivers.size() && static_cast<double>(r) < most; ++r) {
       const Receiver receiver(scene.surfaces[at(receivers[r])]);
       for (const Vec3& from : ends) {
-        if (!(receiver.height(from) > 0)) continue;
+        if (!receiver.is_below(from)) continue;
         std::vector<ThrownEdge> thrown;
         for (const Edge& edge : edges)
           if (auto line = receiver.thrown(edge, from, lamp, size_of(lamp))) thrown.push_back(*line);

@@ -18,6 +18,13 @@ double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b) {
   return s < 0.5 ? (p - a - s * along).norm() : (p - b + (1 - s) * along).norm();
 }
 
+std::optional<double> line_meets_segment(const Vec2& p, const Vec2& direction, const Vec2& a,
+                                         const Vec2& b) {
+  const double at_a = cross_2d(direction, a - p), at_b = cross_2d(direction, b - p);
+  if ((at_a > 0) == (at_b > 0)) return std::nullopt;
+  return direction.dot(a + at_a / (at_a - at_b) * (b - a) - p);
+}
+
 double distance_to_rings(std::span<const std::vector<Vec2>> rings, const Vec2& p) {
   double least = HUGE_VAL;
   for (const std::vector<Vec2>& ring : rings)

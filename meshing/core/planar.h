@@ -2,6 +2,7 @@
 
 #include "meshing/core/types.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,11 @@ double nearest_on_segment(const Vec2& p, const Vec2& a, const Vec2& b);
 
 /// Distance of a point from the segment ab, which may have no length.
 double distance_to_segment(const Vec2& p, const Vec2& a, const Vec2& b);
+
+/// How far from p, in a direction of unit length, the line meets the segment ab: negative behind p,
+/// nothing if it passes by or runs along it.
+std::optional<double> line_meets_segment(const Vec2& p, const Vec2& direction, const Vec2& a,
+                                         const Vec2& b);
 
 /// Distance of a point from the nearest edge of closed rings.
 double distance_to_rings(std::span<const std::vector<Vec2>> rings, const Vec2& p);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <optional>
 
@@ -34,8 +35,9 @@ struct ThrownEdge {
   double blur;  ///< width of the penumbra of all of the source there
 };
 
-/// The edges of blockers in space.
 using Edge = std::array<Vec3, 2>;
+
+/// The edges of blockers in space.
 std::vector<Edge> edges_of(const SoundScene& scene, std::span<const int> blocking) {
   std::vector<Edge> edges;
   for (const int b : blocking)
@@ -136,11 +138,8 @@ class Receiver {
     double nearest = narrow * size_;
     visit_overlaps(tree, flat_bounds(p, p + nearest * direction), [&](int i) {
       const auto& [a, b] = edges[at(i)].ends;
-      const double at_a = cross_2d(direction, a - p), at_b = cross_2d(direction, b - p);
-      if ((at_a > 0) == (at_b > 0)) return;
-      const Vec2 met = a + at_a / (at_a - at_b) * (b - a);
-      if (const double distance = direction.dot(met - p); distance > same_line * size_)
-        nearest = std::min(nearest, distance);
+      const auto distance = line_meets_segment(p, direction, a, b);
+      if (distance && *distance > same_line * size_) nearest = std::min(nearest, *distance);
     });
     return nearest;
   }

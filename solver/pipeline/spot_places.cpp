@@ -21,10 +21,11 @@ struct PlaceRing {
   double radius, inner, outer;
   int count;
 };
-/// So far from the border are places of what is not narrow, at most.
-constexpr double inner_share = 0.3;
 constexpr std::array<PlaceRing, 4> place_rings = {
     {{0, 0, 0.3, 1}, {0.6, 0.3, 0.95, 6}, {1.3, 0.95, 1.9, 6}, {2.5, 1.9, 3.1, 6}}};
+/// In sizes of the spot: places beside a border are half so far from it, or in the middle of what
+/// is narrower.
+constexpr double beside_border = 0.3;
 
 /// A place of a surface, and how wide the surface is there, from border to border, if a border is
 /// what it is next to.
@@ -39,17 +40,14 @@ double next_border(const Surface& surface, const Vec2& p, const Vec2& direction)
   double nearest = HUGE_VAL;
   for (const Ring& ring : surface.rings)
     for (std::size_t k = 0; k < ring.size(); ++k) {
-      const Vec2 &a = ring[k], &b = ring[(k + 1) % ring.size()];
-      const double at_a = cross_2d(direction, a - p), at_b = cross_2d(direction, b - p);
-      if ((at_a > 0) == (at_b > 0)) continue;
-      const double distance = direction.dot(a + at_a / (at_a - at_b) * (b - a) - p);
-      if (distance > same * size_of(surface)) nearest = std::min(nearest, distance);
+      const auto distance = line_meets_segment(p, direction, ring[k], ring[(k + 1) % ring.size()]);
+      if (distance && *distance > same * size_of(surface)) nearest = std::min(nearest, *distance);
     }
   return nearest;
 }
 
-/// The place next to a point of a surface's plane that is inside, no more than `most` from the
-/// border if the point is not.
+/// The place next to a point of a surface's plane that is inside; if the point is not, half of the
+/// width beside the border, or of `most`.
 InnerPlace nearest_inside(const Surface& surface, const Vec2& p, double most) {
   if (is_inside(surface.rings, p)) return {p};
   Vec2 nearest = surface.rings.front().front(), inwards = Vec2::Zero();
@@ -83,7 +81,7 @@ void add_places(const Surface& lamp, const Surface& surface, int id,
       const double angle = 2 * std::numbers::pi * (k + radius) / count;
       const Vec2 wanted = nearest + radius * spot * Vec2(std::cos(angle), std::sin(angle));
       // Of something narrow, what lies beside it.
-      const auto [p, width] = nearest_inside(surface, wanted, inner_share * spot);
+      const auto [p, width] = nearest_inside(surface, wanted, beside_border * spot);
       const double off = (p - nearest).norm() / spot;
       const Vec3 position = surface.frame.to_space(p);
       if (off > outer || off < inner || !is_inside(surface.rings, p) ||

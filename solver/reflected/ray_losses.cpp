@@ -56,9 +56,12 @@ class LossSearch {
  public:
   LossSearch(const ReflectingScene& scene, const FirstLight& light, const ReflectedMesh& mesh,
              const LightSystems& systems, const std::vector<Eigen::VectorXd>& told)
-      : scene_(scene), mesh_(mesh), systems_(systems), told_(told), absorbed_(systems.count()) {
+      : scene_(scene),
+        mesh_(mesh),
+        systems_(systems),
+        told_(told),
+        absorbed_(Eigen::ArrayXd::Zero(systems.count())) {
     double area = 0;
-    absorbed_.setZero();
     for (int e = 0; e < mesh.count(); ++e) {
       const int s = systems.of_element[at(e)];
       const Rgb rho = light.mean_rho(mesh, e);

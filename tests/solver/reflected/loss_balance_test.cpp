@@ -15,6 +15,25 @@
 namespace halfshade {
 namespace {
 
+ReflectedLight light_in_box(double gap, double rho, double tolerance,
+                            ReflectedVisibility visibility) {
+  ReflectedOptions options;
+  options.tolerance = tolerance;
+  options.visibility = visibility;
+  options.through_operator = true;
+  return reflected_light(make_sound(test::box_with_a_lifted_lid(gap, rho)), {}, options);
+}
+
+double mean_irradiance(const ReflectedLight& light) {
+  test::Random random(5);
+  double mean = 0, count = 0;
+  for (const auto& [surface, point] : test::spread_points(light.elements(), 20000, random)) {
+    mean += light.irradiance(surface, point.position)[0];
+    ++count;
+  }
+  return mean / count;
+}
+
 TEST(LossBalance, SlitsLetOutWhatWalksSay) {
   struct Case {
     double gap, rho, irradiance, deviation;
@@ -24,19 +43,8 @@ TEST(LossBalance, SlitsLetOutWhatWalksSay) {
                                                         {1e-3, 0.9999, 241, 1},
                                                         {1e-3, 1, 281.6, 1.1}}) {
     for (const double tolerance : {0.2, 0.05, 0.02}) {
-      ReflectedOptions options;
-      options.tolerance = tolerance;
-      options.visibility = ReflectedVisibility::exact;
-      options.through_operator = true;
-      const ReflectedLight light =
-          reflected_light(make_sound(test::box_with_a_lifted_lid(gap, rho)), {}, options);
-      test::Random random(5);
-      double mean = 0, count = 0;
-      for (const auto& [surface, point] : test::spread_points(light.elements(), 20000, random)) {
-        mean += light.irradiance(surface, point.position)[0];
-        ++count;
-      }
-      mean /= count;
+      const ReflectedLight light = light_in_box(gap, rho, tolerance, ReflectedVisibility::exact);
+      const double mean = mean_irradiance(light);
       EXPECT_LE(light.report().error, tolerance) << gap << ", " << rho;
       EXPECT_NEAR(mean, irradiance, 2 * deviation + 0.01 * irradiance)
           << gap << ", " << rho << ", " << tolerance;
@@ -54,19 +62,8 @@ TEST(LossBalance, RaysFindSlitsToo) {
        {Case{0.03, 0.99, 0.03, 5.919, 0.005, true},
         {0.01, 0.999, 0.05, 24.08, 0.04, true},
         {1e-3, 0.9999, 0.03, 241, 1, false}}) {
-    ReflectedOptions options;
-    options.tolerance = tolerance;
-    options.visibility = ReflectedVisibility::sampled;
-    options.through_operator = true;
-    const ReflectedLight light =
-        reflected_light(make_sound(test::box_with_a_lifted_lid(gap, rho)), {}, options);
-    test::Random random(5);
-    double mean = 0, count = 0;
-    for (const auto& [surface, point] : test::spread_points(light.elements(), 20000, random)) {
-      mean += light.irradiance(surface, point.position)[0];
-      ++count;
-    }
-    mean /= count;
+    const ReflectedLight light = light_in_box(gap, rho, tolerance, ReflectedVisibility::sampled);
+    const double mean = mean_irradiance(light);
     EXPECT_EQ(light.report().error <= tolerance, is_met) << gap << ", " << rho;
     // Not known only because nothing is.
     EXPECT_LE(light.report().error, 2 * tolerance) << gap << ", " << rho;

@@ -19,7 +19,7 @@ constexpr double places_at_once = 4096;
 constexpr int fewest_passes = 8;
 constexpr std::size_t most_rays = std::size_t{1} << 24;
 /// What nodes miss is more than noise from so many deviations on.
-constexpr double sure = 3;
+constexpr double deviations_of_noise = 3;
 /// Along a slit as wide as a share x of an element's size, this times x is missed, or more.
 constexpr double missed_of_width = 0.4;
 /// Numbers from here on are of no node, see ray_seed.
@@ -169,7 +169,7 @@ class LossSearch {
 /// Empty where it may be noise.
 BackShadow shadow_of(const Sums& missed, double size) {
   BackShadow shadow;
-  if (std::abs(missed.mean()) <= sure * missed.deviation()) return shadow;
+  if (std::abs(missed.mean()) <= deviations_of_noise * missed.deviation()) return shadow;
   shadow.share = missed.mean();
   const double width = std::abs(shadow.share) / missed_of_width;
   shadow.height = width * size;

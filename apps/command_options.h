@@ -50,12 +50,23 @@ void add_solve_method(CLI::App& app, SolveOptions& options);
 void add_factors_by(CLI::App& app, ExchangeOptions& options,
                     std::filesystem::path* saved = nullptr);
 
+/// --max-elements, of those that solve a scene or say how. Once it and --elements are read, the
+/// latter, if given, may not be more (CLI::ValidationError); if not given, it is lowered to that.
+void add_max_elements(CLI::App& app, int& elements);
+void keep_to_limit(const CLI::App& app, SolveOptions& options);
+/// Notes --factors, --hemicube, --rays and --visibility where the method leaves them nothing to do.
+void note_idle_factors(const CLI::App& app, const SolveOptions& options,
+                       std::vector<std::string>& notes);
+
 /// What stands between the commas of lists, also where that is nothing.
 std::vector<std::string> items(const std::vector<std::string>& lists);
 
 /// Numbers. Their checks let nothing pass that is not finite, and say so in words of their own.
 CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                        const char* help);
+/// The same, or the word 'auto', which leaves `value` as it is.
+CLI::Option* add_whole_or_auto(CLI::App& app, const char* name, int& value,
+                               std::array<int, 2> range, const char* help);
 CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                       const char* help);
 CLI::Option* add_number(CLI::App& app, const char* name, double& value, std::array<double, 2> range,

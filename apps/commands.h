@@ -36,9 +36,10 @@ enum ExitCode {
 struct CommonOptions {
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;             ///< 0: as many as the machine has
-  std::filesystem::path json;  ///< machine-readable report; empty: none
-  SceneOptions orientation;    ///< of commands that read a scene
+  int threads = 0;                 ///< 0: as many as the machine has
+  std::filesystem::path json;      ///< machine-readable report; empty: none
+  SceneOptions orientation;        ///< of commands that read a scene
+  std::vector<std::string> notes;  ///< of options that change nothing; told unless quiet
 };
 
 /// Where a subcommand runs.

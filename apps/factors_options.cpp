@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/idle_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -26,7 +27,7 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       },
       "What has a row");
   add_number(app, "--tolerance", options.tolerance, {1e-12, 0.5},
-             "Error allowed in a form factor, absolute")
+             "Error allowed in a form factor, absolute, with --method exact")
       ->capture_default_str()
       ->excludes(from);
   add_choice(
@@ -38,8 +39,9 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
             "Rays of each row, with --method rays; pixels of each row with hemicube")
       ->capture_default_str()
       ->excludes(from);
-  add_even(app, "--hemicube", options.hemicube_pixels, {2, 4096},
-           "Pixels along an edge of hemicubes; at least four stand on a surface")
+  add_even(
+      app, "--hemicube", options.hemicube_pixels, {2, 4096},
+      "Pixels along an edge of hemicubes, with --method hemicube; at least four stand on a surface")
       ->capture_default_str()
       ->excludes(from);
   add_not_negative(
@@ -50,9 +52,19 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       "Scale rows and columns alike until rows, with space, sum to one; what --sparse-below\n"
       "left out is made up for by the rest");
   add_whole(app, "--max-points", options.max_points, {1, 1000000000},
-            "Points at which a pair of surfaces is looked at, at most")
+            "Points at which a pair of surfaces is looked at, at most, with --method exact")
       ->capture_default_str()
       ->excludes(from);
+  app.callback([&app, &options, &common] {
+    const auto note = [&](const char* name, const char* why) {
+      note_idle(app, {{name}}, why, common.notes);
+    };
+    if (options.method == FactorMethod::exact) note("--rays", "is for --method rays or hemicube");
+    if (options.method != FactorMethod::hemicube) note("--hemicube", "is for --method hemicube");
+    if (options.method == FactorMethod::exact) return;
+    note("--max-points", "is for --method exact");
+    note("--tolerance", "is for --method exact; --rays says how much others do");
+  });
   add_materials(app, command.materials, "Materials file, as for solve");
   add_orientation(app, common.orientation);
   add_common(app, common);

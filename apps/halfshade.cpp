@@ -97,6 +97,8 @@ int run_program(int argc, char** argv) {
   Commands commands;
   const Parsed parsed = parse(argc, argv, commands, context.common);
   if (parsed.command.empty()) return parsed.exit_code;
+  if (!context.common.quiet)
+    for (const std::string& note : context.common.notes) complain("note: {}\n", note);
   const Interrupt interrupt;
   const int hardware = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const tbb::global_control threads(

@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/idle_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -42,7 +43,15 @@ void add_mesh(CLI::App& program, MeshCommand& command, CommonOptions& common) {
       app, "--tolerance", command.options.tolerance,
       "Leave out curves that change the irradiance by less than this share of its mean,\n"
       "and draw conics accordingly (default: 0, the mesh is complete)");
-  app.callback([tolerance, &command] { command.has_tolerance = tolerance->count() > 0; });
+  app.callback([tolerance, &app, &command, &common] {
+    command.has_tolerance = tolerance->count() > 0;
+    const bool only_curves = !command.curves.empty() || !command.picture.empty();
+    if (!only_curves || !command.outputs.empty() || is_given(app, "--json")) return;
+    const char* const why = "is of elements, and only curves are asked for; give -o, too";
+    note_idle(app, {{"--deviation"}}, why, common.notes);
+    // With one, curves are judged by what they do in elements of this length.
+    if (!(command.options.tolerance > 0)) note_idle(app, {{"--max-length"}}, why, common.notes);
+  });
   add_positive(app, "--max-length", command.options.max_length,
                "Longest element edge in scene units (default: no limit)");
   add_events(app, command.options.events, command.options.secondary);

@@ -54,6 +54,31 @@ CLI::Option* add_whole(CLI::App& app, const char* name, int& value, std::array<i
       ->type_name("N");
 }
 
+CLI::Option* add_whole_or_auto(CLI::App& app, const char* name, int& value,
+                               std::array<int, 2> range, const char* help) {
+  const auto is_auto = [](const std::string& text) {
+    return CLI::detail::to_lower(text) == "auto";
+  };
+  const CLI::Validator is_good(
+      [is_auto, range](const std::string& text) -> std::string {
+        const auto given = parsed<int>(text);
+        if (is_auto(text) || (given && *given >= range[0] && *given <= range[1])) return "";
+        return fmt::format("'{}' is neither a whole number from {} to {} nor auto", text, range[0],
+                           range[1]);
+      },
+      "");
+  return app
+      .add_option_function<std::string>(
+          name,
+          [is_auto, &value](const std::string& text) {
+            if (!is_auto(text)) value = *parsed<int>(text);
+          },
+          help)
+      ->check(is_good)
+      ->default_str("auto")
+      ->type_name("N|auto");
+}
+
 CLI::Option* add_even(CLI::App& app, const char* name, int& value, std::array<int, 2> range,
                       const char* help) {
   const std::string what = fmt::format("an even number from {} to {}", range[0], range[1]);

@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/idle_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -41,8 +42,10 @@ void add_probe(CLI::App& program, ProbeCommand& command, CommonOptions& common) 
   CLI::Option* tolerance = add_positive(
       app, "--tolerance", command.options.tolerance,
       "Error allowed in that solution, of the irradiance in the L2 norm, relative to it");
-  app.callback([require_points, tolerance, &command] {
+  app.callback([require_points, tolerance, &app, &command, &common] {
     require_points();
+    if (!command.reference)
+      note_idle(app, {{"--samples"}}, "is for random walks (--method reference)", common.notes);
     command.has_tolerance = tolerance->count() > 0;
   });
   CLI::Option* solution = add_file(

@@ -1,4 +1,6 @@
 #include "apps/command_options.h"
+#include "apps/idle_options.h"
+#include "io/files/extension.h"
 
 #include <CLI/CLI.hpp>
 
@@ -92,6 +94,23 @@ void add_methods(CLI::App& app, RenderCommand& command) {
              "Of a result: the share that all surfaces reflect in a lobe of --exponent, once");
 }
 
+void note_idle_options(const CLI::App& app, const RenderCommand& command,
+                       std::vector<std::string>& notes) {
+  if (!command.position)
+    note_idle(app, {{"--fov"}}, "is of a camera that --position puts somewhere", notes);
+  if (!(command.gloss > 0 || command.classic.highlight > 0))
+    note_idle(app, {{"--exponent"}}, "is of a lobe; give --highlight or --gloss, too", notes);
+  if (command.method != RenderMethod::drawn)
+    note_idle(app, {{"--flat"}}, "has no part in traced rays; they see no elements", notes);
+  if (!command.compare.empty() && !command.side_by_side)
+    note_idle(app, {{"--exposure"}},
+              "is of the light itself; a difference takes a --range, or give --side-by-side",
+              notes);
+  if (has_format(command.input, shaded_formats))
+    note_idle(app, {{"--materials"}, {"--flip"}, {"--orient"}},
+              "is for scenes; a result has its materials and sides", notes);
+}
+
 }  // namespace
 
 void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common) {
@@ -108,6 +127,7 @@ void add_render(CLI::App& program, RenderCommand& command, CommonOptions& common
   add_methods(app, command);
   add_orientation(app, common.orientation);
   add_common(app, common);
+  app.callback([&app, &command, &common] { note_idle_options(app, command, common.notes); });
   app.footer(footer(
       "Examples:\n"
       "  halfshade render cornell.vtu -o cornell.png --mesh\n"

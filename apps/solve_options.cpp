@@ -1,4 +1,5 @@
 #include "apps/command_options.h"
+#include "apps/idle_options.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -16,18 +17,21 @@ constexpr const char* needless_with_saved_factors[] = {
     "--goal",        "--subdivide", "--gradient",     "--interpolate",      "--deviation",
     "--final-gather"};
 
+constexpr const char* needs_matrix = "is for constant elements; give --method matrix";
+
 void add_accuracy(CLI::App& app, SolveOptions& options) {
   add_not_negative(
       app, "--tolerance", options.tolerance,
-      "Error allowed, of the irradiance in the L2 norm, relative to it (with --method\n"
+      "Error allowed, of the irradiance in the L2 norm over all surfaces and channels, relative\n"
+      "to it, so that a channel with little light may be off by more of its own (with --method\n"
       "matrix: curves that change the mean by less are left out)")
       ->capture_default_str();
   app.add_option("--goal", options.goal,
                  "Name of a group: the tolerance is that of its mean irradiance, and effort goes\n"
                  "only where that feels it")
       ->type_name("GROUP");
-  add_whole(app, "--order", options.order, {0, max_order},
-            "Order of all elements (default: chosen for each)");
+  add_whole_or_auto(app, "--order", options.order, {0, max_order},
+                    "Order of all elements, or chosen for each ('auto')");
   add_choice(
       app, "--refine", {"adaptive", "uniform"},
       [&options](std::size_t k) {
@@ -42,9 +46,7 @@ void add_size(CLI::App& app, SolveOptions& options) {
                "About how many elements to make, with --refine uniform or --method matrix");
   add_positive(app, "--max-length", options.max_length,
                "Longest element edge in scene units (instead of --elements)");
-  add_whole(app, "--max-elements", options.max_elements, {1, 10000000},
-            "Make no more elements than this (default: 400 for each polygon, at least 40000, at\n"
-            "most 1000000, or 16 for each if that is more; with --method matrix 40000)");
+  add_max_elements(app, options.max_elements);
   add_whole(
       app, "--max-unknowns", options.max_unknowns, {1, 100000000},
       "Make no more coefficients than this, for each channel (default: 4 for each of these\n"
@@ -122,7 +124,76 @@ void add_curves(CLI::App& app, SolveOptions& options) {
   add_deviation(app, options.deviation);
 }
 
+void note_idle_of_size(const CLI::App& app, const SolveOptions& options,
+                       std::vector<std::string>& notes) {
+  if (is_given(app, "--max-length"))
+    note_idle(app, {{"--elements"}}, "has no part where --max-length says how long they are",
+              notes);
+  if (options.method == SolveMethod::fields && options.refine == Refinement::adaptive)
+    note_idle(app, {{"--elements"}, {"--max-length"}},
+              "has no part where elements are as the tolerance takes them (--refine adaptive)",
+              notes);
+}
+
+void note_idle_of_curves(const CLI::App& app, const SolveOptions& options,
+                         std::vector<std::string>& notes) {
+  if (options.discontinuities) return;
+  note_idle(app, {{"--events"}, {"--secondary"}, {"--deviation"}},
+            "has no part where no curves are looked for (--no-discontinuity)", notes);
+  if (options.force.discontinuities || options.force.eee)
+    note_idle(app, {{"--force"}}, "finds no curves with --no-discontinuity", notes);
+}
+
+void note_idle_of_method(const CLI::App& app, const SolveOptions& options,
+                         std::vector<std::string>& notes) {
+  note_idle_factors(app, options, notes);
+  if (options.method == SolveMethod::fields) {
+    note_idle(app, {{"--closure", {"auto"}}, {"--solver"}, {"--gradient"}}, needs_matrix, notes);
+    if (options.direct_light == DirectLightBy::matrix && !options.force.exact_direct_light)
+      note_idle(app, {{"--order", {"auto"}}, {"--events"}, {"--secondary"}, {"--deviation"}},
+                "is of direct light by closed forms, which --direct-light matrix leaves out",
+                notes);
+    return;
+  }
+  note_idle(app, {{"--refine", {"uniform"}}, {"--order", {"auto", "0"}}, {"--max-unknowns"}},
+            "has no part in constant elements and a matrix (--method matrix)", notes);
+  if (options.subdivision.rounds == 0)
+    note_idle(app, {{"--gradient"}}, "says what --subdivide divides; give that, too", notes);
+  if (options.radiosity.bounces >= 0)
+    note_idle(app, {{"--solver"}}, "has no part where reflections are counted (--bounces)", notes);
+}
+
 }  // namespace
+
+void note_idle_factors(const CLI::App& app, const SolveOptions& options,
+                       std::vector<std::string>& notes) {
+  if (options.method == SolveMethod::fields)
+    return note_idle(app, {{"--factors"}, {"--hemicube"}, {"--rays"}}, needs_matrix, notes);
+  note_idle(app, {{"--visibility", {"auto"}}},
+            "has no part in constant elements and a matrix, whose form factors are by --factors",
+            notes);
+  if (options.exchange.factors != FactorsBy::rays)
+    note_idle(app, {{"--rays"}}, "is for --factors rays", notes);
+  if (options.exchange.factors != FactorsBy::hemicube)
+    note_idle(app, {{"--hemicube"}}, "is for --factors hemicube", notes);
+}
+
+void keep_to_limit(const CLI::App& app, SolveOptions& options) {
+  if (options.max_elements == 0 || options.elements <= options.max_elements) return;
+  const bool are_made =
+      options.method == SolveMethod::matrix || options.refine == Refinement::uniform;
+  if (is_given(app, "--elements") && are_made && options.max_length == 0)
+    throw CLI::ValidationError("--elements",
+                               fmt::format("{} are more than the {} that --max-elements allows",
+                                           options.elements, options.max_elements));
+  options.elements = options.max_elements;
+}
+
+void add_max_elements(CLI::App& app, int& elements) {
+  add_whole(app, "--max-elements", elements, {1, 10000000},
+            "Make no more elements than this (default: 400 for each polygon, at least 40000, at\n"
+            "most 1000000, or 16 for each if that is more; with --method matrix 40000)");
+}
 
 void add_solve_method(CLI::App& app, SolveOptions& options) {
   add_choice(
@@ -175,9 +246,11 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   add_file(app, "--progressive", command.progressive,
            "Folder for the stages of shooting as a series that ParaView plays, progressive.pvd;\n"
            "with --method matrix and --solver southwell or southwell-ambient");
-  app.add_flag("--linear", command.result_options.linear,
-               "Straight triangles in .vtu, for readers that know no polynomials: as many as the\n"
-               "tolerance takes, if that is not more than 2 million");
+  app.add_flag(
+      "--linear", command.result_options.linear,
+      "Straight triangles in .vtu, for readers that know no polynomials: as many as the\n"
+      "tolerance takes, if that is not more than 2 million (constant elements are straight\n"
+      "as they are)");
   add_accuracy(app, command.options);
   add_size(app, command.options);
   add_light(app, command);
@@ -186,14 +259,20 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
   add_force(app, command.options.force);
   add_orientation(app, common.orientation);
   add_common(app, common);
-  app.parse_complete_callback([&app, &command] {
+  app.parse_complete_callback([&app, &command, &common] {
     SolveOptions& options = command.options;
-    const auto given = [&app](const char* name) { return app.get_option(name)->count() > 0; };
+    const auto given = [&app](const char* name) { return is_given(app, name); };
     options.radiosity.stages = given("--progressive");
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
     command.needs_tolerance = given("--tolerance") && options.refine == Refinement::uniform &&
                               options.method == SolveMethod::fields;
+    note_idle_of_size(app, options, common.notes);
+    keep_to_limit(app, options);
+    note_idle_of_curves(app, options, common.notes);
+    // With saved factors, and for stages of shooting, others say what goes with them.
+    if (command.factors.empty() && !given("--progressive"))
+      note_idle_of_method(app, options, common.notes);
     if (command.factors.empty()) return;
     for (const char* name : needless_with_saved_factors)
       if (given(name))

@@ -54,6 +54,23 @@ void check(const SolveOptions& options) {
                             options.tolerance, options.secondary));
 }
 
+/// Refuses elements that are asked for by number and are more than there may be. Where surfaces and
+/// contact lines alone are, it says that instead.
+void require_within_limit(const SoundScene& scene, const SolveOptions& options,
+                          const Progress& progress) {
+  const bool is_number = options.max_length == 0 && (options.method == SolveMethod::matrix ||
+                                                     options.refine == Refinement::uniform);
+  if (!is_number || options.elements <= options.max_elements) return;
+  PlanarMeshOptions coarsest;
+  coarsest.min_angle = 0;
+  coarsest.max_triangles = at(options.max_elements);
+  mesh_plainly(scene, coarsest, options, progress);
+  throw Error(ErrorCode::too_large, {},
+              fmt::format("{} elements are asked for with --elements, and there may be {}; "
+                          "--max-elements allows more",
+                          options.elements, options.max_elements));
+}
+
 void find_regions(const PreparedScene& prepared, const Progress& progress, Stages& stages,
                   SolveResult& result) {
   stages.run("regions", [&] {
@@ -81,6 +98,7 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
   check(given);
   const SolveOptions options = with_limits(given, prepared.scene().surfaces.size());
   require_few_surfaces(prepared.scene(), options);
+  require_within_limit(prepared.scene(), options, progress);
   if (!options.goal.empty()) find_goal(prepared.scene(), options.goal);
   auto result = begin_result<SolveResult>(prepared);
   result.most_bounces = options.radiosity.bounces;

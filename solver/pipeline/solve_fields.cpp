@@ -277,6 +277,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.mesh = direct.mesh;
   result.discontinuity_tolerance = direct.discontinuity_tolerance;
   result.refinement = direct.light.report;
+  add(unknowns_warnings(result.refinement.unknowns, options.max_unknowns, result.refinement.rounds),
+      result.warnings);
   result.patches = direct.patches;
   result.radiosity.channels = plan.no_channels.empty() ? 3 : 1;
   stages.leave_out_if(!reflects, "reflected light", plan.no_factors);

@@ -241,6 +241,7 @@ SolveMesh make_solve_mesh(const SoundScene& scene, const SolveOptions& options,
     if (mesh && (!best || mesh->elements.count() < best->elements.count())) best = std::move(mesh);
     if (progress.stopped() || (best && is_few_enough(*best, options))) break;
   }
+  if (!best && options.max_length == 0) best = mesh_fewest(scene, options, progress);
   if (!best) refuse(scene, options);
   return *std::move(best);
 }

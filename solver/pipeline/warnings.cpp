@@ -163,6 +163,8 @@ const char* name_of(Warning::Kind kind) {
       return "tolerance_raised";
     case Warning::Kind::elements_exceeded:
       return "elements_exceeded";
+    case Warning::Kind::unknowns_exceeded:
+      return "unknowns_exceeded";
     case Warning::Kind::exchange_estimated:
       return "exchange_estimated";
     case Warning::Kind::backs_exchange:
@@ -241,6 +243,15 @@ std::vector<Warning> mesh_warnings(const MeshOutcome& outcome) {
                          : fmt::format("follows only curves above {:.2g}", outcome.tolerance),
                      outcome.asked_tolerance)});
   return warnings;
+}
+
+std::vector<Warning> unknowns_warnings(std::size_t unknowns, int max_unknowns, int rounds) {
+  if (unknowns <= at(max_unknowns)) return {};
+  return {
+      {Warning::Kind::unknowns_exceeded,
+       fmt::format("direct light takes {} unknowns{}, more than the {} that --max-unknowns "
+                   "allows",
+                   unknowns, rounds > 1 ? "" : " before any element is divided", max_unknowns)}};
 }
 
 std::vector<Warning> exchange_warnings(const ExchangeReport& report) {

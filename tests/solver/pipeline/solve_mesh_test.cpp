@@ -4,6 +4,7 @@
 #include "meshing/core/light_source.h"
 #include "meshing/patches/quality.h"
 #include "meshing/repair/repair.h"
+#include "solver/pipeline/fewest_elements.h"
 #include "solver/pipeline/limits.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
@@ -125,6 +126,30 @@ TEST(SolveMesh, KeepsToTheElementsAskedForOrSaysWhatItTakes) {
         const std::string says = fmt::format("take {} elements", count);
         EXPECT_TRUE(excess.empty() || excess.find(says) != std::string::npos) << count << excess;
       }
+}
+
+TEST(SolveMesh, HasTheFewestElementsThereCanBeIfThereMayBeNoMore) {
+  for (const Scene& scene : {s1(), slats(8), slats(30)}) {
+    const SoundScene sound = make_sound(scene);
+    SolveOptions options = with_limits({}, 10);
+    options.elements = options.max_elements = fewest_elements(sound).count();
+    EXPECT_EQ(make_solve_mesh(sound, options).elements.count(), options.max_elements);
+    --options.max_elements;
+    test::expect_error([&] { make_solve_mesh(sound, options); }, ErrorCode::too_large,
+                       {"surfaces with", "--max-elements"});
+  }
+}
+
+TEST(SolveMesh, MoreElementsAskedForThanThereMayBeAreRefusedAsThat) {
+  for (const SolveMethod method : {SolveMethod::fields, SolveMethod::matrix}) {
+    SolveOptions options = with_limits({}, 10);
+    options.method = method;
+    options.refine = Refinement::uniform;
+    options.elements = 1000;
+    options.max_elements = 20;
+    test::expect_error([&] { solve(s1(), options); }, ErrorCode::too_large,
+                       {"1000 elements are asked for", "there may be 20"});
+  }
 }
 
 TEST(SolveMesh, KeepsToTheLengthAskedFor) {

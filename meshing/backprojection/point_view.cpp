@@ -89,6 +89,7 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   point_ = point;
   jitter_ = jitter;
   normal_ = normal;
+  emitter_id_ = emitter;
   emitter_ = &topology_.surfaces[at(emitter)].frame;
   distance_ = emitter_->height(point);
   magnitude_ = std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
@@ -197,6 +198,10 @@ int PointView::face_sign(int triangle) {
   Kept& kept = signs_[at(triangle)];
   if (!is_fresh(kept)) {
     const OpaqueTopology::Triangle& face = topology_.triangles[at(triangle)];
+    if (face.surface == emitter_id_) {
+      kept = {query_, 0};
+      return 0;
+    }
     std::array<int, 3> c{};
     bool blocks = false, flat = true;
     const double length = topology_.surfaces[at(face.surface)].tolerance.length;

@@ -113,7 +113,8 @@ class PointView {
   void count_boxes(std::size_t count = 1) { effort_.boxes += count; }
 
   /// +1 or −1 as a face's corners run counter-clockwise or clockwise seen from the point; 0 if it
-  /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane.
+  /// cannot block: it lies beyond the emitter's plane or in it, or the point lies in its plane, or
+  /// it is of the emitter, whose corners may lie off its plane by what joined them to others.
   int face_sign(int triangle);
   /// One bit for each side of the pyramid that the vertex is clearly beyond; until the next start,
   /// of the pyramid that was asked about first.
@@ -161,6 +162,7 @@ class PointView {
   std::int64_t next_rank_ = 0;  ///< of corners that are neither vertices nor cuts
   const std::vector<int>* among_ = nullptr;
   Vec3 point_ = Vec3::Zero(), normal_ = Vec3::Zero();
+  int emitter_id_ = -1;
   const PlaneFrame* emitter_ = nullptr;
   double distance_ = 0, magnitude_ = 0, slack_ = 0, jitter_ = 0;
   mutable SightEffort effort_;

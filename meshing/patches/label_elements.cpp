@@ -55,7 +55,7 @@ class Labeller {
  private:
   Vec3 centre(int element) const {
     const auto [a, b, c] = elements_.triangle(element);
-    return (a + b + c) / 3;
+    return scene_.surfaces[at(elements_.surface[at(element)])].frame.foot((a + b + c) / 3);
   }
 
   /// The element in front whose centre is farthest from its edges, as elements beside bent curves

@@ -171,6 +171,7 @@ SharedLines find_shared_lines(const SoundScene& scene) {
     SharedLine line;
     line.origin = longest.from;
     line.direction = (longest.to - longest.from) / longest.length();
+    double begin = HUGE_VAL, end = -HUGE_VAL;
     LocalScale scale = scene.surfaces[at(result.borders[at(borders[0])].surface)].scale;
     for (const int w : borders) {
       BorderLine& border = result.borders[at(w)];
@@ -179,8 +180,13 @@ SharedLines find_shared_lines(const SoundScene& scene) {
       border.line = static_cast<int>(result.lines.size());
       border.begin = along(line, frame, border.ends[0]);
       border.end = along(line, frame, border.ends[1]);
+      begin = std::min({begin, border.begin, border.end});
+      end = std::max({end, border.begin, border.end});
+      for (const Vec3& p : {stretches[at(w)].from, stretches[at(w)].to})
+        line.gap = std::max(line.gap, line.direction.cross(p - line.origin).norm());
     }
     line.length = tolerance_of(scale).length;
+    line.extent = end - begin;
     line.borders = std::move(borders);
     result.lines.push_back(std::move(line));
   }

@@ -19,6 +19,8 @@ struct SharedLine {
   Vec3 origin = Vec3::Zero(), direction = Vec3::UnitX();  ///< of unit length
   std::vector<int> borders;                               ///< sorted
   double length = 0;  ///< points closer than this along it are the same; as its surfaces have it
+  double gap = 0;     ///< how far off it ends of its borders lie at most
+  double extent = 0;  ///< from the first end of a border along it to the last
 };
 
 struct SharedLines {

@@ -325,14 +325,15 @@ ElementDirectLight element_direct_light(const SoundScene& scene, const ElementTa
   light.region.assign(count, Region::away);
   const auto element = [&](std::size_t e) {
     const auto [a, b, c] = elements.triangle(static_cast<int>(e));
-    const int plane = scene.surfaces[static_cast<std::size_t>(elements.surface[e])].plane;
+    const Surface& surface = scene.surfaces[at(elements.surface[e])];
     double strongest = 0;
     for (std::size_t k = 0; k < light.emitters.size(); ++k) {
       const Surface& source = scene.surfaces[static_cast<std::size_t>(light.emitters[k])];
-      if (source.plane == plane) continue;
+      if (source.plane == surface.plane) continue;
       double visible = 0, unobstructed = 0;
       for (const TriangleNode& node : rule) {
-        const SurfacePoint point{a + node.u * (b - a) + node.v * (c - a), elements.normal[e]};
+        const Vec3 position = a + node.u * (b - a) + node.v * (c - a);
+        const SurfacePoint point{surface.frame.foot(position), elements.normal[e]};
         const PointFactor factor = index.factor(point, light.emitters[k]);
         visible += node.weight * factor.visible;
         unobstructed += node.weight * factor.unobstructed;

@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/flat_tree.h"
+#include "meshing/patches/shared_lines.h"
 #include "solver/exchange/shells.h"
 
 #include <algorithm>
@@ -181,6 +182,31 @@ std::vector<int> find_surroundings(const SoundScene& scene, const ElementTable& 
   return around;
 }
 
+/// See SpaceCells::gaps.
+std::vector<double> areas_of_gaps(const SoundScene& scene, const ElementTable& elements,
+                                  const SpaceCells& cells) {
+  std::vector<double> areas(cells.closed.size());
+  if (std::none_of(cells.closed.begin(), cells.closed.end(), [](bool closed) { return closed; }))
+    return areas;
+  std::vector<std::vector<int>> closed_at(scene.surfaces.size());  // surface → cells
+  for (int e = 0; e < elements.count(); ++e)
+    if (cells.closed[at(cells.before(e))])
+      closed_at[at(elements.surface[at(e)])].push_back(cells.before(e));
+  const SharedLines shared = find_shared_lines(scene);
+  for (const SharedLine& line : shared.lines) {
+    if (line.gap <= line.length) continue;
+    std::vector<int> at_line;
+    for (const int w : line.borders) {
+      const std::vector<int>& more = closed_at[at(shared.borders[at(w)].surface)];
+      at_line.insert(at_line.end(), more.begin(), more.end());
+    }
+    std::sort(at_line.begin(), at_line.end());
+    at_line.erase(std::unique(at_line.begin(), at_line.end()), at_line.end());
+    for (const int cell : at_line) areas[at(cell)] += line.gap * line.extent;
+  }
+  return areas;
+}
+
 }  // namespace
 
 SpaceCells find_cells(const SoundScene& scene, const ElementTable& elements) {
@@ -205,6 +231,7 @@ SpaceCells find_cells(const SoundScene& scene, const ElementTable& elements) {
     cells.closed[behind] = false;
     if (cells.swallowing[behind] < 0) cells.swallowing[behind] = elements.surface[at(e)];
   }
+  cells.gaps = areas_of_gaps(scene, elements, cells);
   return cells;
 }
 

@@ -14,6 +14,10 @@ struct SpaceCells {
   std::vector<std::array<int, 2>> of_side;
   /// Cell → it is bounded, and only fronts look into it: whatever its elements send, they receive.
   std::vector<bool> closed;
+  /// Cell → if it is closed, the area of the gaps that surfaces leave which count as meeting, for
+  /// they are no farther apart than their planes are off their corners. Those that rounding
+  /// explains are left out.
+  std::vector<double> gaps;
   /// Cell → the surface whose back swallows light in it; −1 if there is none.
   std::vector<int> swallowing;
   int outside = 0;  ///< the cell that extends to infinity

@@ -112,7 +112,7 @@ class DirectFieldSearch {
         goal_(goal),
         blockers_(
             blocking_surfaces(prepared.scene(), plan.lit, prepared.direct_light().emitters())),
-        direct_light_(direct_light_at(prepared.direct_light(), work_)),
+        direct_light_(direct_light_at(prepared.scene(), prepared.direct_light(), work_)),
         rays_(rays_of(prepared, plan)) {}
 
   DirectField run() {
@@ -300,7 +300,7 @@ class DirectFieldSearch {
     stages_.run("direct light", [&] {
       if (rays_)
         found_.light = fit_noisy(
-            *found_.patches, direct_light_at(*rays_, work_),
+            *found_.patches, direct_light_at(prepared_.scene(), *rays_, work_),
             [this](const FieldPoint& place) { return rays_->unobstructed(place.point); }, fit,
             progress_);
       else
@@ -328,8 +328,9 @@ class DirectFieldSearch {
             // Where the light hardly changes, one place will do.
             const std::size_t count = found_.light.field.order[e] == 0 ? 1 : places.size();
             for (std::size_t k = 0; k < count; ++k) {
+              const PlaneFrame& frame = prepared_.scene().surfaces[at(elements.surface[e])].frame;
               const Region here = prepared_.direct_light().region(
-                  {position(triangle, places[k]), elements.normal[e]});
+                  {frame.foot(position(triangle, places[k])), elements.normal[e]});
               region = k == 0 || here == region ? here : Region::penumbra;
             }
           },

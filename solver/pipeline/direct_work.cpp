@@ -14,11 +14,20 @@ bool is_too_much(const DirectWork& work, int unknowns) {
   return work.crowd > crowd_work_for_one * unknowns || work.rays > rays_for_one * unknowns;
 }
 
-FieldAt direct_light_at(const DirectLightIndex& index, DirectWork& work) {
+namespace {
+
+FieldPoint in_own_plane(const SoundScene& scene, const FieldPoint& point) {
+  const PlaneFrame& frame = scene.surfaces[at(point.surface)].frame;
+  return {{frame.foot(point.point.position), point.point.normal}, point.surface};
+}
+
+}  // namespace
+
+FieldAt direct_light_at(const SoundScene& scene, const DirectLightIndex& index, DirectWork& work) {
   return [&](std::span<const FieldPoint> points, const Progress& progress) {
     std::vector<SurfacePoint> places;
     places.reserve(points.size());
-    for (const FieldPoint& point : points) places.push_back(point.point);
+    for (const FieldPoint& point : points) places.push_back(in_own_plane(scene, point).point);
     std::vector<Rgb> values;
     values.reserve(points.size());
     for (const DirectLight& light : index.irradiance(places, progress)) {
@@ -29,10 +38,13 @@ FieldAt direct_light_at(const DirectLightIndex& index, DirectWork& work) {
   };
 }
 
-NoisyFieldAt direct_light_at(const RayLight& light, DirectWork& work) {
+NoisyFieldAt direct_light_at(const SoundScene& scene, const RayLight& light, DirectWork& work) {
   return [&](std::span<const FieldPoint> points, std::span<const double> slack,
              const Progress& progress) {
-    RayIrradiance found = light.irradiance(points, slack, progress);
+    std::vector<FieldPoint> places;
+    places.reserve(points.size());
+    for (const FieldPoint& point : points) places.push_back(in_own_plane(scene, point));
+    RayIrradiance found = light.irradiance(places, slack, progress);
     work.rays += static_cast<double>(found.rays);
     return std::move(found.at);
   };

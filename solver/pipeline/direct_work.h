@@ -18,7 +18,7 @@ struct DirectWork {
 bool is_too_much(const DirectWork& work, int unknowns);
 
 /// Direct light in W/m²; adds what it takes to `work`. All are referred to.
-FieldAt direct_light_at(const DirectLightIndex& index, DirectWork& work);
-NoisyFieldAt direct_light_at(const RayLight& light, DirectWork& work);
+FieldAt direct_light_at(const SoundScene& scene, const DirectLightIndex& index, DirectWork& work);
+NoisyFieldAt direct_light_at(const SoundScene& scene, const RayLight& light, DirectWork& work);
 
 }  // namespace halfshade

@@ -79,14 +79,16 @@ bool gathers(FinalGather asked, const ReflectedReport& report) {
 
 /// What arrives of a solution, on elements and of orders that suit its polynomials. Rays whose
 /// noise is half of what these are allowed to be off.
-ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomials,
-                      double tolerance, const Progress& progress) {
+ElementField gathered(const SoundScene& scene, const ReflectedLight& light,
+                      const AdaptiveField& polynomials, double tolerance,
+                      const Progress& progress) {
   const int rays = gathering_rays(tolerance / 2);
   const ElementTable& elements = polynomials.elements;
   return fitted(
       elements, polynomials.field.order,
       [&](int e, const Vec3& p) {
-        return light.gather({p, elements.normal[at(e)]}, rays);
+        const PlaneFrame& frame = scene.surfaces[at(elements.surface[at(e)])].frame;
+        return light.gather({frame.foot(p), elements.normal[at(e)]}, rays);
       },
       progress);
 }
@@ -207,7 +209,7 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   if (gathers(options.final_gather, report))
     stages.run("final gather", [&] {
       ElementField field =
-          gathered(*total.reflected, on_elements, options.reflected.tolerance, progress);
+          gathered(scene, *total.reflected, on_elements, options.reflected.tolerance, progress);
       if (!progress.stopped()) on_elements.field = std::move(field);
       return on_elements.elements.corners.size();
     });

@@ -26,6 +26,21 @@ Rgb at_most(const Rgb& lost, const Rgb& there) {
   return (off > 0).select(off * most / (off + most), 0);
 }
 
+/// ∫ |error|², weighted, if what counts as closed loses light through its gaps.
+double lost_in_gaps(const ReflectedSystem& system, const ElementField& there,
+                    const std::vector<double>& weight) {
+  const auto& [mesh, light, exchange, systems] = system;
+  double square = 0;
+  for (int e = 0; e < mesh.count(); ++e) {
+    const int s = systems.of_element[at(e)];
+    const double gaps = systems.gaps[s];
+    if (!(gaps > 0)) continue;
+    const Rgb lost = (gaps / systems.absorption.row(s).transpose()).min(1);
+    square += mesh.area(e) * weight[at(e)] * (lost * there.of(e).row(0).transpose()).square().sum();
+  }
+  return square;
+}
+
 }  // namespace
 
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
@@ -46,11 +61,15 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
     heaviest = std::max(heaviest, weight[at(e)]);
   }
   estimate.square *= heaviest * std::pow(surely * amplification, 2);
-  if (estimate.square <= negligible) return estimate;
+  const ElementField there = irradiance.whole(mesh, systems);
+  estimate.in_gaps = lost_in_gaps(system, there, weight);
+  if (estimate.square <= negligible) {
+    estimate.square += estimate.in_gaps;
+    return estimate;
+  }
   ElementField missing = missing_light(system, lost);
   balance_missing(system, irradiance.rest, unsure, lost, missing);
-  const ElementField there = irradiance.whole(mesh, systems);
-  estimate.square = 0;
+  estimate.square = estimate.in_gaps;
   double most = 0;
   for (int e = 0; e < mesh.count(); ++e) {
     const Rgb error = at_most(missing.of(e).row(0).transpose(), there.of(e).row(0).transpose());

@@ -10,7 +10,8 @@ namespace halfshade {
 
 /// What light is off because it is not known exactly how much of it gets lost.
 struct BalanceEstimate {
-  double square = 0;  ///< ∫ |error|², weighted
+  double square = 0;   ///< ∫ |error|², weighted
+  double in_gaps = 0;  ///< of that, what closed systems may lose in theirs
   /// Element → its part in that, about; 0 if that is little.
   std::vector<double> of_element;
   double elements = 0;  ///< about as many had to be added to know
@@ -20,8 +21,8 @@ struct BalanceEstimate {
 /// else matters: what gets lost unseen would have been reflected as often. Solves for light that is
 /// put in where it gets lost, unless that is sure to matter less than `negligible`, by what
 /// `amplification` a residual may have; as light gets lost, less is there to get lost. Of the
-/// constant that a closed system holds as much comes in as gets out. `unsure` is that of each
-/// element, `weight` how much the square of its error counts.
+/// constant that a closed system holds as much comes in as gets out, but what its gaps may lose.
+/// `unsure` is that of each element, `weight` how much the square of its error counts.
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
                                  const SplitIrradiance& irradiance,
                                  const std::vector<UnsureLoss>& unsure,

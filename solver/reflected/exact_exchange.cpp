@@ -25,7 +25,7 @@ void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& eleme
 
 IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
                          const Vec3& position, std::span<const Sighted> targets) {
-  IrradianceRow row = maker.row({position, scene.roots.normal[at(root)]}, targets);
+  IrradianceRow row = maker.row(maker.sight().point_of(root, position), targets);
   if (!scene.cells.closed[at(scene.cells.before(root))] || !(row.sum > 0)) return row;
   row.off = std::max(row.off, std::abs(row.sum - 1));
   // What is more than one is counted already.

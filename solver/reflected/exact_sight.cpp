@@ -144,6 +144,12 @@ const std::vector<int>& ExactSight::roots(int surface) const {
   return impl_->targets[at(surface)].roots;
 }
 
+SurfacePoint ExactSight::point_of(int root, const Vec3& place) const {
+  const ElementTable& roots = impl_->reflecting.roots;
+  const PlaneFrame& frame = impl_->scene.surfaces[at(roots.surface[at(root)])].frame;
+  return {frame.foot(place), roots.normal[at(root)]};
+}
+
 std::vector<Sighted> ExactSight::may_see(const std::array<Vec3, 3>& part, int root) const {
   const auto& [scene, reflecting, opaque, targets, sighters] = *impl_;
   const int own = reflecting.roots.surface[at(root)], cell = reflecting.cells.before(root);

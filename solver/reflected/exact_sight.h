@@ -34,6 +34,9 @@ class ExactSight {
   /// The roots of a surface.
   const std::vector<int>& roots(int surface) const;
 
+  /// A place of a root, as a point in its surface's plane.
+  SurfacePoint point_of(int root, const Vec3& place) const;
+
   /// The surfaces that points of a part of a root may see. Cost: a shaft for each that faces it.
   std::vector<Sighted> may_see(const std::array<Vec3, 3>& part, int root) const;
 

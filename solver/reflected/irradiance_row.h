@@ -46,6 +46,7 @@ class RowMaker {
   IrradianceRow row(const SurfacePoint& point, std::span<const Sighted> targets) const;
 
   const RowAccuracy& accuracy() const { return accuracy_; }
+  const ExactSight& sight() const { return sight_; }
 
  private:
   /// Adds moments of what is seen of a surface; their sum.

@@ -24,11 +24,13 @@ LightSystems find_systems(const ReflectingScene& scene, const FirstLight& light,
   systems.of_element = sets.numbered();
   const int count = 1 + *std::max_element(systems.of_element.begin(), systems.of_element.end());
   systems.closed.assign(at(count), false);
-  systems.area = Eigen::ArrayXd::Zero(count);
+  systems.area = systems.gaps = Eigen::ArrayXd::Zero(count);
   systems.absorption = systems.power = ChannelArray::Zero(count, 3);
   for (int e = 0; e < mesh.count(); ++e) {
     const int s = systems.of_element[at(e)];
-    systems.closed[at(s)] = scene.cells.closed[at(scene.cells.before(mesh.root(e)))];
+    const std::size_t cell = at(scene.cells.before(mesh.root(e)));
+    systems.closed[at(s)] = scene.cells.closed[cell];
+    if (systems.closed[at(s)]) systems.gaps[s] = scene.cells.gaps[cell];
     systems.area[s] += mesh.area(e);
     systems.absorption.row(s) += mesh.area(e) * (1 - light.mean_rho(mesh, e)).transpose();
   }

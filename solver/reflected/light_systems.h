@@ -18,6 +18,7 @@ struct LightSystems {
   std::vector<bool> closed;  ///< no light leaves it
   Eigen::ArrayXd area;
   ChannelArray absorption;  ///< ∫ (1 − ρ)
+  Eigen::ArrayXd gaps;      ///< of closed systems, see SpaceCells
   ChannelArray power;       ///< ∫ S, of closed systems
 
   int count() const { return static_cast<int>(closed.size()); }

@@ -106,12 +106,15 @@ NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
   if (scene_.cells.swallowing[at(cell)] < 0 || backs_.empty()) return result;
   const std::array<Vec3, 3>& corners = mesh.forest.corners(mesh.triangle[at(element)]);
   const Vec3& normal = scene_.roots.normal[at(root)];
+  const std::vector<int>& plane = scene_.visibility.soup().plane;
   const double size = std::sqrt(mesh.area(element));
   Bounds box;
   for (const Vec3& p : corners) box.include(p);
   result.height = HUGE_VAL;
   visit_overlaps(boxes_, box.grown(nearest_back * size), [&](int k) {
     const int r = backs_[at(k)];
+    // Corners that elements share with neighbours may lie off the plane of both.
+    if (plane[at(r)] == plane[at(root)]) return;
     const Vec3& looks = scene_.roots.normal[at(r)];
     if (scene_.cells.of_side[at(r)][1] != cell || !(looks.dot(normal) > 0)) return;
     const std::array<Vec3, 3> back = scene_.roots.triangle(r);

@@ -59,7 +59,8 @@ class SlitIntegrals {
 
   /// ω
   double seen(const TrianglePlace& place) {
-    const SurfacePoint point{view_.mesh.position(view_.element, place), view_.normal};
+    const SurfacePoint point = view_.sight.point_of(view_.mesh.root(view_.element),
+                                                    view_.mesh.position(view_.element, place));
     double sum = 0;
     for (const Sighted& target : view_.targets) {
       view_.sight.see(point, target, part_);

@@ -176,15 +176,9 @@ class Rounds {
     if (kept_rays_) found.noise = kept_rays_->noise(mesh, found.leaving);
     found.noise_kept = noise_of_elements(found.noise, found.weight);
     if (kept_rays_) kept_rays_->scale_to_all_rays(mesh, found.noise_kept);
-    found.rest = by_kept_rows(system, found.leaving);
+    found.rest = arriving_by_rows(system, found.leaving);
     passes_.correct(mesh, found.rest, found.noise);
     balance(system, found);
-  }
-
-  static ElementField by_kept_rows(const ReflectedSystem& system, const ElementField& leaving) {
-    ElementField rest = system.exchange.source(system.mesh);
-    rest.coefficients += system.exchange.apply(system.mesh, leaving).coefficients;
-    return rest;
   }
 
   bool all_bounces() const { return options_.bounces < 0; }
@@ -217,7 +211,7 @@ class Rounds {
       found.leaving = found.reflected;
       found.base = found.irradiance;
     }
-    const ElementField kept = by_kept_rows(system, found.leaving);
+    const ElementField kept = arriving_by_rows(system, found.leaving);
     const FinalPass pass =
         final_pass(state_.reflecting, mesh, light, found.leaving, strata_, ++use_, progress_);
     state_.report.rays += pass.rays;
@@ -312,6 +306,7 @@ class Rounds {
     // More elements do not show what so many rays do not find.
     const bool cannot_show = unbalanced.elements == 0 || unbalanced.elements > most_for_gaps;
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
+    if (unbalanced.in_gaps > goal) report.end = ReflectedEnd::gaps;
     if (unbalanced.square > goal && cannot_show) return Next::end;
     const bool is_reflected_on = on > goal && square <= goal && unbalanced.square <= goal;
     if (is_reflected_on && reflected.is_unsure() && surer_ < surest) return Next::points;
@@ -358,8 +353,8 @@ class Rounds {
   /// Rays that bring the noise down to what suits the goal, or to `enough`. False if there may be
   /// no more.
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
-    const double noise = summed(found.noise_left),
-                 of_elements = std::max(input.estimate.sum - noise, 0.);
+    const double noise = summed(found.noise_left);
+    const double of_elements = std::max(input.estimate.sum - noise, 0.);
     // Which judge() adds.
     const double doubt = 2 * input.estimate.deviation / std::max(input.estimate.sum, noise);
     const double allowed =

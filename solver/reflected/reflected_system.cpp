@@ -138,6 +138,12 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
   return solution;
 }
 
+ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving) {
+  ElementField arriving = system.exchange.source(system.mesh);
+  arriving.coefficients += system.exchange.apply(system.mesh, leaving).coefficients;
+  return arriving;
+}
+
 ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces) {
   const auto& [mesh, light, exchange, systems] = system;
   const ElementField first = exchange.source(mesh);

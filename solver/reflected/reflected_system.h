@@ -31,6 +31,9 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
                                   const ChannelArray& power, double tolerance,
                                   const ElementField* ambient = nullptr);
 
+/// K (S + `leaving`) by the exchange's rows.
+ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving);
+
 /// The light that has been reflected 1 … bounces − 1 times before it is once more.
 ReflectedSolution sum_bounces(const ReflectedSystem& system, int bounces);
 

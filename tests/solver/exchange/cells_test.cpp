@@ -173,5 +173,20 @@ TEST(Cells, AWallThroughARoomPartsItAndAPaneThroughAWallDoesNot) {
   EXPECT_EQ(Parted(scene).before(0, 8).size(), 1u);
 }
 
+TEST(SpaceCells, TellTheGapsOfWhatCountsAsClosed) {
+  const auto gaps = [](const Scene& scene) {
+    const Parted parted(scene);
+    EXPECT_TRUE(parted.are_closed(0, 6));
+    return parted.cells.gaps[at(*parted.before(0, 1).begin())];
+  };
+  EXPECT_NEAR(gaps(test::box_with_a_lifted_lid(1e-6, 0.5)), 4e-6, 1e-12);
+  Scene turned = test::box_with_a_lifted_lid(0, 0.5);
+  EXPECT_EQ(gaps(turned), 0);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  for (Vec3& p : turned.vertices) p = turn * p + Vec3(3, 1, 7);
+  EXPECT_EQ(gaps(turned), 0) << "rounding";
+}
+
 }  // namespace
 }  // namespace halfshade

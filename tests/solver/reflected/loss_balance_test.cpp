@@ -72,5 +72,19 @@ TEST(LossBalance, RaysFindSlitsToo) {
   }
 }
 
+TEST(LossBalance, WhatMayGetLostThroughGapsThatCountAsClosedIsTold) {
+  // Whether a millionth is a gap, digits of a file do not tell. With it the box holds
+  // 1 / (1 - rho + 4 gap (1 / 2 + pi / 8) / 6) to first order, without it 1 / (1 - rho).
+  const double gap = 1e-6;
+  for (const double rho : {0.999, 0.9999, 0.999999}) {
+    const ReflectedReport report =
+        light_in_box(gap, rho, 0.01, ReflectedVisibility::exact).report();
+    const double off = 4 * gap * (0.5 + M_PI / 8) / (6 * (1 - rho));
+    EXPECT_GE(report.error, off) << rho;
+    EXPECT_EQ(report.end, off > 0.01 ? ReflectedEnd::gaps : ReflectedEnd::accurate) << rho;
+  }
+  EXPECT_LT(light_in_box(0, 1 - 1e-12, 0.01, ReflectedVisibility::exact).report().error, 1e-6);
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -73,12 +73,14 @@ PointView::PointView(const OpaqueScene& scene)
       signs_(topology_.triangles.size()),
       edge_on_(topology_.surfaces.size()),
       edges_(topology_.edges.size()),
-      sides_beyond_(topology_.vertices.size()) {}
+      sides_beyond_(topology_.vertices.size()),
+      of_emitter_(topology_.vertices.size()) {}
 
 void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double jitter) {
   if (++query_ == 0) {  // after 2^32 queries every mark would look fresh
     for (auto* marks : {&vertices_, &cuts_, &signs_, &edge_on_, &edges_, &sides_beyond_})
       std::fill(marks->begin(), marks->end(), Kept{});
+    std::fill(of_emitter_.begin(), of_emitter_.end(), 0);
     query_ = 1;
   }
   ++effort_.looks;
@@ -94,6 +96,14 @@ void PointView::start(const Vec3& point, const Vec3& normal, int emitter, double
   distance_ = emitter_->height(point);
   magnitude_ = std::max(topology_.surfaces[at(emitter)].magnitude, point.lpNorm<Eigen::Infinity>());
   slack_ = margins::slack * magnitude_;
+  mark_vertices(emitter);
+}
+
+void PointView::mark_vertices(int emitter) {
+  const OpaqueTopology::OpaqueSurface& surface = topology_.surfaces[at(emitter)];
+  for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r)
+    for (const OpaqueTopology::OutlineVertex& corner : topology_.ring(r))
+      of_emitter_[at(corner.vertex)] = query_;
 }
 
 double PointView::slack_at(const Vec3& position) const {
@@ -128,7 +138,13 @@ int PointView::add_corner(const Vec3& position, std::int64_t rank) {
 
 int PointView::corner_of_vertex(int vertex) {
   Kept& kept = vertices_[at(vertex)];
-  if (!is_fresh(kept)) kept = {query_, add_corner(topology_.vertices[at(vertex)], vertex)};
+  if (is_fresh(kept)) return kept.value;
+  kept = {query_, add_corner(topology_.vertices[at(vertex)], vertex)};
+  if (of_emitter_[at(vertex)] == query_) {
+    // Where it is joined with others it may lie off the plane.
+    corners.back().height = 0;
+    corners.back().side = PlaneSide::on;
+  }
   return kept.value;
 }
 

@@ -150,6 +150,7 @@ class PointView {
   /// The same where it is known how the triangle runs; 0: it is not.
   int winding(int a, int b, int c, const DirectionBeside& direction, int sign) const;
   int add_corner(const Vec3& position, std::int64_t rank);
+  void mark_vertices(int emitter);
 
   const OpaqueTopology& topology_;
   const SilhouetteTrees& silhouette_trees_;
@@ -157,6 +158,7 @@ class PointView {
   const SightCandidates everything_;
   const SightCandidates* candidates_ = nullptr;
   std::vector<Kept> vertices_, cuts_, signs_, edge_on_, edges_, sides_beyond_;
+  std::vector<std::uint32_t> of_emitter_;  ///< vertex → the last start for an emitter with it
   std::vector<int> layer_surfaces_;
   std::uint32_t query_ = 0;
   std::int64_t next_rank_ = 0;  ///< of corners that are neither vertices nor cuts

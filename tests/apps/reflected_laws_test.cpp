@@ -172,6 +172,21 @@ TEST_P(AllLightLaws, WhatIsFarAwayOrTinyChangesNothing) {
   }
 }
 
+/// Corners that meet, and those of a face, are off a plane by what digits of single precision come
+/// to, as in most files: light is the same, and takes not many times the elements.
+TEST_P(AllLightLaws, AreTheSameInSinglePrecision) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+  Scene turned = scene_;
+  for (Vec3& p : turned.vertices) p = turn * p + diagonal(scene_) * Vec3(0.3, 0.2, -0.2);
+  Scene rounded = turned;
+  for (Vec3& p : rounded.vertices) p = p.cast<float>().cast<double>();
+  const SolveResult expected = solved(turned), result = solved(rounded);
+  EXPECT_LE(result.elements.count(), 4 * expected.elements.count());
+  expect_near(powers(expected, scene_), powers(result, scene_), "rounded");
+  expect_near(powers(expected_, scene_), powers(expected, scene_), "turned");
+}
+
 /// Few scenes are large enough for rays of their own accord.
 TEST(LawsOfRays, WhatIsFarAwayOrTinyChangesNothing) {
   SolveOptions options;

@@ -69,15 +69,16 @@ Rgb GoalAdjoint::leaving(int surface, const Vec3& position) const {
   return exitance(surface) + rho(surface, position) * irradiance_(surface, position);
 }
 
-Rgb GoalAdjoint::leaving_exactly(int surface, const SurfacePoint& point, int rays) const {
+GoalAdjoint::Importance GoalAdjoint::exactly(int surface, const SurfacePoint& point,
+                                             int rays) const {
   const Rgb reflected = rho(surface, point.position);
-  if ((reflected == 0).all()) return Rgb::Constant(exitance(surface));
+  if ((reflected == 0).all()) return {Rgb::Zero(), Rgb::Constant(exitance(surface))};
   const ReflectedLight* more = light_.reflected_light ? &*light_.reflected_light : nullptr;
   Rgb arriving = Rgb::Zero();
   if (!more || !more->report().through_operator)
     arriving = lit_.direct_light().irradiance(point).irradiance;
   if (more) arriving += more->gather(point, rays, own_pattern);
-  return exitance(surface) + reflected * arriving;
+  return {arriving, exitance(surface) + reflected * arriving};
 }
 
 double GoalAdjoint::integral() const {

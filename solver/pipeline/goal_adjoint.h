@@ -34,9 +34,13 @@ class GoalAdjoint {
   /// What leaves, by polynomials.
   Rgb leaving(int surface, const Vec3& position) const;
 
-  /// The same from exact direct light and what is reflected, gathered once more; see
-  /// ReflectedLight::gather.
-  Rgb leaving_exactly(int surface, const SurfacePoint& point, int rays) const;
+  /// What arrives at a point and leaves it.
+  struct Importance {
+    Rgb arriving = Rgb::Zero(), leaving = Rgb::Zero();
+  };
+  /// From exact direct light and what is reflected, gathered once more; see ReflectedLight::gather.
+  /// Where nothing is reflected, what arrives is left out.
+  Importance exactly(int surface, const SurfacePoint& point, int rays) const;
 
   /// ∫ z of the channel where it is largest.
   double integral() const;

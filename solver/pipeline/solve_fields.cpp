@@ -62,6 +62,9 @@ std::string reason(ReflectedEnd end) {
       return "more elements of reflected light than there may be";
     case ReflectedEnd::rays:
       return "more rays of reflected light than there may be";
+    case ReflectedEnd::gaps:
+      return "surfaces that meet more closely: what closed parts of space lose between them, if "
+             "these are gaps, is not known";
     case ReflectedEnd::rounds:
       return "more rounds of refining reflected light than it pays to make";
     default:
@@ -147,13 +150,18 @@ void fill_powers(SolveResult& result) {
   const Eigen::Map<const Eigen::ArrayXd> areas(result.elements.area.data(),
                                                result.elements.count());
   const Solution& solution = result.solution;
+  const bool is_closed = result.most_bounces < 0 && result.reflected.systems > 0 &&
+                         result.reflected.systems == result.reflected.closed_systems;
   result.radiosity.systems = result.reflected.systems;
   result.radiosity.unknowns = static_cast<int>(result.refinement.unknowns);
   for (int c = 0; c < 3; ++c) {
     ChannelReport& channel = result.radiosity.channel[at(c)];
     channel.emitted_power = (areas * solution.exitance.col(c)).sum();
     channel.absorbed_power = (areas * (1 - solution.rho.col(c)) * solution.irradiance.col(c)).sum();
-    channel.escaped_power = std::max(channel.emitted_power - channel.absorbed_power, 0.);
+    const double left = channel.emitted_power - channel.absorbed_power;
+    channel.escaped_power = is_closed ? 0 : std::max(left, 0.);
+    if (channel.emitted_power > 0)
+      channel.balance = std::abs(left - channel.escaped_power) / channel.emitted_power;
     channel.residual = result.reflected.residual;
     channel.iterations = result.reflected.iterations;
   }
@@ -212,7 +220,8 @@ void fill_goal(const PreparedScene& prepared, const Goal& goal, const SolveOptio
                          share_of_deviation * options.tolerance * goal.weights.norm, progress);
         if (!more.complete) return std::size_t{0};
         found.mean += more.missing;
-        error = goal.adjoint->error() * error + deviations_claimed * more.deviation.matrix().norm();
+        error = goal.adjoint->error() * (error + more.moved.matrix().norm()) +
+                deviations_claimed * more.deviation.matrix().norm();
         return more.points;
       });
     const double mean = found.mean.matrix().norm();
@@ -329,6 +338,8 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
   if (reflects)
     if (std::string lost = weak_lights_lost(result); !lost.empty()) result.not_reached = lost;
   fill_powers(result);
+  if (!asked && !progress.stopped())
+    add(power_warnings(result.radiosity, asked_for.tolerance), result.warnings);
 }
 
 }  // namespace halfshade

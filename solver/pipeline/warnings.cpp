@@ -165,6 +165,8 @@ const char* name_of(Warning::Kind kind) {
       return "elements_exceeded";
     case Warning::Kind::unknowns_exceeded:
       return "unknowns_exceeded";
+    case Warning::Kind::power_gained:
+      return "power_gained";
     case Warning::Kind::exchange_estimated:
       return "exchange_estimated";
     case Warning::Kind::backs_exchange:
@@ -252,6 +254,22 @@ std::vector<Warning> unknowns_warnings(std::size_t unknowns, int max_unknowns, i
        fmt::format("direct light takes {} unknowns{}, more than the {} that --max-unknowns "
                    "allows",
                    unknowns, rounds > 1 ? "" : " before any element is divided", max_unknowns)}};
+}
+
+std::vector<Warning> power_warnings(const RadiosityReport& report, double tolerance) {
+  double gained = 0;
+  for (int c = 0; c < report.channels; ++c) {
+    const ChannelReport& channel = report.channel[at(c)];
+    if (channel.emitted_power > 0)
+      gained = std::max(gained, channel.absorbed_power / channel.emitted_power - 1);
+  }
+  if (gained <= tolerance) return {};
+  return {
+      {Warning::Kind::power_gained,
+       fmt::format("surfaces absorb {:.2g} % more than lamps emit: the error asked for is of all "
+                   "light, which little that is very bright makes up, and dark places may be off "
+                   "by far more of their own; --goal asks for the mean of a group",
+                   100 * gained)}};
 }
 
 std::vector<Warning> exchange_warnings(const ExchangeReport& report) {

@@ -24,6 +24,7 @@ struct Warning {
     tolerance_raised,    ///< curves above the tolerance were left out of the mesh
     elements_exceeded,   ///< the geometry takes more elements than asked for
     unknowns_exceeded,   ///< direct light takes more unknowns than there may be
+    power_gained,        ///< surfaces absorb more than is emitted
     exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
     backs_exchange,      ///< surfaces exchange heat with backs in closed parts of space
     lost_by_factors,     ///< light gets lost in a closed space, for factors are off
@@ -73,6 +74,11 @@ std::vector<Warning> mesh_warnings(const MeshOutcome& outcome);
 /// Of direct light that takes more unknowns than allowed; nothing if it does not. `rounds`: how
 /// often its elements were looked at, so that after one none is divided.
 std::vector<Warning> unknowns_warnings(std::size_t unknowns, int max_unknowns, int rounds);
+
+/// Of surfaces that absorb more than emitters give, by more than this share of it in some channel;
+/// nothing if none do. Where little is bright, an error that is small beside that is none beside
+/// what is dark.
+std::vector<Warning> power_warnings(const RadiosityReport& report, double tolerance);
 
 /// Of factors that are estimates; nothing if none are.
 std::vector<Warning> exchange_warnings(const ExchangeReport& report);

@@ -36,6 +36,11 @@ ExactGather::Gathered ExactGather::gather(int root, const Vec3& position,
   return {halfshade::irradiance(row, leaving_), row.sum, row.unsure};
 }
 
+Rgb ExactGather::leaving(int surface, const Vec3& position) const {
+  const ForestPlace leaf = mesh_.forest.leaf_at(surface, position);
+  return leaf.triangle < 0 ? Rgb(Rgb::Zero()) : leaving_.value(leaf.triangle, leaf.place);
+}
+
 Rgb ExactGather::irradiance(const SurfacePoint& point) const {
   return halfshade::irradiance(maker_.row(point, sight_.may_see(point)), leaving_);
 }

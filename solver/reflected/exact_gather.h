@@ -26,6 +26,9 @@ class ExactGather {
   /// The most that leaves any triangle in the mean.
   const Rgb& brightest() const { return brightest_; }
 
+  /// What leaves a place of a surface, as it stands for what does.
+  Rgb leaving(int surface, const Vec3& position) const;
+
   /// At any point, of which nothing is known.
   Rgb irradiance(const SurfacePoint& point) const;
 

@@ -112,6 +112,14 @@ void finish(ReflectedLight::State& state) {
   state.report.unknowns = static_cast<std::size_t>(state.field.coefficients.rows());
 }
 
+const ExactGather& exact_gather(const ReflectedLight::State& state) {
+  std::call_once(state.gather_made, [&] {
+    state.gather.emplace(*state.sight, state.reflecting, state.light, state.mesh,
+                         state.leaving_rest, state.gather_accuracy, points_of_exact_projection);
+  });
+  return *state.gather;
+}
+
 Rgb value_in(const ReflectedMesh& mesh, const QuickField& field, int surface,
              const Vec3& position) {
   const ForestPlace leaf = mesh.forest.leaf_at(surface, position);
@@ -135,14 +143,7 @@ Rgb ReflectedLight::irradiance_after(int reflections, int surface, const Vec3& p
 }
 
 Rgb ReflectedLight::gather(const SurfacePoint& point, int rays, std::uint64_t pattern) const {
-  if (state_->sight) {
-    const State& state = *state_;
-    std::call_once(state.gather_made, [&] {
-      state.gather.emplace(*state.sight, state.reflecting, state.light, state.mesh,
-                           state.leaving_rest, state.gather_accuracy, points_of_exact_projection);
-    });
-    return state.gather->irradiance(point) / state.scale;
-  }
+  if (state_->sight) return exact_gather(*state_).irradiance(point) / state_->scale;
   std::uint64_t seed = pattern;
   int exponent = 0;  // which changes with the unit
   for (const double x : point.position)
@@ -153,6 +154,11 @@ Rgb ReflectedLight::gather(const SurfacePoint& point, int rays, std::uint64_t pa
       gathered(gather_rays(state_->reflecting, state_->light, Looks::exact, {&above, 1}),
                state_->mesh.forest, *state_->leaving);
   return found.row(0).transpose() / state_->scale;
+}
+
+std::optional<Rgb> ReflectedLight::gathered_from(int surface, const Vec3& position) const {
+  if (!state_->sight) return std::nullopt;
+  return exact_gather(*state_).leaving(surface, position) / state_->scale;
 }
 
 const ReflectedReport& ReflectedLight::report() const { return state_->report; }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -59,6 +60,7 @@ enum class ReflectedEnd {
   nothing,      ///< nothing is reflected: G = 0
   elements,     ///< max_elements stopped it short of the tolerance
   rays,         ///< max_rays did
+  gaps,         ///< closed parts of space may lose light where surfaces count as meeting
   rounds,       ///< max_rounds did
   interrupted,  ///< what was found until then; 0 everywhere if that was nothing
 };
@@ -113,6 +115,11 @@ class ReflectedLight {
   /// polynomials for 1,000 rays, and noisier for a few. Errors are independent at other points and
   /// with other patterns of rays. After a number of bounces: what arrives after one more.
   Rgb gather(const SurfacePoint& point, int rays, std::uint64_t pattern = 0) const;
+
+  /// What leaves a place of a surface, S and what is reflected of G, as gather() takes it:
+  /// projected on parts of elements. Nothing if the solution is by rays, which ask at the places
+  /// themselves.
+  std::optional<Rgb> gathered_from(int surface, const Vec3& position) const;
 
   const ReflectedReport& report() const;
 

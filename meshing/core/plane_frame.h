@@ -18,8 +18,8 @@ struct PlaneFrame {
   Vec3 to_space(const Vec2& q) const { return origin + q.x() * e1 + q.y() * e2; }
   /// Signed distance, positive in front.
   double height(const Vec3& p) const { return normal.dot(p - origin); }
-  /// The nearest point of the plane. Elements share corners with their neighbours, so that points of
-  /// theirs lie off their surface by as much as a file's digits put it off its corners; exact
+  /// The nearest point of the plane. Elements share corners with their neighbours, so that points
+  /// of theirs lie off their surface by as much as a file's digits put it off its corners; exact
   /// visibility is asked in its plane.
   Vec3 foot(const Vec3& p) const { return p - height(p) * normal; }
 };

@@ -50,9 +50,10 @@ void add_solve_method(CLI::App& app, SolveOptions& options);
 void add_factors_by(CLI::App& app, ExchangeOptions& options,
                     std::filesystem::path* saved = nullptr);
 
-/// --max-elements, of those that solve a scene or say how. Once it and --elements are read, the
-/// latter, if given, may not be more (CLI::ValidationError); if not given, it is lowered to that.
+/// --max-elements, of commands that solve a scene or say how.
 void add_max_elements(CLI::App& app, int& elements);
+/// Once it and --elements are read: where that many are made, the latter may not be more
+/// (CLI::ValidationError); if it was not given, it is lowered to that.
 void keep_to_limit(const CLI::App& app, SolveOptions& options);
 /// Notes --factors, --hemicube, --rays and --visibility where the method leaves them nothing to do.
 void note_idle_factors(const CLI::App& app, const SolveOptions& options,

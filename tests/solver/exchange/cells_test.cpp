@@ -173,7 +173,7 @@ TEST(Cells, AWallThroughARoomPartsItAndAPaneThroughAWallDoesNot) {
   EXPECT_EQ(Parted(scene).before(0, 8).size(), 1u);
 }
 
-TEST(SpaceCells, TellTheGapsOfWhatCountsAsClosed) {
+TEST(Cells, TellTheGapsOfWhatCountsAsClosed) {
   const auto gaps = [](const Scene& scene) {
     const Parted parted(scene);
     EXPECT_TRUE(parted.are_closed(0, 6));

@@ -226,5 +226,20 @@ TEST(Warnings, MeshesThatAreNotAsAskedFor) {
             std::string::npos);
 }
 
+TEST(Warnings, MorePowerThanThereIs) {
+  RadiosityReport report;
+  report.channels = 2;
+  report.channel[0].emitted_power = report.channel[1].emitted_power = 2;
+  report.channel[0].absorbed_power = 1;
+  report.channel[1].absorbed_power = 2.02;
+  EXPECT_TRUE(power_warnings(report, 0.011).empty());
+  report.channel[2].absorbed_power = 9;  // of a channel that is not used
+  const std::vector<Warning> warnings = power_warnings(report, 0.009);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_STREQ(name_of(warnings[0].kind), "power_gained");
+  EXPECT_NE(warnings[0].sentence.find("absorb 1 % more"), std::string::npos)
+      << warnings[0].sentence;
+}
+
 }  // namespace
 }  // namespace halfshade

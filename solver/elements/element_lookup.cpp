@@ -65,12 +65,21 @@ TrianglePlace clamped(const TrianglePlace& p) {
 
 }  // namespace
 
+ElementLookup::PlaceMap ElementLookup::map_to_places(const std::array<Vec3, 3>& triangle,
+                                                     const Vec3& normal) {
+  const PlaneFrame frame = make_frame(triangle[0], normal);
+  Eigen::Matrix2d edges;
+  edges << frame.to_plane(triangle[1]), frame.to_plane(triangle[2]);
+  Eigen::Matrix<double, 2, 3> to_plane;
+  to_plane << frame.e1.transpose(), frame.e2.transpose();
+  const Eigen::Matrix<double, 2, 3> slope = edges.inverse() * to_plane;
+  constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+  return {triangle[0], slope.allFinite() ? slope : slope.Constant(nowhere).eval()};
+}
+
 ElementLookup::ElementLookup(const ElementTable& elements) {
   for (int e = 0; e < elements.count(); ++e) {
-    const auto corner = elements.triangle(e);
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << corner[1] - corner[0], corner[2] - corner[0];
-    maps_.push_back({corner[0], edges.colPivHouseholderQr().solve(Eigen::Matrix3d::Identity())});
+    maps_.push_back(map_to_places(elements.triangle(e), elements.normal[at(e)]));
     const std::size_t surface = at(elements.surface[at(e)]);
     if (grids_.size() <= surface) grids_.resize(surface + 1);
     grids_[surface].elements.push_back(e);
@@ -167,7 +176,7 @@ ForestPlace ElementLookup::find(int surface, const Vec3& position) const {
     const PlaceMap& map = maps_[at(e)];
     const TrianglePlace place = map.slope * (position - map.origin);
     const double least = std::min({place.x(), place.y(), 1 - place.x() - place.y()});
-    if (least <= most) return;
+    if (!(least > most)) return;
     most = least;
     best = {e, place};
   };

@@ -31,11 +31,14 @@ class ElementLookup {
   std::size_t entries() const { return cells_.size() + items_.size(); }
 
  private:
-  /// Takes points of a triangle's plane to places.
+  /// Takes points of a surface to places in a triangle of it.
   struct PlaceMap {
     Vec3 origin;
     Eigen::Matrix<double, 2, 3> slope;
   };
+  /// In the surface's plane, which a splinter between corners that lie off it by rounding may cross
+  /// at any angle. NaN if nothing of the triangle is left there.
+  static PlaceMap map_to_places(const std::array<Vec3, 3>& triangle, const Vec3& normal);
   /// Cells of a surface: columns and rows; cell (i, j) is at first_cell + i + j columns.
   struct Grid {
     Vec3 origin = Vec3::Zero();

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -22,6 +23,9 @@ constexpr double edge_margin = 1e-12;
 /// What rounding may put a corner off, relative to its largest coordinate: shells thinner than this
 /// are sheets.
 constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+/// So are those thinner than so many times what corners lie off their planes: splinters between
+/// such corners may turn any way, and their sides may belong to no shell or to a wrong one.
+constexpr double off_planes = 4;
 
 struct RayHit {
   double distance = HUGE_VAL;
@@ -42,15 +46,21 @@ std::optional<double> meet(const std::array<Vec3, 3>& t, const Vec3& origin) {
 
 /// The volume that a shell bounds: positive for the outside of a bounded cell, negative for a body
 /// in a cell, zero for a sheet with both its sides.
-std::vector<double> volumes(const ElementTable& elements, const Shells& shells) {
+std::vector<double> volumes(const SoundScene& scene, const ElementTable& elements,
+                            const Shells& shells) {
   const std::size_t count = static_cast<std::size_t>(shells.count);
-  std::vector<double> volume(count), doubt(count);
+  std::vector<double> volume(count), doubt(count), area(count), off(count);
   std::vector<int> origin(count, -1);
   for (int e = 0; e < elements.count(); ++e) {
     const auto [front, back] = shells.of_side[at(e)];
-    if (front == back) continue;
     const auto [a, b, c] = elements.triangle(e);
+    const PlaneFrame& frame = scene.surfaces[at(elements.surface[at(e)])].frame;
+    const double height =
+        std::max({std::abs(frame.height(a)), std::abs(frame.height(b)), std::abs(frame.height(c))});
     for (const auto& [shell, sign] : {std::pair(front, -1.), std::pair(back, 1.)}) {
+      area[at(shell)] += elements.area[at(e)];
+      off[at(shell)] = std::max(off[at(shell)], height);
+      if (front == back) continue;
       int& first = origin[at(shell)];
       if (first < 0) first = elements.corners[at(e)][0];
       const Vec3& o = elements.points[at(first)];
@@ -60,7 +70,7 @@ std::vector<double> volumes(const ElementTable& elements, const Shells& shells) 
     }
   }
   for (std::size_t k = 0; k < count; ++k)
-    if (std::abs(volume[k]) <= doubt[k]) volume[k] = 0;
+    if (std::abs(volume[k]) <= doubt[k] + off_planes * off[k] * area[k]) volume[k] = 0;
   return volume;
 }
 
@@ -113,14 +123,21 @@ class RayIndex {
   FlatTree tree_;
 };
 
-/// The planes of a shell's elements, among some, that have a corner here.
+/// Shell → whether it is one of those that a ray starts from.
+using IsOwn = std::function<bool(int)>;
+
+bool has_own_side(const Shells& shells, int element, const IsOwn& is_own) {
+  const auto [front, back] = shells.of_side[at(element)];
+  return is_own(front) || is_own(back);
+}
+
+/// The planes of own elements, among some, that have a corner here.
 std::vector<int> planes_at(const SoundScene& scene, const ElementTable& elements,
-                           const Shells& shells, int shell, const Vec3& corner,
+                           const Shells& shells, const IsOwn& is_own, const Vec3& corner,
                            const std::vector<int>& near) {
   std::vector<int> planes;
   for (const int e : near) {
-    const auto& sides = shells.of_side[at(e)];
-    if (sides[0] != shell && sides[1] != shell) continue;
+    if (!has_own_side(shells, e, is_own)) continue;
     const auto corners = elements.triangle(e);
     if (std::find(corners.begin(), corners.end(), corner) != corners.end())
       planes.push_back(scene.surfaces[at(elements.surface[at(e)])].plane);
@@ -128,21 +145,20 @@ std::vector<int> planes_at(const SoundScene& scene, const ElementTable& elements
   return planes;
 }
 
-/// The first thing that a ray from the outermost point of a shell meets.
+/// The first thing that a ray from the outermost point of a shell, or of several, meets.
 RayHit first_beyond(const SoundScene& scene, const ElementTable& elements, const RayIndex& index,
-                    const Shells& shells, int shell, const Vec3& origin) {
+                    const Shells& shells, const IsOwn& is_own, const Vec3& origin) {
   // A point that touches another surface may lie beyond it by rounding.
   const double slack = tolerance_of({origin.lpNorm<Eigen::Infinity>(), scene.diagonal}).length;
   const std::vector<int> near = index.near_ray(origin, slack);
   // The other sides of the shell's own elements lie behind it.
-  const std::vector<int> own = planes_at(scene, elements, shells, shell, origin, near);
+  const std::vector<int> own = planes_at(scene, elements, shells, is_own, origin, near);
   const auto plane = [&](int element) {
     return scene.surfaces[at(elements.surface[at(element)])].plane;
   };
   RayHit hit;
   for (const int e : near) {
-    const auto& sides = shells.of_side[at(e)];
-    if (sides[0] == shell || sides[1] == shell) continue;
+    if (has_own_side(shells, e, is_own)) continue;
     const std::optional<double> distance = meet(elements.triangle(e), origin);
     if (!distance || *distance < -slack) continue;
     if (*distance <= slack && std::find(own.begin(), own.end(), plane(e)) != own.end()) continue;
@@ -162,24 +178,49 @@ std::vector<bool> with_fronts(const Shells& shells) {
   return has_fronts;
 }
 
-/// Shell → shell in the same cell that is further out; itself for the outside of a bounded cell,
-/// −1 if there is none.
-std::vector<int> find_surroundings(const SoundScene& scene, const ElementTable& elements,
-                                   const Shells& shells) {
-  const std::vector<double> volume = volumes(elements, shells);
+/// Joins shells to those around them, or to the last set, which is what extends to infinity.
+JoinedSets join_cells(const SoundScene& scene, const ElementTable& elements, const Shells& shells) {
+  const std::vector<double> volume = volumes(scene, elements, shells);
   const std::vector<bool> has_fronts = with_fronts(shells);
   const std::vector<Vec3> points = outermost_points(elements, shells);
   const RayIndex index(elements);
+  const auto beyond = [&](int shell, const IsOwn& is_own) {
+    const RayHit hit = first_beyond(scene, elements, index, shells, is_own, points[at(shell)]);
+    return hit.element < 0 ? shells.count : shells.of_side[at(hit.element)][hit.is_front ? 0 : 1];
+  };
+  // The outside of a bounded cell has none around it. Backs without any volume are those of
+  // elements that cover each other.
+  const auto is_outmost = [&](int k) {
+    return volume[at(k)] > 0 || (volume[at(k)] == 0 && !has_fronts[at(k)]);
+  };
   std::vector<int> around(volume.size());
   parallel_for(volume.size(), [&](std::size_t k) {
     const int shell = static_cast<int>(k);
-    around[k] = shell;
-    // Backs without any volume are those of elements that cover each other.
-    if (volume[k] > 0 || (volume[k] == 0 && !has_fronts[k])) return;
-    const RayHit hit = first_beyond(scene, elements, index, shells, shell, points[k]);
-    around[k] = hit.element < 0 ? -1 : shells.of_side[at(hit.element)][hit.is_front ? 0 : 1];
+    around[k] = is_outmost(shell) ? shell : beyond(shell, [&](int s) { return s == shell; });
   });
-  return around;
+  JoinedSets sets(shells.count + 1);
+  for (int k = 0; k < shells.count; ++k) sets.join(k, around[at(k)]);
+  // Shells that touch at the outermost point of both are around each other: all of them look on.
+  for (bool all_settled = false; !all_settled;) {
+    const std::vector<int> set = sets.numbered();
+    std::vector<bool> settled(at(shells.count + 1), false);
+    settled[at(set.back())] = true;
+    for (int k = 0; k < shells.count; ++k)
+      if (around[at(k)] == k) settled[at(set[at(k)])] = true;
+    std::vector<int> outermost(settled.size(), -1);  // set → shell
+    for (int k = 0; k < shells.count; ++k)
+      if (int& first = outermost[at(set[at(k)])];
+          !settled[at(set[at(k)])] &&
+          (first < 0 || outwards.dot(points[at(k)]) > outwards.dot(points[at(first)])))
+        first = k;
+    all_settled = true;
+    for (const int shell : outermost) {
+      if (shell < 0) continue;
+      all_settled = false;
+      sets.join(shell, beyond(shell, [&](int s) { return set[at(s)] == set[at(shell)]; }));
+    }
+  }
+  return sets;
 }
 
 /// See SpaceCells::gaps.
@@ -211,11 +252,7 @@ std::vector<double> areas_of_gaps(const SoundScene& scene, const ElementTable& e
 
 SpaceCells find_cells(const SoundScene& scene, const ElementTable& elements) {
   const Shells shells = find_shells(scene, elements);
-  const std::vector<int> around = find_surroundings(scene, elements, shells);
-  // The last set is what extends to infinity.
-  JoinedSets sets(shells.count + 1);
-  for (int k = 0; k < shells.count; ++k)
-    sets.join(k, around[at(k)] < 0 ? shells.count : around[at(k)]);
+  JoinedSets sets = join_cells(scene, elements, shells);
   SpaceCells cells;
   const std::vector<int> cell_of = sets.numbered();
   const auto count =

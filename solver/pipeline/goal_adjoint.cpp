@@ -77,7 +77,7 @@ GoalAdjoint::Importance GoalAdjoint::exactly(int surface, const SurfacePoint& po
   Rgb arriving = Rgb::Zero();
   if (!more || !more->report().through_operator)
     arriving = lit_.direct_light().irradiance(point).irradiance;
-  if (more) arriving += more->gather(point, rays, own_pattern);
+  if (more) arriving += more->gather_on(surface, point.position, rays, own_pattern);
   return {arriving, exitance(surface) + reflected * arriving};
 }
 

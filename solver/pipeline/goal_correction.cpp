@@ -110,7 +110,7 @@ class Sampler {
       clipped = fitted.max(0) - fitted;
     }
     if (solved_.reflected)
-      residual += solved_.reflected->gather(point, rays_from_point) -
+      residual += solved_.reflected->gather_on(surface, point.position, rays_from_point) -
                   solved_.reflected->irradiance(surface, point.position);
     const GoalAdjoint::Importance z = adjoint_.exactly(surface, point, rays_from_point);
     Rgb term = z.leaving * residual + z.arriving * not_gathered(e, place, surface, point.position);

@@ -79,17 +79,13 @@ bool gathers(FinalGather asked, const ReflectedReport& report) {
 
 /// What arrives of a solution, on elements and of orders that suit its polynomials. Rays whose
 /// noise is half of what these are allowed to be off.
-ElementField gathered(const SoundScene& scene, const ReflectedLight& light,
-                      const AdaptiveField& polynomials, double tolerance,
-                      const Progress& progress) {
+ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomials,
+                      double tolerance, const Progress& progress) {
   const int rays = gathering_rays(tolerance / 2);
   const ElementTable& elements = polynomials.elements;
   return fitted(
       elements, polynomials.field.order,
-      [&](int e, const Vec3& p) {
-        const PlaneFrame& frame = scene.surfaces[at(elements.surface[at(e)])].frame;
-        return light.gather({frame.foot(p), elements.normal[at(e)]}, rays);
-      },
+      [&](int e, const Vec3& p) { return light.gather_on(elements.surface[at(e)], p, rays); },
       progress);
 }
 
@@ -175,7 +171,8 @@ double joint_error(const TotalField& total, double of_reflected) {
     square_error += area * std::pow(scale * total.error[e], 2);
     square += area * (scale * total.irradiance.of(e).matrix()).squaredNorm();
   }
-  return square > 0 ? std::sqrt(square_error / square + of_reflected * of_reflected) : 0;
+  // What is not a number must not pass for none.
+  return square == 0 ? 0 : std::sqrt(square_error / square + of_reflected * of_reflected);
 }
 
 }  // namespace
@@ -209,7 +206,7 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   if (gathers(options.final_gather, report))
     stages.run("final gather", [&] {
       ElementField field =
-          gathered(scene, *total.reflected, on_elements, options.reflected.tolerance, progress);
+          gathered(*total.reflected, on_elements, options.reflected.tolerance, progress);
       if (!progress.stopped()) on_elements.field = std::move(field);
       return on_elements.elements.corners.size();
     });

@@ -130,6 +130,8 @@ KernelMoments::KernelMoments(const PointAbovePlane& from, const std::array<Vec2,
   Eigen::Matrix2d edges;
   edges << cell[1] - cell[0], cell[2] - cell[0];
   to_place_ = edges.inverse();
+  // A splinter that stands upright on the plane: nothing of it is seen, wherever its places are.
+  if (!to_place_.allFinite()) to_place_.setZero();
 }
 
 void KernelMoments::add(std::span<const Vec2> ring) {

@@ -1,10 +1,12 @@
 #include "solver/reflected/near_backs.h"
 
+#include "meshing/core/rounded.h"
 #include "meshing/geometry/line.h"
 #include "solver/elements/polynomial.h"
 #include "solver/exchange/form_factor.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 namespace halfshade {
@@ -14,18 +16,61 @@ namespace {
 constexpr double nearest_back = 1.5;
 constexpr double least_height = 1e-9;  // of an element's size
 /// Light changes within the distance from a border: parts of an element are at most this share of
-/// it long, or have this share of the area of all: what is narrower hardly counts.
+/// it long, or what changes in them has this share of the area of all: less than that hardly
+/// counts.
 constexpr double share_of_distance = 0.93, least_part = 1e-7;
+/// Narrower elements are a thousand times as long as wide, as where corners of two surfaces differ
+/// by rounding: too little to integrate over.
+constexpr double narrow = 1e-3;
+/// Beyond so many heights beside a back it hides next to nothing: h² / 4d² of the hemisphere, if it
+/// rises h above the element's plane.
+constexpr double changes_within = 4;
 /// Where nodes see less than this of what is not hidden, they do not tell how bright that is.
 constexpr double hardly_seen = 1e-3;
 /// What arrives past backs is not quite even: so much of what nodes miss is not known.
 constexpr double unsure_past_backs = 0.2;
 
+double edge_length(const std::array<Vec3, 3>& triangle, std::size_t k) {
+  return (triangle[(k + 1) % 3] - triangle[k]).norm();
+}
+
+std::size_t longest_edge(const std::array<Vec3, 3>& triangle) {
+  std::size_t longest = 0;
+  for (const std::size_t k : {1U, 2U})
+    if (rounded(edge_length(triangle, k)) > rounded(edge_length(triangle, longest))) longest = k;
+  return longest;
+}
+
+Vec3 middle_of(const std::array<Vec3, 3>& triangle) {
+  return (triangle[0] + triangle[1] + triangle[2]) / 3;
+}
+
+/// The part of a triangle's area from which something changes below a back or close beside it.
+double changing_share(const std::array<Vec3, 3>& triangle, const Vec3& normal, const NearBack& back,
+                      double length) {
+  std::vector<Vec3> part(triangle.begin(), triangle.end());
+  const double whole = area_vector(part).norm();
+  for (std::size_t k = 0; k < 3 && !part.empty(); ++k) {
+    const Vec3 inward = (back.corners[(k + 1) % 3] - back.corners[k]).cross(normal).normalized();
+    part = clip_to_front(part, back.corners[k] - changes_within * back.rise * inward, inward);
+  }
+  const double below = part.empty() ? 0 : area_vector(part).norm() / std::max(whole, DBL_MIN);
+  // ∫ h² / 4d² over what lies farther away than that.
+  return std::min(below + back.rise / (4 * changes_within * length), 1.);
+}
+
+double distance(const Vec3& p, const NearBack& back) {
+  double least = HUGE_VAL;
+  for (std::size_t k = 0; k < 3; ++k)
+    least = std::min(least, distance_to_span(p, {back.corners[k], back.corners[(k + 1) % 3]}));
+  return least;
+}
+
 /// ∫ ω and ∫ ω (ω − π) over an element, in the mean.
 class ShadowIntegrals {
  public:
   ShadowIntegrals(const std::array<Vec3, 3>& corners, const Vec3& normal, int order,
-                  const std::vector<std::vector<Vec3>>& backs)
+                  const std::vector<NearBack>& backs)
       : corners_(corners), normal_(normal), order_(order), backs_(backs) {
     const ElementNodes& nodes = element_nodes_of(order);
     at_nodes.resize(static_cast<Eigen::Index>(nodes.places.size()));
@@ -41,30 +86,29 @@ class ShadowIntegrals {
  private:
   double seen_past(const Vec3& p) const {
     double hidden = 0;
-    for (const auto& back : backs_) hidden += point_to_polygon(p, normal_, back);
+    for (const NearBack& back : backs_) hidden += point_to_polygon(p, normal_, back.corners);
     return std::clamp(1 - hidden, 0., 1.);
   }
 
-  double distance(const Vec3& p) const {
-    double least = HUGE_VAL;
-    for (const auto& back : backs_)
-      for (std::size_t k = 0; k < back.size(); ++k)
-        least = std::min(least, distance_to_span(p, {back[k], back[(k + 1) % back.size()]}));
-    return least;
+  /// Whether so much of a part changes with one of the backs that it has to be cut.
+  bool is_too_long(const std::array<Vec3, 3>& part, double length, double share) const {
+    const Vec3 middle = middle_of(part);
+    return share > least_part &&
+           std::any_of(backs_.begin(), backs_.end(), [&](const NearBack& back) {
+             return length > share_of_distance * distance(middle, back) &&
+                    share * changing_share(part, normal_, back, length) > least_part;
+           });
   }
 
   void add(const std::array<TrianglePlace, 3>& part, double share) {
     const std::array<Vec3, 3> at_corners = {
         position(corners_, part[0]), position(corners_, part[1]), position(corners_, part[2])};
-    const auto& [a, b, c] = at_corners;
-    const double length = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-    if (share > least_part && length > share_of_distance * distance((a + b + c) / 3)) {
-      const TrianglePlace ab = (part[0] + part[1]) / 2, bc = (part[1] + part[2]) / 2,
-                          ca = (part[2] + part[0]) / 2;
-      add({part[0], ab, ca}, share / 4);
-      add({ab, part[1], bc}, share / 4);
-      add({ca, bc, part[2]}, share / 4);
-      add({bc, ca, ab}, share / 4);
+    const std::size_t k = longest_edge(at_corners);
+    const double length = edge_length(at_corners, k);
+    if (is_too_long(at_corners, length, share)) {
+      const TrianglePlace &a = part[k], &b = part[(k + 1) % 3], &c = part[(k + 2) % 3];
+      add({a, (a + b) / 2, c}, share / 2);
+      add({(a + b) / 2, b, c}, share / 2);
       return;
     }
     Eigen::VectorXd basis(basis_size(order_));
@@ -81,7 +125,7 @@ class ShadowIntegrals {
   const std::array<Vec3, 3>& corners_;
   const Vec3& normal_;
   int order_;
-  const std::vector<std::vector<Vec3>>& backs_;
+  const std::vector<NearBack>& backs_;
   Eigen::VectorXd polynomial_;
 };
 
@@ -118,13 +162,14 @@ NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
     const Vec3& looks = scene_.roots.normal[at(r)];
     if (scene_.cells.of_side[at(r)][1] != cell || !(looks.dot(normal) > 0)) return;
     const std::array<Vec3, 3> back = scene_.roots.triangle(r);
-    double low = HUGE_VAL, high = -HUGE_VAL;
+    double low = HUGE_VAL, high = -HUGE_VAL, rise = -HUGE_VAL;
     for (const Vec3& p : corners) {
       low = std::min(low, -looks.dot(p - back[0]));
       high = std::max(high, -looks.dot(p - back[0]));
     }
-    if (low < least_height * size || high > nearest_back * size) return;
-    result.backs.push_back({back[0], back[2], back[1]});
+    for (const Vec3& p : back) rise = std::max(rise, normal.dot(p - corners[0]));
+    if (std::min(low, rise) < least_height * size || high > nearest_back * size) return;
+    result.backs.push_back({{back[0], back[2], back[1]}, rise});
     result.height = std::min(result.height, low);
   });
   return result;
@@ -134,12 +179,18 @@ BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
   BackShadow shadow;
   const Near found = near(mesh, element);
   if (found.backs.empty()) return shadow;
+  shadow.height = found.height;
+  const std::array<Vec3, 3>& corners = mesh.forest.corners(mesh.triangle[at(element)]);
+  const double longest = edge_length(corners, longest_edge(corners));
+  if (2 * mesh.area(element) < narrow * longest * longest) {
+    shadow.share = 1;
+    return shadow;
+  }
   const int order = mesh.order[at(mesh.triangle[at(element)])];
-  const ShadowIntegrals integrals(mesh.forest.corners(mesh.triangle[at(element)]),
-                                  scene_.roots.normal[at(mesh.root(element))], order, found.backs);
+  const ShadowIntegrals integrals(corners, scene_.roots.normal[at(mesh.root(element))], order,
+                                  found.backs);
   const Eigen::VectorXd& past = integrals.at_nodes;
   const Eigen::RowVectorXd weights = element_nodes_of(order).fit.row(0);
-  shadow.height = found.height;
   if (!(integrals.all > 0)) return shadow;
   const double missed = integrals.missed / integrals.all;
   shadow.share = missed / std::max(integrals.all, hardly_seen);

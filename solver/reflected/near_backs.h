@@ -4,6 +4,7 @@
 #include "solver/reflected/reflected_mesh.h"
 #include "solver/reflected/reflecting_scene.h"
 
+#include <array>
 #include <vector>
 
 namespace halfshade {
@@ -21,6 +22,12 @@ struct BackShadow {
   double height = 0;  ///< of the element above the back, or how far a slit reaches into it
 };
 
+/// A back close before an element.
+struct NearBack {
+  std::array<Vec3, 3> corners;  ///< counter-clockwise seen from behind
+  double rise = 0;              ///< how far it gets before the element's plane
+};
+
 /// Backs that swallow light close before elements. Light changes within some gaps' width of their
 /// borders, where nodes hardly ever lie, and as much as comes in there gets lost.
 class NearBacks {
@@ -35,8 +42,8 @@ class NearBacks {
 
  private:
   struct Near {
-    std::vector<std::vector<Vec3>> backs;  ///< counter-clockwise seen from behind
-    double height = 0;
+    std::vector<NearBack> backs;
+    double height = 0;  ///< of the element's lowest corner above one of them
   };
   Near near(const ReflectedMesh& mesh, int element) const;
 

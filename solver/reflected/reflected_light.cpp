@@ -127,6 +127,20 @@ Rgb value_in(const ReflectedMesh& mesh, const QuickField& field, int surface,
   return field.value(leaf.triangle, leaf.place);
 }
 
+Rgb gather_by_rays(const ReflectedLight::State& state, const RayOrigin& from, int rays,
+                   std::uint64_t pattern) {
+  std::uint64_t seed = pattern;
+  int exponent = 0;  // which changes with the unit
+  for (const double x : from.position)
+    seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(std::frexp(x, &exponent)));
+  const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(rays))));
+  const RayHemisphere above{from, strata, seed};
+  const ChannelArray found =
+      gathered(gather_rays(state.reflecting, state.light, Looks::exact, {&above, 1}),
+               state.mesh.forest, *state.leaving);
+  return found.row(0).transpose() / state.scale;
+}
+
 }  // namespace
 
 Rgb ReflectedLight::irradiance(int surface, const Vec3& position) const {
@@ -144,16 +158,19 @@ Rgb ReflectedLight::irradiance_after(int reflections, int surface, const Vec3& p
 
 Rgb ReflectedLight::gather(const SurfacePoint& point, int rays, std::uint64_t pattern) const {
   if (state_->sight) return exact_gather(*state_).irradiance(point) / state_->scale;
-  std::uint64_t seed = pattern;
-  int exponent = 0;  // which changes with the unit
-  for (const double x : point.position)
-    seed = mix_bits(seed ^ std::bit_cast<std::uint64_t>(std::frexp(x, &exponent)));
-  const int strata = std::max(1, static_cast<int>(std::lround(std::sqrt(rays))));
-  const RayHemisphere above{{point.position, point.normal}, strata, seed};
-  const ChannelArray found =
-      gathered(gather_rays(state_->reflecting, state_->light, Looks::exact, {&above, 1}),
-               state_->mesh.forest, *state_->leaving);
-  return found.row(0).transpose() / state_->scale;
+  return gather_by_rays(*state_, {point.position, point.normal}, rays, pattern);
+}
+
+Rgb ReflectedLight::gather_on(int surface, const Vec3& position, int rays,
+                              std::uint64_t pattern) const {
+  const auto& [triangle, place] = state_->mesh.forest.leaf_at(surface, position);
+  if (triangle < 0) return Rgb::Zero();
+  const ReflectedMesh& mesh = state_->mesh;
+  if (state_->sight)
+    return gather(state_->sight->point_of(mesh.forest.root(triangle), position), rays, pattern);
+  const int element = mesh.element[at(triangle)];
+  return gather_by_rays(*state_, ray_origin(state_->reflecting, mesh, element, place), rays,
+                        pattern);
 }
 
 std::optional<Rgb> ReflectedLight::gathered_from(int surface, const Vec3& position) const {

@@ -115,6 +115,8 @@ class ReflectedLight {
   /// polynomials for 1,000 rays, and noisier for a few. Errors are independent at other points and
   /// with other patterns of rays. After a number of bounces: what arrives after one more.
   Rgb gather(const SurfacePoint& point, int rays, std::uint64_t pattern = 0) const;
+  /// The same at a point of a surface, which may lie off it by rounding; 0 if it has no elements.
+  Rgb gather_on(int surface, const Vec3& position, int rays, std::uint64_t pattern = 0) const;
 
   /// What leaves a place of a surface, S and what is reflected of G, as gather() takes it:
   /// projected on parts of elements. Nothing if the solution is by rays, which ask at the places

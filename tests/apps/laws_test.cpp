@@ -5,6 +5,7 @@
 #include "solver/pipeline/mesh_scene.h"
 #include "solver/pipeline/solve.h"
 #include "tests/support/named_scene.h"
+#include "tests/support/own_corners.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
@@ -238,18 +239,7 @@ TEST_P(Laws, AnotherSceneFarAwayDoesNotMatter) {
 TEST_P(Laws, RoundingOfCornersHardlyMatters) {
   std::vector<SurfacePoint> points = places();
   for (SurfacePoint& point : points) point.position += 1e-5 * diagonal(scene_) * point.normal;
-  double magnitude = 0;
-  for (const Vec3& p : scene_.vertices)
-    magnitude = std::max(magnitude, p.lpNorm<Eigen::Infinity>());
-  test::Random random(7);
-  Scene rounded = scene_;
-  rounded.vertices.clear();
-  for (Face& face : rounded.faces)
-    for (int& v : face.vertices) {
-      const Vec3 off(random(-1, 1), random(-1, 1), random(-1, 1));
-      rounded.vertices.push_back(scene_.vertices[at(v)] + 1e-7 * magnitude * off);
-      v = static_cast<int>(rounded.vertices.size()) - 1;
-    }
+  const Scene rounded = test::with_own_corners(scene_, 1e-7, 7);
   expect_same(direct_light(scene_, points), direct_light(rounded, points), share(1e-4), "rounded");
 }
 

@@ -1,6 +1,7 @@
 #include "meshing/core/rounded.h"
 #include "solver/pipeline/solve.h"
 #include "tests/support/named_scene.h"
+#include "tests/support/own_corners.h"
 
 #include <gtest/gtest.h>
 
@@ -185,6 +186,17 @@ TEST_P(AllLightLaws, AreTheSameInSinglePrecision) {
   EXPECT_LE(result.elements.count(), 4 * expected.elements.count());
   expect_near(powers(expected, scene_), powers(result, scene_), "rounded");
   expect_near(powers(expected_, scene_), powers(expected, scene_), "turned");
+}
+
+/// Every face has corners of its own, so that splinters and slits run along all edges.
+TEST_P(AllLightLaws, AreTheSameWithCornersThatDiffer) {
+  std::vector<double> offs = {1e-7};
+  if (!GetParam().starts_with("random_")) offs.push_back(1e-9);
+  for (const double off : offs) {
+    const SolveResult result = solved(test::with_own_corners(scene_, off, 7));
+    EXPECT_TRUE(result.solution.irradiance.allFinite());
+    expect_near(powers(expected_, scene_), powers(result, scene_), std::to_string(std::log10(off)));
+  }
 }
 
 /// Few scenes are large enough for rays of their own accord.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace halfshade {
@@ -103,6 +104,30 @@ TEST(ElementLookup, PointsBesideASurfaceBelongToWhatIsNext) {
       EXPECT_LT((position(elements.triangle(found.triangle), found.place) - p).norm(), 1e-12);
     }
   EXPECT_EQ(lookup.find(1000, Vec3::Zero()).triangle, -1);
+}
+
+/// Corners that neighbours share lie off the plane by rounding, so that a splinter between them may
+/// stand upright: seen along itself it would hold all places between its ends.
+TEST(ElementLookup, SplintersHoldOnlyWhatIsBetweenTheirEdges) {
+  ElementTable elements;
+  elements.points = {{0, 0, 0}, {1, 0, 0}, {1, 1e-9, 1e-7}, {1, 1, 0}, {0, 1, 0}};
+  elements.corners = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}};
+  elements.neighbours.assign(3, {-1, -1, -1});
+  elements.normal.assign(3, Vec3::UnitZ());
+  elements.area = {5e-8, 0.5, 0.5};
+  elements.surface.assign(3, 0);
+  const ElementLookup lookup(elements);
+  test::Random random(3);
+  for (int k = 0; k < 1000; ++k) {
+    const Vec3 p(random(0, 1), random(0, 1), 0);
+    if (std::abs(p.x() - p.y()) < 1e-6 || p.y() < 1e-6) continue;
+    EXPECT_EQ(lookup.find(0, p).triangle, p.y() < p.x() ? 1 : 2) << p.transpose();
+  }
+  EXPECT_EQ(lookup.find(0, {0.5, 2e-10, 0}).triangle, 0);
+  elements.points[2] = {0.5, 0, 1e-7};
+  const ForestPlace found = ElementLookup(elements).find(0, {0.7, 0.2, 0});
+  EXPECT_EQ(found.triangle, 1) << "what stands upright holds nothing";
+  EXPECT_TRUE(found.place.allFinite());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "meshing/patches/patch_mesh.h"
 #include "meshing/repair/repair.h"
+#include "tests/support/own_corners.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -186,6 +187,19 @@ TEST(Cells, TellTheGapsOfWhatCountsAsClosed) {
       Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
   for (Vec3& p : turned.vertices) p = turn * p + Vec3(3, 1, 7);
   EXPECT_EQ(gaps(turned), 0) << "rounding";
+}
+
+/// Splinters between corners that differ turn any way, and no cell may end at them.
+TEST(Cells, BodiesBelongToTheRoomIfCornersDiffer) {
+  Scene scene = box(true);
+  add_box(scene, {0.3, 0.2, 0.1}, {0.6, 0.5, 0.2}, false);
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const Parted parted(test::with_own_corners(scene, 1e-7, seed), 1);
+    std::set<int> before;
+    for (int e = 0; e < parted.elements.count(); ++e)
+      if (parted.elements.area[at(e)] > 1e-4) before.insert(parted.cells.before(e));
+    EXPECT_EQ(before.size(), 1U) << "seed " << seed;
+  }
 }
 
 }  // namespace

@@ -107,5 +107,13 @@ TEST(KernelMoments, WhatRunsClockwiseIsTakenAway) {
   EXPECT_NEAR(moments.values()[0], form_factor(from, whole) - form_factor(from, counter), 1e-8);
 }
 
+TEST(KernelMoments, OfACellWithoutAnyAreaAreNone) {
+  test::Random random(4);
+  const std::array<Vec2, 3> flat = {Vec2(0.3, 0.1), Vec2(0.3, 0.7), Vec2(0.3, 0.4)};
+  KernelMoments moments(random_point(random, 0.5), flat, 2, 1e-9);
+  moments.add(flat);
+  for (const double value : moments.values()) EXPECT_EQ(value, 0);
+}
+
 }  // namespace
 }  // namespace halfshade

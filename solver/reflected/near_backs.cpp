@@ -1,6 +1,5 @@
 #include "solver/reflected/near_backs.h"
 
-#include "meshing/core/rounded.h"
 #include "meshing/geometry/line.h"
 #include "solver/elements/polynomial.h"
 #include "solver/exchange/form_factor.h"
@@ -30,19 +29,9 @@ constexpr double hardly_seen = 1e-3;
 /// What arrives past backs is not quite even: so much of what nodes miss is not known.
 constexpr double unsure_past_backs = 0.2;
 
-double edge_length(const std::array<Vec3, 3>& triangle, std::size_t k) {
+double longest_length(const std::array<Vec3, 3>& triangle) {
+  const std::size_t k = at(longest_edge(triangle));
   return (triangle[(k + 1) % 3] - triangle[k]).norm();
-}
-
-std::size_t longest_edge(const std::array<Vec3, 3>& triangle) {
-  std::size_t longest = 0;
-  for (const std::size_t k : {1U, 2U})
-    if (rounded(edge_length(triangle, k)) > rounded(edge_length(triangle, longest))) longest = k;
-  return longest;
-}
-
-Vec3 middle_of(const std::array<Vec3, 3>& triangle) {
-  return (triangle[0] + triangle[1] + triangle[2]) / 3;
 }
 
 /// The part of a triangle's area from which something changes below a back or close beside it.
@@ -91,8 +80,9 @@ class ShadowIntegrals {
   }
 
   /// Whether so much of a part changes with one of the backs that it has to be cut.
-  bool is_too_long(const std::array<Vec3, 3>& part, double length, double share) const {
-    const Vec3 middle = middle_of(part);
+  bool is_too_long(const std::array<Vec3, 3>& part, double share) const {
+    const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
+    const double length = longest_length(part);
     return share > least_part &&
            std::any_of(backs_.begin(), backs_.end(), [&](const NearBack& back) {
              return length > share_of_distance * distance(middle, back) &&
@@ -103,9 +93,8 @@ class ShadowIntegrals {
   void add(const std::array<TrianglePlace, 3>& part, double share) {
     const std::array<Vec3, 3> at_corners = {
         position(corners_, part[0]), position(corners_, part[1]), position(corners_, part[2])};
-    const std::size_t k = longest_edge(at_corners);
-    const double length = edge_length(at_corners, k);
-    if (is_too_long(at_corners, length, share)) {
+    if (is_too_long(at_corners, share)) {
+      const std::size_t k = at(longest_edge(at_corners));
       const TrianglePlace &a = part[k], &b = part[(k + 1) % 3], &c = part[(k + 2) % 3];
       add({a, (a + b) / 2, c}, share / 2);
       add({(a + b) / 2, b, c}, share / 2);
@@ -181,7 +170,7 @@ BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
   if (found.backs.empty()) return shadow;
   shadow.height = found.height;
   const std::array<Vec3, 3>& corners = mesh.forest.corners(mesh.triangle[at(element)]);
-  const double longest = edge_length(corners, longest_edge(corners));
+  const double longest = longest_length(corners);
   if (2 * mesh.area(element) < narrow * longest * longest) {
     shadow.share = 1;
     return shadow;

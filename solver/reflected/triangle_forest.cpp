@@ -8,6 +8,12 @@ namespace {
 /// Points this close to where a triangle is cut lie in its first half, see ElementLookup.
 constexpr double edge_margin = 1e-10;
 
+double area_of(const std::array<Vec3, 3>& corner) {
+  return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
+}
+
+}  // namespace
+
 int longest_edge(const std::array<Vec3, 3>& corner) {
   int longest = 0;
   double most = 0;
@@ -19,12 +25,6 @@ int longest_edge(const std::array<Vec3, 3>& corner) {
     }
   return longest;
 }
-
-double area_of(const std::array<Vec3, 3>& corner) {
-  return 0.5 * (corner[1] - corner[0]).cross(corner[2] - corner[0]).norm();
-}
-
-}  // namespace
 
 TriangleForest::TriangleForest(const ElementTable& roots)
     : root_count_(roots.count()), roots_(roots) {

@@ -7,6 +7,10 @@
 
 namespace halfshade {
 
+/// k of the longest edge of a triangle, from corner k to the next; the first of those that are
+/// equal but for rounding.
+int longest_edge(const std::array<Vec3, 3>& corner);
+
 /// Triangles that cover surfaces, each bisected as often as one likes, whatever its neighbours do.
 /// Triangle i < root_count() is element i of the table that the forest is made of.
 class TriangleForest {

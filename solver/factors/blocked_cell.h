@@ -6,6 +6,7 @@
 #include "solver/factors/point_looks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -50,7 +51,14 @@ struct BlockedCell {
   /// Of its points, and of its corners once they were looked at.
   Range hidden, visible, hidden_at_corners, visible_at_corners;
   bool is_steep = false;  ///< what rises before its corners is most that it may be off by
+  /// By how much what is hidden, or seen where that is less, changes along its edges, about: from
+  /// each corner to the next.
+  std::array<double, 3> change = {}, change_at_corners = {};
 };
+
+/// The edge to halve a cell across, from corner k to the next: the longest of those along which
+/// what is seen changes most.
+std::size_t edge_to_halve(const BlockedCell& cell);
 
 /// Evaluates cells of one pair of surfaces. All that it is made of must outlive it.
 class BlockedCells {
@@ -80,6 +88,7 @@ class BlockedCells {
   double missed(const BlockedCell& cell, double whole);
   void look_at_corners(BlockedCell& cell);
   BlockedCell closed_form(const BlockedCell& dark) const;
+  Triangle3 inset_corners(const Triangle3& cell) const;
   void add_halves(const BlockedCell& cell, std::vector<BlockedCell>& next);
   bool add_sides_of_kink(const BlockedCell& cell, std::vector<BlockedCell>& next);
   Vec3 where_sight_changes(Vec3 from, Vec3 to, std::uint64_t signature);
@@ -90,6 +99,7 @@ class BlockedCells {
   SightTolerance tolerance_;
   const std::stop_token& stop_;
   std::optional<FewBlockers> few_;
+  double size_ = 0;  ///< of `a`
   std::size_t points_ = 0;
 };
 

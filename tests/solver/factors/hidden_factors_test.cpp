@@ -4,6 +4,7 @@
 #include "tests/support/face_factors.h"
 #include "tests/support/scenes.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -113,6 +114,47 @@ TEST(HiddenFactors, TheErrorIsABound) {
       EXPECT_LE(seen.error, 1.01 * tolerance);
     }
   }
+}
+
+/// Files hold coordinates as doubles, as floats, or with six digits.
+enum class Digits { all, of_float, six };
+
+double rounded(double x, Digits digits) {
+  if (digits == Digits::all) return x;
+  if (digits == Digits::of_float) return static_cast<float>(x);
+  const double unit = std::pow(10., std::floor(std::log10(std::max(std::abs(x), 1e-4))) - 5);
+  return std::round(x / unit) * unit;
+}
+
+/// Turned as a whole, nothing lies in a coordinate plane, nor exactly where it should; a sheet with
+/// two rows hides as much.
+TEST(HiddenFactors, SquaresTurnedInSpace) {
+  const HidingSheet sheet{{.2, .7}, {.3, .6}, .4};
+  const double expected = expected_factor(sheet);
+  struct Case {
+    Digits digits;
+    double tolerance, moved;
+  };
+  for (const auto& [digits, tolerance, moved] :
+       {Case{Digits::all, 1e-5, 0}, Case{Digits::all, 1e-8, 0}, Case{Digits::of_float, 1e-5, 6e-8},
+        Case{Digits::six, 1e-5, 5e-6}})
+    for (const double angle : {0.4, 1.3, 2.9})
+      for (const bool is_two_sided : {false, true}) {
+        Scene scene = scene_of(sheet);
+        const Eigen::AngleAxisd turn(angle, Vec3(1, 2, -3).normalized());
+        for (Vec3& p : scene.vertices) {
+          p = turn * p;
+          for (double& x : p) x = rounded(x, digits);
+        }
+        scene.faces[2].material = test::add_material(scene, 0.5, 0);
+        scene.materials[1].two_sided = is_two_sided;
+        const FactorMatrix matrix = test::face_factors(scene, tolerance);
+        ASSERT_EQ(matrix.area.size(), is_two_sided ? 4 : 3);
+        EXPECT_NEAR(matrix.factors(0, 1), expected, matrix.error[0] + 4 * moved) << angle;
+        EXPECT_LE(matrix.error.maxCoeff(), tolerance) << angle;
+        EXPECT_LE((matrix.row_sum - 1).abs().maxCoeff(), 2 * tolerance) << angle;
+        EXPECT_EQ(matrix.report.rows_not_reached, 0) << angle;
+      }
 }
 
 TEST(HiddenFactors, RowsSumToOne) {

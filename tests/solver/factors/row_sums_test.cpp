@@ -106,6 +106,15 @@ TEST(RowSums, DisksConverge) {
   EXPECT_LT(before, 1e-3);
 }
 
+/// Round a corner, with a box that hangs in the way, and nothing put right afterwards.
+TEST(RowSums, AConcaveRoomWithABoxInIt) {
+  for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    const FactorMatrix matrix = test::face_factors(test::l_room(true), tolerance);
+    expect_reached(matrix, tolerance, std::to_string(std::log10(tolerance)));
+    EXPECT_LE((matrix.row_sum - 1).abs().maxCoeff(), tolerance) << tolerance;
+  }
+}
+
 /// A run that may look at few points says that it would take more.
 TEST(RowSums, PairsThatTakeAllPointsAreCounted) {
   FactorOptions options;

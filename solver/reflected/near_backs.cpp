@@ -15,9 +15,9 @@ namespace {
 constexpr double nearest_back = 1.5;
 constexpr double least_height = 1e-9;  // of an element's size
 /// Light changes within the distance from a border: parts of an element are at most this share of
-/// it long, or what changes in them has this share of the area of all: less than that hardly
-/// counts.
-constexpr double share_of_distance = 0.93, least_part = 1e-7;
+/// it long, or have this share of the area of all, or what changes in them has that share: less
+/// than that hardly counts, the less as it may be too much or too little.
+constexpr double share_of_distance = 0.93, least_part = 1e-7, least_change = 1e-6;
 /// Narrower elements are a thousand times as long as wide, as where corners of two surfaces differ
 /// by rounding: too little to integrate over.
 constexpr double narrow = 1e-3;
@@ -86,7 +86,7 @@ class ShadowIntegrals {
     return share > least_part &&
            std::any_of(backs_.begin(), backs_.end(), [&](const NearBack& back) {
              return length > share_of_distance * distance(middle, back) &&
-                    share * changing_share(part, normal_, back, length) > least_part;
+                    share * changing_share(part, normal_, back, length) > least_change;
            });
   }
 

@@ -6,10 +6,12 @@
 #include "io/read/read_points.h"
 #include "io/write/write_points.h"
 #include "meshing/core/error.h"
+#include "solver/pipeline/hidden_lamps.h"
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/limits.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/saved_light.h"
+#include "solver/pipeline/surface_finder.h"
 #include "solver/pipeline/surface_grid.h"
 
 #include <fmt/format.h>
@@ -37,9 +39,8 @@ Progress part_of(const Progress& progress, double done, double share) {
 
 /// Calls `compute` for block after block of points until all are done or the user stops; returns
 /// how many are done.
-template <class Compute>
-std::size_t in_blocks(std::span<const SurfacePoint> points, const Progress& progress,
-                      Compute compute) {
+template <class Point, class Compute>
+std::size_t in_blocks(std::span<const Point> points, const Progress& progress, Compute compute) {
   const auto count = static_cast<double>(points.size());
   std::size_t block = first_block;
   for (std::size_t done = 0; done < points.size();) {
@@ -72,11 +73,11 @@ std::vector<DirectLight> direct_light(const DirectLightIndex& index,
 
 /// Adds the light that `solved` reflects to the points that were reached; drops the others.
 template <class Solved>
-void add_reflected(const Solved& solved, double tolerance, std::span<const SurfacePoint> points,
+void add_reflected(const Solved& solved, double tolerance, std::span<const FieldPoint> points,
                    const Progress& progress, std::vector<DirectLight>& light) {
   const std::size_t done =
       in_blocks(points.first(light.size()), progress,
-                [&](std::size_t first, std::span<const SurfacePoint> some, const Progress& p) {
+                [&](std::size_t first, std::span<const FieldPoint> some, const Progress& p) {
                   add_gathered_light(solved, tolerance, some,
                                      std::span(light).subspan(first, some.size()), p);
                 });
@@ -118,7 +119,7 @@ std::optional<ReadSolution> get_solution(const ProbeCommand& command,
 /// accurate as asked for; empty if it is.
 std::string add_reflected(const ProbeCommand& command, const PreparedScene& prepared,
                           const std::optional<ReadSolution>& read,
-                          std::span<const SurfacePoint> points, const Progress& progress,
+                          std::span<const FieldPoint> points, const Progress& progress,
                           std::vector<DirectLight>& light) {
   if (read) {
     add_reflected(read->light, read->tolerance, points, progress, light);
@@ -192,7 +193,7 @@ ExitCode finish(const ProbeCommand& command, const PointTable& table, const Ligh
   if (code == exit_interrupted)
     complain("interrupted: {} of {} points were computed and written\n", done, points);
   if (code == exit_not_accurate)
-    complain("{}; so are the values at points, or somewhat less\n", not_reached);
+    complain("{}; the values at points are no more accurate\n", not_reached);
   return code;
 }
 
@@ -218,25 +219,28 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
                       const std::optional<ResultFile>& solution, const PreparedScene& prepared,
                       const Context& context) {
   const PointTable table = get_points(command, given, prepared.scene());
+  const std::vector<FieldPoint> places = on_surfaces(prepared, table.points);
+  std::vector<SurfacePoint> points;
+  for (const FieldPoint& place : places) points.push_back(place.point);
   const auto end = [&] {
     context.progress_ends();
     print_warnings(file, prepared.warnings(), context);
   };
   if (command.reference) {
     const ReferenceLight light =
-        reference_light(command, prepared.scene(), table.points, context.progress);
+        reference_light(command, prepared.scene(), points, context.progress);
     end();
     return finish(command, table, light, light.values.size(), lamps_limit(file), context);
   }
   const std::optional<ReadSolution> read =
       get_solution(command, solution, prepared.scene(), context.progress);
-  std::vector<DirectLight> light =
-      direct_light(prepared.direct_light(), table.points, context.progress);
+  std::vector<DirectLight> light = direct_light(prepared.direct_light(), points, context.progress);
   std::string not_reached;
   if (!command.direct_only)
-    not_reached = add_reflected(command, prepared, read, table.points, context.progress, light);
+    not_reached = add_reflected(command, prepared, read, places, context.progress, light);
   end();
   if (not_reached.empty()) not_reached = lamps_limit(file);
+  if (not_reached.empty()) not_reached = hidden_lamps(prepared.scene());
   return finish(command, table, light, light.size(), not_reached, context);
 }
 

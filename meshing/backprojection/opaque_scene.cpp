@@ -4,6 +4,8 @@
 #include "meshing/backprojection/silhouette_trees.h"
 #include "meshing/geometry/flat_tree.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace halfshade {
@@ -32,6 +34,15 @@ int OpaqueScene::edge_count() const { return static_cast<int>(topology_->edges.s
 
 std::array<Vec3, 2> OpaqueScene::edge_ends(int edge) const {
   return topology_->ends(topology_->edges[at(edge)]);
+}
+
+double OpaqueScene::off_plane(int surface) const {
+  const OpaqueTopology::OpaqueSurface& own = topology_->surfaces[at(surface)];
+  double most = 0;
+  for (int r = own.first_ring; r < own.first_ring + own.ring_count; ++r)
+    for (const auto& [vertex, edge] : topology_->ring(r))
+      most = std::max(most, std::abs(own.frame.height(topology_->vertices[at(vertex)])));
+  return most;
 }
 
 OpaqueScene::~OpaqueScene() = default;

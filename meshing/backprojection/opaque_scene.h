@@ -25,6 +25,8 @@ class OpaqueScene {
   int edge_count() const;
   /// Where an edge of the scene runs; `edge` is in [0, edge_count()).
   std::array<Vec3, 2> edge_ends(int edge) const;
+  /// How far corners of a surface lie off its plane at most, for they are those of others, too.
+  double off_plane(int surface) const;
 
   // What it is made of; these stay where they are when the scene is moved.
   const OpaqueTopology& topology() const { return *topology_; }

@@ -2,38 +2,13 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
-#include "meshing/core/planar.h"
 #include "solver/elements/element_lookup.h"
+#include "solver/pipeline/surface_finder.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace halfshade {
 namespace {
-
-/// How far a point may be from a surface, as a share of the surface's size, and how far its normal
-/// may be turned from the surface's, in radians: what six digits of a table leave.
-constexpr double off_surface = 1e-6, turned = 1e-3;
-
-/// −1 if the point lies on none.
-int surface_at(const SoundScene& scene, const SurfacePoint& point) {
-  int nearest = -1;
-  double least = 0;
-  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
-    const Surface& surface = scene.surfaces[s];
-    if ((surface.frame.normal - point.normal).norm() > turned) continue;
-    const double size = size_of(surface), height = surface.frame.height(point.position);
-    if (std::abs(height) > off_surface * size) continue;
-    const Vec2 q = surface.frame.to_plane(point.position);
-    const double beside = is_inside(surface.rings, q) ? 0 : distance_to_rings(surface.rings, q);
-    const double off = std::hypot(height, beside);
-    if (beside > off_surface * size || (nearest >= 0 && off >= least)) continue;
-    nearest = static_cast<int>(s);
-    least = off;
-  }
-  return nearest;
-}
 
 PointLight light_at(const SolveResult& result, const ForestPlace& found) {
   const int e = found.triangle;
@@ -46,21 +21,23 @@ PointLight light_at(const SolveResult& result, const ForestPlace& found) {
 }  // namespace
 
 bool add_gathered_light(const SolveResult& result, double tolerance,
-                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        std::span<const FieldPoint> points, std::span<DirectLight> light,
                         const Progress& progress) {
   return !result.reflected_light ||
          add_gathered_light(*result.reflected_light, tolerance, points, light, progress);
 }
 
 bool add_gathered_light(const ReflectedLight& reflected, double tolerance,
-                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        std::span<const FieldPoint> points, std::span<DirectLight> light,
                         const Progress& progress) {
   const int rays = gathering_rays(tolerance);
   return parallel_for(
       points.size(),
       [&](std::size_t k) {
         if (reflected.report().through_operator) light[k].irradiance.setZero();
-        light[k].irradiance += reflected.gather(points[k], rays);
+        const auto& [point, surface] = points[k];
+        light[k].irradiance += surface < 0 ? reflected.gather(point, rays)
+                                           : reflected.gather_on(surface, point.position, rays);
       },
       progress, "reflected light at points");
 }
@@ -68,10 +45,11 @@ bool add_gathered_light(const ReflectedLight& reflected, double tolerance,
 std::vector<PointLight> light_at_points(const SolveResult& result,
                                         std::span<const SurfacePoint> points) {
   const ElementLookup lookup(result.elements);
+  const SurfaceFinder finder(result.scene);
   std::vector<PointLight> light;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Vec3& p = points[k].position;
-    const int surface = surface_at(result.scene, points[k]);
+    const int surface = finder.at_point(points[k]);
     const ForestPlace found = surface < 0 ? ForestPlace{} : lookup.find(surface, p);
     if (found.triangle < 0)
       throw Error(ErrorCode::invalid_input, {},

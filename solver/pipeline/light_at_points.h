@@ -23,16 +23,17 @@ std::vector<PointLight> light_at_points(const SolveResult& result,
 
 /// Irradiance at points, on surfaces or not, from exact direct light and what a solution's elements
 /// reflect: by exactly visible parts where the solution is made of them, else by as many rays as
-/// its tolerance is worth. Two or three times as exact as the elements' polynomials. Adds to
-/// `light`, which holds the direct light of the first points. Precondition: the result has
-/// reflected light, or nothing reflects. On all threads; returns false if stopped.
+/// its tolerance is worth. Two or three times as exact as the elements' polynomials. Surfaces as
+/// on_surfaces() finds them. Adds to `light`, which holds the direct light of the first points.
+/// Precondition: the result has reflected light, or nothing reflects. On all threads; returns false
+/// if stopped.
 bool add_gathered_light(const SolveResult& result, double tolerance,
-                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        std::span<const FieldPoint> points, std::span<DirectLight> light,
                         const Progress& progress = {});
 
 /// The same with nothing but reflected light given.
 bool add_gathered_light(const ReflectedLight& reflected, double tolerance,
-                        std::span<const SurfacePoint> points, std::span<DirectLight> light,
+                        std::span<const FieldPoint> points, std::span<DirectLight> light,
                         const Progress& progress = {});
 
 }  // namespace halfshade

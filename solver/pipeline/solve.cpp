@@ -1,6 +1,7 @@
 #include "solver/pipeline/solve.h"
 
 #include "meshing/core/error.h"
+#include "solver/pipeline/hidden_lamps.h"
 #include "solver/pipeline/limits.h"
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
@@ -112,6 +113,8 @@ SolveResult solve(const PreparedScene& prepared, const SolveOptions& given,
   add(light_warnings({result.scene, result.elements, result.solution, result.exchange,
                       result.radiosity, result.most_bounces}),
       result.warnings);
+  if (const std::string hidden = hidden_lamps(prepared.scene()); !hidden.empty())
+    result.not_reached = hidden;
   return result;
 }
 

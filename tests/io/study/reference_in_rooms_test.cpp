@@ -6,6 +6,7 @@
 #include "io/study/study_reference.h"
 #include "solver/pipeline/light_at_points.h"
 #include "solver/pipeline/solve.h"
+#include "solver/pipeline/surface_finder.h"
 #include "solver/reference/reference_light.h"
 #include "tests/support/files.h"
 #include "tests/support/fuzz_settings.h"
@@ -81,7 +82,8 @@ void expect_within_errors(const SolvedRoom& solved) {
 void expect_right_scores(const SolvedRoom& solved) {
   const auto& [room, prepared, walks, result] = solved;
   std::vector<DirectLight> light = prepared.direct_light().irradiance(solved.points());
-  ASSERT_TRUE(add_gathered_light(result, room.tolerance, solved.points(), light));
+  const std::vector<FieldPoint> places = on_surfaces(prepared, solved.points());
+  ASSERT_TRUE(add_gathered_light(result, room.tolerance, places, light));
   const double own = room.gathers_exactly ? 0 : room.tolerance * walks.scale() / std::sqrt(3.);
   std::vector<double> scores;
   for (std::size_t k = 0; k < light.size(); ++k) {

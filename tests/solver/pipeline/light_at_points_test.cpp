@@ -1,7 +1,10 @@
 #include "solver/pipeline/light_at_points.h"
 
 #include "meshing/core/error.h"
+#include "solver/pipeline/prepared_scene.h"
+#include "solver/pipeline/surface_finder.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/own_corners.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -57,6 +60,52 @@ TEST(LightAtPoints, MustLieOnSurfaces) {
         SurfacePoint{{1.5, 0, 0}, Vec3::UnitZ()}})
     test::expect_error([&] { light_at_points(result, std::vector{wrong}); },
                        ErrorCode::invalid_input, {"point 1", "no surface"});
+}
+
+TEST(OnSurfaces, PointsThatRoundingPutsBehindTheirSurfaceAreMovedOntoIt) {
+  const PreparedScene prepared(test::lit_cube({.5, .5, .5, .5, .5, .5}));
+  const SoundScene& scene = prepared.scene();
+  const std::vector<SurfacePoint> points = {{{0.3, 0.4, -1e-7}, Vec3::UnitZ()},
+                                            {{0.3, 0.4, 1e-7}, Vec3::UnitZ()},
+                                            {{0.3, 0.4, -1e-5}, Vec3::UnitZ()},
+                                            {{0.3, 0.4, 0}, -Vec3::UnitZ()}};
+  const std::vector<FieldPoint> found = on_surfaces(prepared, points);
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0].surface, found[1].surface);
+  EXPECT_EQ(scene.surfaces[at(found[0].surface)].frame.normal, Vec3::UnitZ());
+  EXPECT_EQ(found[0].point.position, Vec3(0.3, 0.4, 0));
+  for (const int same : {1, 2, 3})
+    EXPECT_EQ(found[at(same)].point.position, points[at(same)].position);
+  for (const int none : {2, 3}) EXPECT_EQ(found[at(none)].surface, -1);
+}
+
+/// Points of the planes that faces had before each got corners of its own: direct light of a cube,
+/// and all light where it is closed and 1.
+TEST(OnSurfaces, LightIsAllThereWhereCornersDiffer) {
+  Scene exact = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  for (Material& material : exact.materials) material.exitance = 1 - material.rho;
+  const PreparedScene scene(exact);
+  std::vector<SurfacePoint> points;
+  for (const Surface& surface : scene.scene().surfaces)
+    for (const Vec2& q : {Vec2(0.2, 0.3), Vec2(-0.3, 0.1), Vec2(-0.2, -0.4), Vec2(0, 0)})
+      points.push_back({surface.frame.to_space(q), surface.frame.normal});
+  const std::vector<DirectLight> expected = scene.direct_light().irradiance(points);
+  SolveOptions options;
+  options.tolerance = 0.01;
+  for (std::uint64_t seed = 0; seed < 10; ++seed) {
+    const PreparedScene rounded(test::with_own_corners(exact, 1e-7, seed));
+    const std::vector<FieldPoint> places = on_surfaces(rounded, points);
+    std::vector<SurfacePoint> moved;
+    for (const FieldPoint& place : places) moved.push_back(place.point);
+    std::vector<DirectLight> light = rounded.direct_light().irradiance(moved);
+    for (std::size_t k = 0; k < points.size(); ++k)
+      EXPECT_LT((light[k].irradiance - expected[k].irradiance).abs().maxCoeff(), 1e-5)
+          << "seed " << seed;
+    const SolveResult result = solve(rounded, options);
+    ASSERT_TRUE(add_gathered_light(result, options.tolerance, places, light));
+    for (const DirectLight& here : light)
+      EXPECT_LT((here.irradiance - 1).abs().maxCoeff(), 0.01) << "seed " << seed;
+  }
 }
 
 }  // namespace

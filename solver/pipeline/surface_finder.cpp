@@ -1,0 +1,69 @@
+#include "solver/pipeline/surface_finder.h"
+
+#include "meshing/backprojection/opaque_scene.h"
+#include "meshing/core/planar.h"
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// How far a point may be from a surface, as a share of the surface's size, and how far its normal
+/// may be turned from the surface's, in radians: what six digits of a table leave.
+constexpr double off_surface = 1e-6, turned = 1e-3;
+
+}  // namespace
+
+SurfaceFinder::SurfaceFinder(const SoundScene& scene) : scene_(scene) {
+  std::vector<Bounds> boxes;
+  for (const Surface& surface : scene.surfaces) {
+    Bounds box;
+    for (const Vec2& q : surface.rings.front()) box.include(surface.frame.to_space(q));
+    boxes.push_back(box.grown(2 * off_surface * size_of(surface)));
+  }
+  boxes_ = make_flat_tree(boxes);
+}
+
+int SurfaceFinder::at_point(const SurfacePoint& point) const {
+  Bounds here;
+  here.include(point.position);
+  int nearest = -1;
+  double least = 0;
+  visit_overlaps(boxes_, here, [&](int s) {
+    const Surface& surface = scene_.surfaces[at(s)];
+    if ((surface.frame.normal - point.normal).norm() > turned) return;
+    const double size = size_of(surface), height = surface.frame.height(point.position);
+    if (std::abs(height) > off_surface * size) return;
+    const Vec2 q = surface.frame.to_plane(point.position);
+    const double beside = is_inside(surface.rings, q) ? 0 : distance_to_rings(surface.rings, q);
+    const double off = std::hypot(height, beside);
+    if (beside > off_surface * size) return;
+    if (nearest >= 0 && (off > least || (off == least && s > nearest))) return;
+    nearest = s;
+    least = off;
+  });
+  return nearest;
+}
+
+std::vector<FieldPoint> on_surfaces(const PreparedScene& prepared,
+                                    std::span<const SurfacePoint> points) {
+  const SoundScene& scene = prepared.scene();
+  const SurfaceFinder finder(scene);
+  std::vector<double> off;
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
+    off.push_back(prepared.opaque().off_plane(static_cast<int>(s)));
+  std::vector<FieldPoint> result;
+  result.reserve(points.size());
+  for (const SurfacePoint& point : points) {
+    FieldPoint placed{point, finder.at_point(point)};
+    if (placed.surface >= 0) {
+      const PlaneFrame& frame = scene.surfaces[at(placed.surface)].frame;
+      if (frame.height(point.position) < 2 * off[at(placed.surface)])
+        placed.point.position = frame.foot(point.position);
+    }
+    result.push_back(placed);
+  }
+  return result;
+}
+
+}  // namespace halfshade

@@ -297,13 +297,17 @@ bool in_all_cells_of(const SightScene& scene, int a, int b) {
 
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {
   const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
+  // What hides things from points of a surface is asked in its plane; corners that it shares with
+  // others may lie off it by rounding.
+  const PlaneFrame& plane = scene.joined.sound.surfaces[at(p.joined)].frame;
   FacingTriangles result;
   result.is_all = in_all_cells_of(scene, a, b);
   for (const int root : p.roots) {
     const int cell = scene.reflecting.cells.before(root);
     if (std::find(q.cells.begin(), q.cells.end(), cell) == q.cells.end()) continue;
-    const Polygon3 facing =
-        clip_to_front(scene.reflecting.roots.triangle(root), q.frame.origin, q.frame.normal);
+    std::array<Vec3, 3> triangle = scene.reflecting.roots.triangle(root);
+    for (Vec3& corner : triangle) corner = plane.foot(corner);
+    const Polygon3 facing = clip_to_front(triangle, q.frame.origin, q.frame.normal);
     for (std::size_t k = 1; k + 1 < facing.size(); ++k)
       result.triangles.push_back({facing[0], facing[k], facing[k + 1]});
   }

@@ -20,8 +20,8 @@ namespace {
 constexpr double close_before = 1e-3, least_hidden = 0.01;
 /// Normals of two that look the same way differ by less.
 constexpr double same_way = 1e-2;
-/// Places across each triangle of an emitter: n (n + 1) / 2.
-constexpr int across = 6;
+/// Places along each edge of an emitter's triangles, and in all of one.
+constexpr int across = 6, in_triangle = across * (across + 1) / 2;
 
 Bounds bounds_of(const Surface& surface) {
   Bounds box;
@@ -36,7 +36,7 @@ std::vector<std::pair<Vec3, double>> spread_places(const Surface& surface) {
   std::vector<std::pair<Vec3, double>> places;
   for (const auto& [i, j, k] : ring_triangles(surface.rings)) {
     const Vec2 &a = corners[at(i)], &b = corners[at(j)], &c = corners[at(k)];
-    const double area = 0.5 * cross_2d(b - a, c - a) / (across * (across + 1) / 2);
+    const double area = 0.5 * cross_2d(b - a, c - a) / in_triangle;
     for (int u = 0; u < across; ++u)
       for (int v = 0; u + v < across; ++v)
         places.emplace_back(

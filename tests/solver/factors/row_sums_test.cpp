@@ -2,10 +2,12 @@
 #include "tests/support/face_factors.h"
 #include "tests/support/scenes.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -57,6 +59,38 @@ Scene squares_and_sheets() {
   test::add_polygon(scene, {{.31, .17, .3}, {.62, .17, .3}, {.62, .48, .3}, {.31, .48, .3}}, 0);
   test::add_polygon(scene, {{.1, .1, .6}, {.8, .2, .7}, {.3, .9, .5}}, 0);
   return scene;
+}
+
+Scene concave_room() {
+  const std::vector<Vec2> plan = {{0, 0}, {4, 0}, {4, 2}, {2, 2}, {2, 4}, {0, 4}};
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  std::vector<Vec3> floor, ceiling;
+  for (std::size_t k = 0; k < plan.size(); ++k) {
+    const Vec2 &a = plan[k], &b = plan[(k + 1) % plan.size()];
+    floor.emplace_back(a.x(), a.y(), 0);
+    ceiling.insert(ceiling.begin(), Vec3(a.x(), a.y(), 2.5));
+    test::add_polygon(
+        scene, {{b.x(), b.y(), 0}, {a.x(), a.y(), 0}, {a.x(), a.y(), 2.5}, {b.x(), b.y(), 2.5}}, 0);
+  }
+  test::add_polygon(scene, floor, 0);
+  test::add_polygon(scene, ceiling, 0);
+  return scene;
+}
+
+/// Corners that walls share lie off their planes, which hid all from what lay behind them.
+TEST(RowSums, AConcaveRoomInSinglePrecision) {
+  const FactorMatrix exact = test::face_factors(concave_room(), 1e-4);
+  expect_reached(exact, 1e-4, "exact");
+  for (const double angle : {0.7, 1.9}) {
+    Scene scene = concave_room();
+    const Eigen::AngleAxisd turn(angle, Vec3(1, 2, 3).normalized());
+    for (Vec3& p : scene.vertices) p = (turn * p).cast<float>().cast<double>();
+    const FactorMatrix matrix = test::face_factors(scene, 1e-3);
+    expect_reached(matrix, 1e-3, "turned");
+    ASSERT_EQ(matrix.factors.rows(), exact.factors.rows());
+    EXPECT_LE((matrix.factors - exact.factors).cwiseAbs().maxCoeff(), 1.2e-3) << angle;
+  }
 }
 
 /// What stands far off makes the box of the surroundings large, and changes nothing else: neither

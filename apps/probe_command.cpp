@@ -197,9 +197,10 @@ ExitCode finish(const ProbeCommand& command, const PointTable& table, const Ligh
   return code;
 }
 
-/// Why lamps with pictures are not as accurate as asked for; empty if they are.
-std::string lamps_limit(const SceneFile& file) {
-  if (!file.lamps.is_limited) return {};
+/// Why light of lamps with pictures, or of those that rounding hides, is not as accurate as asked
+/// for; empty if it is.
+std::string lamps_limit(const SceneFile& file, const SoundScene& scene) {
+  if (!file.lamps.is_limited) return hidden_lamps(scene);
   return fmt::format(
       "lamps with pictures would have to be cut into more pieces: theirs leave about {:.2g} of "
       "direct light, if nothing is in between, and may leave more where {:.2g} is asked for",
@@ -230,7 +231,8 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
     const ReferenceLight light =
         reference_light(command, prepared.scene(), points, context.progress);
     end();
-    return finish(command, table, light, light.values.size(), lamps_limit(file), context);
+    return finish(command, table, light, light.values.size(), lamps_limit(file, prepared.scene()),
+                  context);
   }
   const std::optional<ReadSolution> read =
       get_solution(command, solution, prepared.scene(), context.progress);
@@ -239,8 +241,7 @@ ExitCode run_prepared(const ProbeCommand& command, const SceneFile& file,
   if (!command.direct_only)
     not_reached = add_reflected(command, prepared, read, places, context.progress, light);
   end();
-  if (not_reached.empty()) not_reached = lamps_limit(file);
-  if (not_reached.empty()) not_reached = hidden_lamps(prepared.scene());
+  if (not_reached.empty()) not_reached = lamps_limit(file, prepared.scene());
   return finish(command, table, light, light.size(), not_reached, context);
 }
 

@@ -2,9 +2,9 @@
 
 #include "meshing/core/light_source.h"
 #include "meshing/core/planar.h"
-#include "meshing/geometry/flat_tree.h"
 #include "meshing/triangulation/ring_triangles.h"
 #include "solver/pipeline/first_few.h"
+#include "solver/pipeline/surface_finder.h"
 
 #include <fmt/format.h>
 
@@ -22,12 +22,6 @@ constexpr double close_before = 1e-3, least_hidden = 0.01;
 constexpr double same_way = 1e-2;
 /// Places along each edge of an emitter's triangles, and in all of one.
 constexpr int across = 6, in_triangle = across * (across + 1) / 2;
-
-Bounds bounds_of(const Surface& surface) {
-  Bounds box;
-  for (const Vec2& q : surface.rings.front()) box.include(surface.frame.to_space(q));
-  return box;
-}
 
 /// Places that are spread evenly over a surface, with the area each stands for.
 std::vector<std::pair<Vec3, double>> spread_places(const Surface& surface) {
@@ -50,7 +44,7 @@ std::vector<std::pair<Vec3, double>> spread_places(const Surface& surface) {
 
 std::string hidden_lamps(const SoundScene& scene) {
   std::vector<Bounds> boxes;
-  for (const Surface& surface : scene.surfaces) boxes.push_back(bounds_of(surface));
+  for (const Surface& surface : scene.surfaces) boxes.push_back(outline_bounds(surface));
   const FlatTree tree = make_flat_tree(boxes);
   const auto has_back = [&](int s, const Bounds& box) {
     bool found = false;

@@ -1,6 +1,7 @@
 #include "solver/pipeline/near_features.h"
 
 #include "meshing/geometry/flat_tree.h"
+#include "solver/pipeline/surface_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,7 @@ class Finder {
  public:
   explicit Finder(const SoundScene& scene) : scene_(scene) {
     std::vector<Bounds> boxes;
-    for (const Surface& surface : scene.surfaces) {
-      Bounds box;
-      for (const Vec2& p : surface.rings.front()) box.include(surface.frame.to_space(p));
-      boxes.push_back(box);
-    }
+    for (const Surface& surface : scene.surfaces) boxes.push_back(outline_bounds(surface));
     tree_ = make_flat_tree(boxes);
   }
 

@@ -14,13 +14,16 @@ constexpr double off_surface = 1e-6, turned = 1e-3;
 
 }  // namespace
 
+Bounds outline_bounds(const Surface& surface) {
+  Bounds box;
+  for (const Vec2& q : surface.rings.front()) box.include(surface.frame.to_space(q));
+  return box;
+}
+
 SurfaceFinder::SurfaceFinder(const SoundScene& scene) : scene_(scene) {
   std::vector<Bounds> boxes;
-  for (const Surface& surface : scene.surfaces) {
-    Bounds box;
-    for (const Vec2& q : surface.rings.front()) box.include(surface.frame.to_space(q));
-    boxes.push_back(box.grown(2 * off_surface * size_of(surface)));
-  }
+  for (const Surface& surface : scene.surfaces)
+    boxes.push_back(outline_bounds(surface).grown(2 * off_surface * size_of(surface)));
   boxes_ = make_flat_tree(boxes);
 }
 

@@ -10,6 +10,9 @@
 
 namespace halfshade {
 
+/// Of its outer boundary, in space.
+Bounds outline_bounds(const Surface& surface);
+
 /// Finds the surfaces that points lie on, up to what rounding leaves of both: a millionth of the
 /// surface's size, and a thousandth of a radian between normals.
 class SurfaceFinder {

@@ -24,7 +24,7 @@ void add_accuracy(CLI::App& app, SolveOptions& options) {
       app, "--tolerance", options.tolerance,
       "Error allowed, of the irradiance in the L2 norm over all surfaces and channels, relative\n"
       "to it, so that a channel with little light may be off by more of its own (with --method\n"
-      "matrix: curves that change the mean by less are left out)")
+      "matrix curves that change the mean by less are left out, too)")
       ->capture_default_str();
   app.add_option("--goal", options.goal,
                  "Name of a group: the tolerance is that of its mean irradiance, and effort goes\n"
@@ -265,8 +265,8 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
     options.radiosity.stages = given("--progressive");
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
-    command.needs_tolerance = given("--tolerance") && options.refine == Refinement::uniform &&
-                              options.method == SolveMethod::fields;
+    command.needs_tolerance = given("--tolerance") && (options.refine == Refinement::uniform ||
+                                                       options.method == SolveMethod::matrix);
     note_idle_of_size(app, options, common.notes);
     keep_to_limit(app, options);
     note_idle_of_curves(app, options, common.notes);

@@ -72,8 +72,6 @@ Words constant_elements(double tolerance, const Words& more) {
   Words words = {"--method",
                  "matrix",
                  "--no-discontinuity",
-                 "--tolerance",
-                 fmt::format("{}", tolerance),
                  "--elements",
                  fmt::format("{:.0f}", elements),
                  "--max-elements",

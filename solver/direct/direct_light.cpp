@@ -120,6 +120,13 @@ PointFactor find_light(Worker& worker, const EmitterTarget& target, const Surfac
 
 }  // namespace
 
+double in_rays(const SightEffort& effort, double crowd_work) {
+  constexpr double look = 8, turn = 0.15, exact_turn = 2, box = 0.03, crowd = 3;
+  return look * static_cast<double>(effort.looks) + turn * static_cast<double>(effort.turns) +
+         exact_turn * static_cast<double>(effort.exact_turns) +
+         box * static_cast<double>(effort.boxes) + crowd * crowd_work;
+}
+
 struct DirectLightIndex::Impl {
   std::shared_ptr<const OpaqueScene> opaque;
   std::vector<EmitterTarget> targets;  // by surface
@@ -254,6 +261,11 @@ DirectLight DirectLightIndex::irradiance(const SurfacePoint& point) const {
   return impl_->gather(worker, point, impl_->emitters);
 }
 
+DirectLight DirectLightIndex::irradiance(const SurfacePoint& point, int emitter) const {
+  impl_->target(emitter);
+  return impl_->gather(impl_->workers.local(), point, {&emitter, 1});
+}
+
 int DirectLightIndex::strongest_emitter(const SurfacePoint& point) const {
   int strongest = -1;
   double most = 0;
@@ -272,7 +284,7 @@ int DirectLightIndex::strongest_emitter(const SurfacePoint& point) const {
 Region DirectLightIndex::region(const SurfacePoint& point) const {
   const int strongest = strongest_emitter(point);
   if (strongest < 0) return Region::away;
-  return impl_->gather(impl_->workers.local(), point, {&strongest, 1}).region;
+  return irradiance(point, strongest).region;
 }
 
 std::vector<DirectLight> DirectLightIndex::irradiance(std::span<const SurfacePoint> points,

@@ -54,6 +54,9 @@ struct DirectLight {
   SightEffort effort;  ///< what it took, the same
 };
 
+/// About how many rays take as long as looks that took so much.
+double in_rays(const SightEffort& effort, double crowd_work);
+
 /// Exact direct light of a scene: no sampling, correct to rounding. All calls may run concurrently;
 /// buffers are kept between calls, so that in the steady state nothing is allocated per point.
 class DirectLightIndex {
@@ -83,8 +86,9 @@ class DirectLightIndex {
   std::vector<DirectLight> irradiance(std::span<const SurfacePoint> points,
                                       const Progress& progress = {}) const;
 
-  /// The same for one point on the calling thread.
+  /// The same for one point on the calling thread, from all emitters or one.
   DirectLight irradiance(const SurfacePoint& point) const;
+  DirectLight irradiance(const SurfacePoint& point, int emitter) const;
 
   /// The emitter that gives a point the most light if nothing is in between; −1 if none does.
   int strongest_emitter(const SurfacePoint& point) const;

@@ -52,6 +52,7 @@ struct RayWork {
   std::vector<double> weights;
   std::vector<std::size_t> ends;  ///< of the segments of both estimates of each look
   std::vector<std::uint8_t> blocked;
+  double exact_work = 0;  ///< of looks from the place, in rays
 };
 
 }  // namespace
@@ -156,7 +157,7 @@ struct RayLight::Impl {
                 SpreadPairs& pairs, RayWork& work) const {
     const RayEmitter& emitter = *drawn.emitter;
     const auto end = point_of_draw(place.point, emitter, choice, pairs, work);
-    if (!end) light = exact->factor(place.point, emitter.surface).visible * emitter.target.strength;
+    if (!end) light = look_exactly(place, emitter, work).mean();
     work.draws.push_back({&emitter, light / drawn.light, !!end});
     if (!end) return;
     const int plane = scene->surfaces[at(place.surface)].plane;
@@ -183,6 +184,12 @@ struct RayLight::Impl {
     }
     const auto first = std::upper_bound(reached.begin(), reached.end() - 1, choice * sum);
     return ends[static_cast<std::size_t>(first - reached.begin())];
+  }
+
+  Rgb look_exactly(const FieldPoint& place, const RayEmitter& emitter, RayWork& work) const {
+    const DirectLight light = exact->irradiance(place.point, emitter.surface);
+    work.exact_work += in_rays(light.effort, static_cast<double>(light.crowd_work));
+    return light.irradiance;
   }
 
   /// If nothing is in between.
@@ -222,6 +229,7 @@ struct RayLight::Impl {
 
   NoisyValue gather(const FieldPoint& place, double slack, RayWork& work) const {
     share(place.point, slack, work);
+    work.exact_work = 0;
     work.segments.clear();
     work.weights.clear();
     work.ends.clear();
@@ -248,7 +256,7 @@ struct RayLight::Impl {
         irradiance.b += look.factor * second * exitance;
         continue;
       }
-      const Rgb exactly = exact->factor(place.point, look.emitter->surface).visible * exitance;
+      const Rgb exactly = look_exactly(place, *look.emitter, work);
       irradiance.a += exactly;
       irradiance.b += exactly;
     }
@@ -300,7 +308,7 @@ RayIrradiance RayLight::irradiance(std::span<const FieldPoint> places,
         const std::size_t end = std::min(places.size(), (c + 1) * places_of_task);
         for (std::size_t k = c * places_of_task; k < end; ++k) {
           result.at[k] = impl_->gather(places[k], slack.empty() ? 1 : slack[k], work);
-          rays[c] += work.segments.size();
+          rays[c] += work.segments.size() + static_cast<std::size_t>(work.exact_work);
         }
       },
       progress, "direct light by rays");

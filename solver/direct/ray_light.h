@@ -20,7 +20,7 @@ struct RayLightOptions {
 
 struct RayIrradiance {
   std::vector<NoisyValue> at;  ///< each place, W/m²
-  std::size_t rays = 0;        ///< that were traced for all of them
+  std::size_t rays = 0;        ///< traced for all of them, and what exact looks took, see in_rays
 };
 
 /// Direct light with rays to emitters, as many as a tolerance needs, where exactly visible parts

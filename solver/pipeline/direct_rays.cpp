@@ -18,10 +18,6 @@ constexpr int tried_surfaces = 100;
 /// In rays: exact looks that take more than this are not worth trying more of; about a second.
 constexpr double most_to_tell = 5e6;
 constexpr std::size_t places_at_once = 10;
-/// What counts of an exact look, and of one where so much lies before an emitter that it is cut
-/// into cells, take in rays; see SightEffort and DirectLight::crowd_work.
-constexpr double rays_of_look = 8, rays_of_turn = 0.15, rays_of_exact_turn = 2, rays_of_box = 0.03,
-                 rays_of_crowd = 3;
 /// Of the tolerance: standard deviation of a value, relative to the mean irradiance.
 constexpr double deviation_for_tolerance = 1.5;
 /// A place may take so much of what an exact look takes: rays do with about as many places. Where
@@ -37,18 +33,13 @@ std::vector<SurfacePoint> mixed(const std::vector<SurfacePoint>& points) {
   return result;
 }
 
-/// What exact looks take, in rays.
+/// What exact looks take.
 struct ExactWork {
   SightEffort effort;
   double crowd_work = 0;
   double irradiance = 0, reached = 0;  ///< sum, and at how many places there is any
 
-  double rays() const {
-    return rays_of_look * static_cast<double>(effort.looks) +
-           rays_of_turn * static_cast<double>(effort.turns) +
-           rays_of_exact_turn * static_cast<double>(effort.exact_turns) +
-           rays_of_box * static_cast<double>(effort.boxes) + rays_of_crowd * crowd_work;
-  }
+  double rays() const { return in_rays(effort, crowd_work); }
 };
 
 /// Looks at the points, or at as many as tell enough where each takes very long: the others are

@@ -180,7 +180,7 @@ TEST(CommandLine, ExamplesOfTheHelpRun) {
 TEST(CommandLine, ElementsAskedForThatAreTooFewForAToleranceAskedFor) {
   const test::TempDir folder;
   const std::string s1 = (data / "s1.obj").string();
-  for (const std::string more : {"", "--refine=uniform"}) {
+  for (const std::string more : {"", "--refine=uniform", "--method=matrix"}) {
     std::vector<std::string> words = {"solve", s1, "-q", "--elements", "50", "--tolerance", "1e-5"};
     if (!more.empty()) words.push_back(more);
     const test::Outcome outcome = test::run_halfshade(words, folder.path());

@@ -3,6 +3,7 @@
 #include "meshing/core/plane_frame.h"
 #include "meshing/core/tolerance.h"
 #include "meshing/repair/repair_sentence.h"
+#include "solver/pipeline/first_few.h"
 
 #include <fmt/format.h>
 
@@ -104,6 +105,16 @@ std::string note_of(const Scene& scene, const FactorMatrix& matrix) {
   for (const Repair& repair : matrix.scene.repairs)
     if (is_cut(scene, repair) && !matters(scene, repair)) cuts.push_back(&repair);
   return sentence_of(scene, matrix, cuts);
+}
+
+std::string rows_without_faces(const SceneFile& file, FactorUnit unit) {
+  if (unit != FactorUnit::group || file.empty_groups.empty()) return {};
+  const bool are_many = file.empty_groups.size() > 1;
+  std::vector<std::string> names;
+  for (const std::string& name : file.empty_groups) names.push_back(fmt::format("'{}'", name));
+  return fmt::format("{} {}: the file names {} without giving {} faces", first_few(names),
+                     are_many ? "have no rows" : "has no row", are_many ? "groups" : "a group",
+                     are_many ? "them" : "it");
 }
 
 std::string missing_rows(const Scene& scene, const FactorMatrix& matrix, FactorUnit unit) {

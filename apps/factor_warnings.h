@@ -1,5 +1,6 @@
 #pragma once
 
+#include "io/read/read_scene.h"
 #include "meshing/core/scene.h"
 #include "solver/factors/factor_matrix.h"
 #include "solver/pipeline/warnings.h"
@@ -16,6 +17,9 @@ std::vector<Warning> warnings_of(const Scene& scene, const FactorMatrix& matrix)
 /// What a maker of a scene wants, but what rows of the matrix tell of all the same: rugs and lamps
 /// flush on larger faces, whose rows have less area for it. Empty if there are none.
 std::string note_of(const Scene& scene, const FactorMatrix& matrix);
+
+/// Groups that the file names and gives no faces. Empty if there are none, or rows are not groups'.
+std::string rows_without_faces(const SceneFile& file, FactorUnit unit);
 
 /// Groups or materials whose faces all had no area or were dropped, so that they have no row. Empty
 /// if there are none, and for faces: what was dropped of those tells it.

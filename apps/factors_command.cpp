@@ -30,7 +30,8 @@ void print_doubts(const SceneFile& file, const FactorMatrix& matrix, FactorUnit 
   print_warnings(file, warnings_of(file.scene, matrix), context);
   if (context.common.quiet) return;
   for (const std::string& note :
-       {note_of(file.scene, matrix), missing_rows(file.scene, matrix, unit)})
+       {note_of(file.scene, matrix), missing_rows(file.scene, matrix, unit),
+        rows_without_faces(file, unit)})
     if (!note.empty()) complain("note: {}\n", note);
 }
 

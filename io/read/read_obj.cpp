@@ -55,7 +55,7 @@ class ObjReader {
       face();
     } else if (keyword == "g" || keyword == "o") {
       group_name_ = arguments.empty() ? default_name : std::string(arguments);
-      draft_.named_groups.insert(group_name_);
+      if (!arguments.empty()) draft_.named_groups.insert(group_name_);
       group_ = -1;
     } else if (keyword == "usemtl") {
       use_material(arguments);

@@ -123,6 +123,13 @@ std::vector<std::string> guesses_in(const SceneDraft& draft) {
   return guesses;
 }
 
+std::vector<std::string> empty_groups(const SceneDraft& draft) {
+  std::vector<std::string> empty;
+  for (const std::string& name : draft.named_groups)
+    if (!draft.group_ids.contains(name)) empty.push_back(name);
+  return empty;
+}
+
 }  // namespace
 
 SceneFile read_scene(const path& file, const path& materials, const LampOptions& lamps) {
@@ -141,10 +148,11 @@ SceneFile read_scene(const path& file, const path& materials, const LampOptions&
   drop_unused_materials(draft);
   for (const reading::MissingFile& missing : draft.missing)
     draft.warnings.push_back(missing.place + ": " + missing.sentence);
-  std::vector<std::string> guesses = guesses_in(draft);
+  std::vector<std::string> guesses = guesses_in(draft), empty = empty_groups(draft);
   validate(draft.scene);
   return {std::move(draft.scene), std::move(draft.warnings), std::move(guesses),
-          std::move(draft.files), std::move(heat),           std::move(pictures)};
+          std::move(draft.files), std::move(empty),          std::move(heat),
+          std::move(pictures)};
 }
 
 }  // namespace halfshade

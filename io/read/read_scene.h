@@ -36,9 +36,9 @@ struct SceneFile {
   std::vector<std::string> warnings;  ///< one sentence each, with file and line where known
   std::vector<std::string> guesses;   ///< what is taken where the files say nothing, likewise
   std::vector<std::filesystem::path>
-      files;  ///< read besides the scene: material libraries, buffers
+      files;                              ///< read besides the scene: material libraries, buffers
   std::vector<std::string> empty_groups;  ///< that the file names without giving them faces
-  Heat heat;  ///< what is said of temperatures, bands and net fluxes
+  Heat heat;                              ///< what is said of temperatures, bands and net fluxes
   LampPictures lamps;
 };
 

@@ -72,9 +72,7 @@ double least_gap(const Polygon& a, const Polygon& b) {
 double planarity_limit(const Polygon& polygon, const Polygon& plane) {
   if (look_the_same_way(polygon, plane))
     return tolerance_of(joint_scale(polygon.scale, plane.scale)).planarity;
-  // One side of a two-sided one looks the same way.
-  if (polygon.two_sided || plane.two_sided) return least_gap(polygon, plane);
-  return tolerance_of(joint_scale(polygon.scale, plane.scale)).length;
+  return least_gap(polygon, plane);
 }
 
 /// Whether two parallel polygons, which might come into one plane, lie over each other with a gap

@@ -10,6 +10,21 @@ namespace {
 
 // Numbers in single precision have been multiplied and added in it, too, which rounds some times.
 constexpr double roundings_in_single = 4;
+constexpr int digits_of_single = std::numeric_limits<float>::max_digits10;
+
+/// Whether a number is one of single precision, or what nine digits, which tell those apart, make of
+/// one.
+bool is_single(double x) {
+  const double single = static_cast<float>(x);
+  if (single == x) return true;
+  char text[32];
+  const char* end = std::to_chars(std::begin(text), std::end(text), single,
+                                  std::chars_format::scientific, digits_of_single - 1)
+                        .ptr;
+  double written = 0;
+  std::from_chars(std::begin(text), end, written);
+  return written == x;
+}
 
 /// Adds a number as the shortest decimal that means it, d.ddde±xx.
 void include(WrittenDigits& digits, double x) {
@@ -27,7 +42,7 @@ void include(WrittenDigits& digits, double x) {
   if (e[1] == '-') exponent = -exponent;
   digits.most = std::max(digits.most, written);
   digits.last_place = std::min(digits.last_place, exponent + 1 - written);
-  digits.is_single = digits.is_single && static_cast<double>(static_cast<float>(x)) == x;
+  digits.is_single = digits.is_single && is_single(x);
 }
 
 WrittenDigits joint_digits(const WrittenDigits& a, const WrittenDigits& b) {

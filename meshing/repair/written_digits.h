@@ -10,7 +10,7 @@ namespace halfshade {
 struct WrittenDigits {
   int most = 0;           ///< significant digits of the longest one
   int last_place = 999;   ///< the finest place that one of them has: a power of ten
-  bool is_single = true;  ///< all are numbers of single precision
+  bool is_single = true;  ///< all are numbers of single precision, or nine digits of them
 };
 
 WrittenDigits digits_of(std::span<const Vec3> points);

@@ -199,6 +199,36 @@ TEST_P(AllLightLaws, AreTheSameWithCornersThatDiffer) {
   }
 }
 
+/// A table that stands on the floor, turned, whose feet decimals lift or sink.
+TEST(LawsOfExactParts, WhatStandsOnAFloorNeedsNoMoreElementsInDecimals) {
+  Scene scene = test::room({4, 3, 2.5}, {{{.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}}});
+  const int thing = test::add_material(scene, 0.7, 0), lamp = test::add_material(scene, 0.4, 10);
+  const auto add_box = [&](const Vec3& low, const Vec3& size) {
+    for (const auto& face : test::box_faces(low, low + size, false))
+      test::add_polygon(scene, face, thing);
+  };
+  for (const double x : {1.3, 2.6})
+    for (const double y : {1., 1.9}) add_box({x, y, 0}, {0.06, 0.06, 0.71});
+  add_box({1.2, 0.9, 0.71}, {1.5, 1.2, 0.04});
+  test::add_polygon(scene, {{1.5, 1, 2.45}, {1.5, 2, 2.45}, {2.5, 2, 2.45}, {2.5, 1, 2.45}}, lamp);
+  SolveOptions options;
+  options.tolerance = 0.02;
+  options.visibility = ReflectedVisibility::exact;
+  for (const double angle : {0.7, 1.9, 2.6}) {
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(angle, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+    Scene exact = scene;
+    for (Vec3& p : exact.vertices) p = turn * p;
+    Scene rounded = exact;
+    for (Vec3& p : rounded.vertices)
+      p = p.unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; });
+    const SolveResult expected = solve(exact, options), result = solve(rounded, options);
+    EXPECT_EQ(result.not_reached, "");
+    EXPECT_LE(result.reflected.elements, 1.2 * expected.reflected.elements) << angle;
+    EXPECT_LT(result.reflected.row_error, 0.5) << angle;
+  }
+}
+
 /// Few scenes are large enough for rays of their own accord.
 TEST(LawsOfRays, WhatIsFarAwayOrTinyChangesNothing) {
   SolveOptions options;

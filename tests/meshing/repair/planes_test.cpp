@@ -123,6 +123,28 @@ TEST(ClassifyPlanes, ThatFaceEachOtherAreTwoHoweverNarrowTheGap) {
   EXPECT_EQ(coincident.classes().frames.size(), 1u);
 }
 
+// A foot on a floor, both turned: rounding lifts or sinks it.
+TEST(ClassifyPlanes, ThatFaceEachOtherAreOneIfTheirDigitsTellOfNoGap) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+  const auto in_single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+  const auto in_six_digits = [](double x) { return std::round(x * 1e6) / 1e6; };
+  const auto as_it_is = [](double x) { return x; };
+  const auto planes = [&](double gap, const auto& rounded) {
+    Sheets sheets;
+    sheets.add(0, true, 0, 4);
+    sheets.add(gap, false, 1, 0.1);
+    for (Vec3& p : sheets.points) p = (turn * p).unaryExpr(rounded);
+    return sheets.classes().frames.size();
+  };
+  EXPECT_EQ(planes(0, in_single), 1u);
+  EXPECT_EQ(planes(0, in_six_digits), 1u);
+  EXPECT_EQ(planes(1e-7, in_single), 1u);
+  EXPECT_EQ(planes(1e-7, as_it_is), 2u);
+  EXPECT_EQ(planes(1e-5, in_single), 2u);
+  EXPECT_EQ(planes(1e-5, in_six_digits), 2u);
+}
+
 TEST(ClassifyPlanes, AreNotJoinedAcrossADistance) {
   Sheets sheets;
   sheets.add(0, true), sheets.add(0, true, 0.5), sheets.add(0, true, 3);

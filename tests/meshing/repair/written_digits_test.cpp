@@ -20,6 +20,13 @@ TEST(WrittenDigits, AreThoseOfTheLongestNumberAndTheFinestPlace) {
   EXPECT_FALSE(of(0.1, 3).is_single);
 }
 
+TEST(WrittenDigits, OfSinglePrecisionMayBeNine) {
+  EXPECT_TRUE(of(-3.61616349, 1.68233788).is_single);
+  EXPECT_TRUE(of(0.100000001, 3.2913239).is_single);  // the ninth is 0
+  EXPECT_FALSE(of(-3.61616348, 1.68233788).is_single);
+  EXPECT_FALSE(of(0.1000000015, 3).is_single);
+}
+
 TEST(WrittenDigits, TellWhatRoundingCanDo) {
   // As many decimals, or as many digits: what is coarser.
   EXPECT_DOUBLE_EQ(rounding_of(100, of(100.123456, 0.5)), 0.5e-6);

@@ -12,8 +12,8 @@ namespace {
 constexpr double roundings_in_single = 4;
 constexpr int digits_of_single = std::numeric_limits<float>::max_digits10;
 
-/// Whether a number is one of single precision, or what nine digits, which tell those apart, make of
-/// one.
+/// Whether a number is one of single precision, or what nine digits, which tell those apart, make
+/// of one.
 bool is_single(double x) {
   const double single = static_cast<float>(x);
   if (single == x) return true;

@@ -20,9 +20,13 @@ ReflectedCost reflected_cost(int surfaces, const ReflectedOptions& options) {
   const bool is_exact =
       options.visibility == ReflectedVisibility::exact ||
       (options.visibility == ReflectedVisibility::automatic && by_parts < worth * by_rays);
-  const bool may_choose = options.visibility == ReflectedVisibility::automatic && !is_exact;
-  return {is_exact, may_choose ? std::max(much_amplified, by_parts / (worth * by_rays)) : HUGE_VAL,
-          is_exact ? by_parts : by_rays};
+  GiveUp give_up;
+  if (options.visibility == ReflectedVisibility::automatic) {
+    constexpr double affordable = 20;  // CPU seconds
+    give_up.stagnant = is_exact && by_rays < affordable;
+    if (!is_exact) give_up.amplified = std::max(much_amplified, by_parts / (worth * by_rays));
+  }
+  return {is_exact, give_up, is_exact ? by_parts : by_rays};
 }
 
 }  // namespace halfshade

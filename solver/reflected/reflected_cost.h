@@ -9,12 +9,17 @@ namespace halfshade {
 /// With these many elements of order 2 plain rooms come to this error.
 inline constexpr double usual_elements = 200, usual_error = 0.01;
 
+/// When one way is given up for the other.
+struct GiveUp {
+  /// Rays: where they find that light, and so their noise, is amplified by so much.
+  double amplified = HUGE_VAL;
+  bool stagnant = false;  ///< exactly visible parts: where more elements do not help
+};
+
 /// About what reflected light will take.
 struct ReflectedCost {
-  bool is_exact = false;  ///< by exactly visible parts, or by rays over hemispheres
-  /// Noise of rays is amplified as light is: from there on exactly visible parts are worth their
-  /// time. Never where they are not to be chosen.
-  double most_amplified = HUGE_VAL;
+  bool is_exact = false;   ///< by exactly visible parts, or by rays over hemispheres
+  GiveUp give_up;          ///< never where one way is asked for
   double cpu_seconds = 0;  ///< within five times that in rooms of 9 to 1,700 surfaces
 };
 

@@ -190,11 +190,11 @@ int gathering_rays(double noise) {
 
 namespace {
 
-/// With what is found, or none if light is amplified by `most_amplified` by rays.
+/// With what is found, or none if it was given up.
 std::shared_ptr<ReflectedLight::State> solved_state(const SoundScene& scene,
                                                     const DirectIrradiance& direct,
                                                     const ReflectedOptions& options, bool is_exact,
-                                                    double most_amplified,
+                                                    const GiveUp& give_up,
                                                     const Progress& progress) {
   ReflectingScene reflecting = make_reflecting_scene(scene, progress);
   const HugeRoots huge = find_huge(reflecting.roots, options.counted);
@@ -222,7 +222,7 @@ std::shared_ptr<ReflectedLight::State> solved_state(const SoundScene& scene,
     find_hot_cells(*state, huge, options.tolerance);
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
-    if (!run_rounds(*state, options, most_amplified, progress)) return nullptr;
+    if (!run_rounds(*state, options, give_up, progress)) return nullptr;
   }
   finish(*state);
   return state;
@@ -234,8 +234,8 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
                                const ReflectedOptions& options, const Progress& progress) {
   check(options);
   const ReflectedCost cost = reflected_cost(static_cast<int>(scene.surfaces.size()), options);
-  auto state = solved_state(scene, direct, options, cost.is_exact, cost.most_amplified, progress);
-  if (!state) state = solved_state(scene, direct, options, true, HUGE_VAL, progress);
+  auto state = solved_state(scene, direct, options, cost.is_exact, cost.give_up, progress);
+  if (!state) state = solved_state(scene, direct, options, !cost.is_exact, {}, progress);
   return ReflectedLight(std::move(state));
 }
 

@@ -24,7 +24,7 @@ using DirectIrradiance = std::function<Rgb(int surface, const Vec3& position)>;
 /// How irradiance at a place follows from what leaves all others.
 enum class ReflectedVisibility {
   /// Exact, unless rays are expected to take far less time; where they find that light, and so
-  /// their noise, is amplified, by so much more.
+  /// their noise, is amplified, by so much more. Rays after all where elements do not help.
   automatic,
   exact,   ///< by exactly visible parts: nothing is random; for some tens or hundreds of surfaces
   sampled  ///< by rays over hemispheres

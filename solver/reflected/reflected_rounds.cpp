@@ -9,6 +9,7 @@
 #include "solver/reflected/quiet_field.h"
 #include "solver/reflected/ray_passes.h"
 #include "solver/reflected/refinement.h"
+#include "solver/reflected/stagnation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -72,12 +73,12 @@ class Rounds {
                                                                         : few_strata);
   }
 
-  bool run(double most_amplified) {
-    most_amplified_ = most_amplified;
+  bool run(const GiveUp& give_up) {
+    give_up_ = give_up;
     while (run_once())
       if (mesh_.count() > many_to_free) return_free_memory();
     if (kept_rays_) state_.report.rays += kept_rays_->rays();
-    return !is_amplified();
+    return !is_amplified() && !(give_up_.stagnant && is_stagnant(rounds_));
   }
 
  private:
@@ -182,7 +183,7 @@ class Rounds {
   }
 
   bool all_bounces() const { return options_.bounces < 0; }
-  bool is_amplified() const { return state_.report.amplification >= most_amplified_; }
+  bool is_amplified() const { return state_.report.amplification >= give_up_.amplified; }
 
   /// What rays have found so far, as well as it is known.
   void balance(const ReflectedSystem& system, Found& found) const {
@@ -303,6 +304,9 @@ class Rounds {
     report.end = ReflectedEnd::accurate;
     if (std::pow(report.error, 2) * all <= allowed_square(options_, state_.scale, all))
       return Next::end;
+    if (parts_) rounds_.push_back({mesh_.count(), report.error});
+    report.end = ReflectedEnd::rounds;
+    if (is_stagnant(rounds_)) return Next::end;
     // More elements do not show what so many rays do not find.
     const bool cannot_show = unbalanced.elements == 0 || unbalanced.elements > most_for_gaps;
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
@@ -372,12 +376,13 @@ class Rounds {
 
   ReflectedLight::State& state_;
   const ReflectedOptions& options_;
-  double most_amplified_ = HUGE_VAL;
+  GiveUp give_up_;
   const Progress& progress_;
   ReflectedMesh mesh_;
   DirectProjection direct_;
   std::unique_ptr<RayExchange> kept_rays_;  ///< either these
   std::unique_ptr<ExactExchange> parts_;    ///< or exact parts
+  std::vector<RoundError> rounds_;          ///< of exact parts
   int use_ = 0;
   int points_ = 0;  ///< of the estimate so far
   int surer_ = 1;   ///< times as many of them as usual
@@ -388,8 +393,8 @@ class Rounds {
 }  // namespace
 
 bool run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
-                double most_amplified, const Progress& progress) {
-  return Rounds(state, options, progress).run(most_amplified);
+                const GiveUp& give_up, const Progress& progress) {
+  return Rounds(state, options, progress).run(give_up);
 }
 
 }  // namespace halfshade

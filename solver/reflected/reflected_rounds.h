@@ -1,5 +1,6 @@
 #pragma once
 
+#include "solver/reflected/reflected_cost.h"
 #include "solver/reflected/reflected_state.h"
 
 namespace halfshade {
@@ -8,9 +9,8 @@ namespace halfshade {
 inline constexpr int points_of_exact_projection = 100000;
 
 /// The rounds of solving, estimating and refining, until the tolerance is met or a limit stops it.
-/// What is found is kept after each. False, after the first, if by rays light is amplified by
-/// `most_amplified` and more: nothing is kept then.
+/// What is found is kept after each. False if it was given up: what was found is of no use then.
 bool run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
-                double most_amplified, const Progress& progress);
+                const GiveUp& give_up, const Progress& progress);
 
 }  // namespace halfshade

@@ -229,6 +229,29 @@ TEST(LawsOfExactParts, WhatStandsOnAFloorNeedsNoMoreElementsInDecimals) {
   }
 }
 
+/// Two boxes side by side in a corner: what is buried between them, their backs and the walls sees
+/// anything, in decimals.
+TEST(LawsOfExactParts, GiveWayToRaysWhereMoreElementsDoNotHelp) {
+  Scene scene = test::room({4, 3, 2.5}, {{{.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.3, 0}, {.5, 0}}});
+  const int thing = test::add_material(scene, 0.7, 0), lamp = test::add_material(scene, 0.4, 10);
+  for (const auto& [low, high] : {std::pair(Vec3(0, 0, 0), Vec3(0.8, 0.5, 1.1)),
+                                  std::pair(Vec3(0.8, 0, 0), Vec3(1.5, 0.5, 0.7))})
+    for (const auto& face : test::box_faces(low, high, false))
+      test::add_polygon(scene, face, thing);
+  test::add_polygon(scene, {{1.5, 1, 2.5}, {1.5, 2, 2.5}, {2.5, 2, 2.5}, {2.5, 1, 2.5}}, lamp);
+  const SolveOptions options;
+  const SolveResult expected = solve(scene, options);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(2.6, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
+  for (Vec3& p : scene.vertices)
+    p = (turn * p).unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; });
+  const SolveResult result = solve(scene, options);
+  EXPECT_EQ(result.not_reached, "");
+  EXPECT_TRUE(expected.reflected.is_exact);
+  EXPECT_FALSE(result.reflected.is_exact);
+  expect_near(powers(expected, scene), powers(result, scene), "in decimals");
+}
+
 /// Few scenes are large enough for rays of their own accord.
 TEST(LawsOfRays, WhatIsFarAwayOrTinyChangesNothing) {
   SolveOptions options;

@@ -75,10 +75,10 @@ TEST(AmplifiedLight, IsFoundByExactPartsUnlessRaysAreAskedFor) {
 TEST(AmplifiedLight, ExactPartsAreWorthLessAmongManySurfaces) {
   ReflectedOptions options;
   options.tolerance = 0.1;
-  EXPECT_LT(reflected_cost(2, options).most_amplified, 20);
-  EXPECT_GT(reflected_cost(1000, options).most_amplified, 1000);
+  EXPECT_LT(reflected_cost(2, options).give_up.amplified, 20);
+  EXPECT_GT(reflected_cost(1000, options).give_up.amplified, 1000);
   options.visibility = ReflectedVisibility::sampled;
-  EXPECT_EQ(reflected_cost(2, options).most_amplified, HUGE_VAL);
+  EXPECT_EQ(reflected_cost(2, options).give_up.amplified, HUGE_VAL);
 }
 
 TEST(ReflectedOn, ClaimsTwoStandardDeviationsOfThePoints) {

@@ -1,0 +1,17 @@
+#include "solver/reflected/stagnation.h"
+
+#include <algorithm>
+
+namespace halfshade {
+
+bool is_stagnant(std::span<const RoundError> rounds) {
+  constexpr int many_times = 8;
+  constexpr double hardly_less = 0.7;
+  if (rounds.empty()) return false;
+  const RoundError& last = rounds.back();
+  return std::ranges::any_of(rounds, [&](const RoundError& round) {
+    return many_times * round.elements <= last.elements && last.error > hardly_less * round.error;
+  });
+}
+
+}  // namespace halfshade

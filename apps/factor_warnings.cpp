@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string_view>
 
 namespace halfshade {
 namespace {
@@ -79,6 +80,17 @@ std::string sentence_of(const Scene& scene, const FactorMatrix& matrix,
   return text;
 }
 
+/// Empty if there are no names.
+std::string no_rows(const std::vector<std::string>& names, std::string_view why_one,
+                    std::string_view why_many) {
+  if (names.empty()) return {};
+  std::vector<std::string> quoted;
+  for (const std::string& name : names) quoted.push_back(fmt::format("'{}'", name));
+  const bool are_many = names.size() > 1;
+  return fmt::format("{} {}: {}", first_few(quoted), are_many ? "have no rows" : "has no row",
+                     are_many ? why_many : why_one);
+}
+
 }  // namespace
 
 std::vector<Warning> warnings_of(const Scene& scene, const FactorMatrix& matrix) {
@@ -108,13 +120,8 @@ std::string note_of(const Scene& scene, const FactorMatrix& matrix) {
 }
 
 std::string rows_without_faces(const SceneFile& file, FactorUnit unit) {
-  if (unit != FactorUnit::group || file.empty_groups.empty()) return {};
-  const bool are_many = file.empty_groups.size() > 1;
-  std::vector<std::string> names;
-  for (const std::string& name : file.empty_groups) names.push_back(fmt::format("'{}'", name));
-  return fmt::format("{} {}: the file names {} without giving {} faces", first_few(names),
-                     are_many ? "have no rows" : "has no row", are_many ? "groups" : "a group",
-                     are_many ? "them" : "it");
+  if (unit != FactorUnit::group) return {};
+  return no_rows(file.empty_groups, "the file gives it no face", "the file gives them no faces");
 }
 
 std::string missing_rows(const Scene& scene, const FactorMatrix& matrix, FactorUnit unit) {
@@ -127,12 +134,9 @@ std::string missing_rows(const Scene& scene, const FactorMatrix& matrix, FactorU
   for (const int id : used)
     if (!names.contains(row_name(scene, unit, {id, false})) &&
         !names.contains(row_name(scene, unit, {id, true})))
-      missing.push_back(fmt::format("'{}'", row_name(scene, unit, {id, false})));
-  if (missing.empty()) return {};
-  return fmt::format("{} {} {}: none of {} faces was left when the scene was made sound",
-                     fmt::join(missing, ", "), missing.size() > 1 ? "have" : "has",
-                     missing.size() > 1 ? "no rows" : "no row",
-                     missing.size() > 1 ? "their" : "its");
+      missing.push_back(row_name(scene, unit, {id, false}));
+  return no_rows(missing, "none of its faces was left when the scene was made sound",
+                 "none of their faces was left when the scene was made sound");
 }
 
 }  // namespace halfshade

@@ -190,12 +190,14 @@ int gathering_rays(double noise) {
 
 namespace {
 
-/// With what is found, or none if it was given up.
-std::shared_ptr<ReflectedLight::State> solved_state(const SoundScene& scene,
-                                                    const DirectIrradiance& direct,
-                                                    const ReflectedOptions& options, bool is_exact,
-                                                    const GiveUp& give_up,
-                                                    const Progress& progress) {
+struct OneWay {
+  std::shared_ptr<ReflectedLight::State> state;  ///< with what is found
+  bool is_given_up = false;
+};
+
+OneWay solve_one_way(const SoundScene& scene, const DirectIrradiance& direct,
+                     const ReflectedOptions& options, bool is_exact, const GiveUp& give_up,
+                     const Progress& progress) {
   ReflectingScene reflecting = make_reflecting_scene(scene, progress);
   const HugeRoots huge = find_huge(reflecting.roots, options.counted);
   FirstLight light = first_light(scene, reflecting.roots, direct, options.through_operator);
@@ -220,12 +222,13 @@ std::shared_ptr<ReflectedLight::State> solved_state(const SoundScene& scene,
   }
   if (!reflects_nothing(state->light) && !is_exact && !options.through_operator)
     find_hot_cells(*state, huge, options.tolerance);
+  bool is_given_up = false;
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
-    if (!run_rounds(*state, options, give_up, progress)) return nullptr;
+    is_given_up = !run_rounds(*state, options, give_up, progress);
   }
   finish(*state);
-  return state;
+  return {std::move(state), is_given_up};
 }
 
 }  // namespace
@@ -234,9 +237,15 @@ ReflectedLight reflected_light(const SoundScene& scene, const DirectIrradiance& 
                                const ReflectedOptions& options, const Progress& progress) {
   check(options);
   const ReflectedCost cost = reflected_cost(static_cast<int>(scene.surfaces.size()), options);
-  auto state = solved_state(scene, direct, options, cost.is_exact, cost.give_up, progress);
-  if (!state) state = solved_state(scene, direct, options, !cost.is_exact, {}, progress);
-  return ReflectedLight(std::move(state));
+  OneWay way = solve_one_way(scene, direct, options, cost.is_exact, cost.give_up, progress);
+  if (!way.is_given_up) return ReflectedLight(std::move(way.state));
+  OneWay other = solve_one_way(scene, direct, options, !cost.is_exact, {}, progress);
+  // Rays that were stopped may know less than what exact parts came to.
+  ReflectedReport& report = way.state->report;
+  if (!cost.is_exact || !progress.stopped() || other.state->report.error <= report.error)
+    return ReflectedLight(std::move(other.state));
+  report.end = ReflectedEnd::interrupted;
+  return ReflectedLight(std::move(way.state));
 }
 
 }  // namespace halfshade

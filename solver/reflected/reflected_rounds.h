@@ -9,7 +9,7 @@ namespace halfshade {
 inline constexpr int points_of_exact_projection = 100000;
 
 /// The rounds of solving, estimating and refining, until the tolerance is met or a limit stops it.
-/// What is found is kept after each. False if it was given up: what was found is of no use then.
+/// What is found is kept after each. False if it was given up.
 bool run_rounds(ReflectedLight::State& state, const ReflectedOptions& options,
                 const GiveUp& give_up, const Progress& progress);
 

@@ -178,8 +178,8 @@ TEST_F(Factors, TellGroupsWithoutFaces) {
   write("names.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\ng some thing\ng\ng full\nf 1 2 3\ng other\n");
   const test::Outcome by_group = factors({"names.obj", "-o", "f.csv"});
   EXPECT_EQ(by_group.exit_code, 0);
-  EXPECT_NE(by_group.err.find("note: 'other', 'some thing' have no rows: the file names groups "
-                              "without giving them faces\n"),
+  EXPECT_NE(by_group.err.find("note: 'other', 'some thing' have no rows: the file gives "
+                              "them no faces\n"),
             std::string::npos)
       << by_group.err;
   for (const std::string unit : {"material", "face"})

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stop_token>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -71,10 +73,10 @@ double norm(const std::vector<Rgb>& values) {
 }
 
 void expect_near(const std::vector<Rgb>& expected, const std::vector<Rgb>& got,
-                 const std::string& what) {
+                 const std::string& what, double within = 2 * tolerance) {
   std::vector<Rgb> off = expected;
   for (std::size_t i = 0; i < off.size(); ++i) off[i] -= got[i];
-  EXPECT_LE(norm(off), 2 * tolerance * norm(expected)) << what;
+  EXPECT_LE(norm(off), within * norm(expected)) << what;
 }
 
 /// The elements of all but the triangle elsewhere, by their middles: how they are numbered may
@@ -199,6 +201,15 @@ TEST_P(AllLightLaws, AreTheSameWithCornersThatDiffer) {
   }
 }
 
+const Vec3 axis = Vec3(0.3, -0.5, 0.8).normalized();
+
+/// To six decimals.
+void turn_and_round(Scene& scene, double angle) {
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+  for (Vec3& p : scene.vertices)
+    p = (turn * p).unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; });
+}
+
 /// A table that stands on the floor, turned, whose feet decimals lift or sink.
 TEST(LawsOfExactParts, WhatStandsOnAFloorNeedsNoMoreElementsInDecimals) {
   Scene scene = test::room({4, 3, 2.5}, {{{.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}}});
@@ -215,13 +226,10 @@ TEST(LawsOfExactParts, WhatStandsOnAFloorNeedsNoMoreElementsInDecimals) {
   options.tolerance = 0.02;
   options.visibility = ReflectedVisibility::exact;
   for (const double angle : {0.7, 1.9, 2.6}) {
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(angle, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
-    Scene exact = scene;
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
+    Scene exact = scene, rounded = scene;
     for (Vec3& p : exact.vertices) p = turn * p;
-    Scene rounded = exact;
-    for (Vec3& p : rounded.vertices)
-      p = p.unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; });
+    turn_and_round(rounded, angle);
     const SolveResult expected = solve(exact, options), result = solve(rounded, options);
     EXPECT_EQ(result.not_reached, "");
     EXPECT_LE(result.reflected.elements, 1.2 * expected.reflected.elements) << angle;
@@ -231,7 +239,7 @@ TEST(LawsOfExactParts, WhatStandsOnAFloorNeedsNoMoreElementsInDecimals) {
 
 /// Two boxes side by side in a corner: what is buried between them, their backs and the walls sees
 /// anything, in decimals.
-TEST(LawsOfExactParts, GiveWayToRaysWhereMoreElementsDoNotHelp) {
+Scene boxes_in_a_corner() {
   Scene scene = test::room({4, 3, 2.5}, {{{.5, 0}, {.5, 0}, {.5, 0}, {.5, 0}, {.3, 0}, {.5, 0}}});
   const int thing = test::add_material(scene, 0.7, 0), lamp = test::add_material(scene, 0.4, 10);
   for (const auto& [low, high] : {std::pair(Vec3(0, 0, 0), Vec3(0.8, 0.5, 1.1)),
@@ -239,17 +247,29 @@ TEST(LawsOfExactParts, GiveWayToRaysWhereMoreElementsDoNotHelp) {
     for (const auto& face : test::box_faces(low, high, false))
       test::add_polygon(scene, face, thing);
   test::add_polygon(scene, {{1.5, 1, 2.5}, {1.5, 2, 2.5}, {2.5, 2, 2.5}, {2.5, 1, 2.5}}, lamp);
+  return scene;
+}
+
+TEST(LawsOfExactParts, GiveWayToRaysWhereMoreElementsDoNotHelp) {
+  Scene scene = boxes_in_a_corner();
   const SolveOptions options;
   const SolveResult expected = solve(scene, options);
-  const Eigen::Matrix3d turn =
-      Eigen::AngleAxisd(2.6, Vec3(0.3, -0.5, 0.8).normalized()).toRotationMatrix();
-  for (Vec3& p : scene.vertices)
-    p = (turn * p).unaryExpr([](double x) { return std::round(x * 1e6) / 1e6; });
+  turn_and_round(scene, 2.6);
   const SolveResult result = solve(scene, options);
   EXPECT_EQ(result.not_reached, "");
   EXPECT_TRUE(expected.reflected.is_exact);
   EXPECT_FALSE(result.reflected.is_exact);
   expect_near(powers(expected, scene), powers(result, scene), "in decimals");
+
+  std::stop_source stop;
+  const Progress progress{stop.get_token(), [&](std::string_view stage, double) {
+                            if (stage == "rays of reflected light") stop.request_stop();
+                          }};
+  const SolveResult stopped = solve(scene, options, progress);
+  EXPECT_TRUE(stopped.interrupted);
+  EXPECT_TRUE(stopped.reflected.is_exact);
+  // A third and more of the light is reflected.
+  expect_near(powers(expected, scene), powers(stopped, scene), "what they came to is kept", 0.1);
 }
 
 /// Few scenes are large enough for rays of their own accord.

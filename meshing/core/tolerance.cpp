@@ -23,19 +23,21 @@ LocalScale scale_of(std::span<const Vec3> points) {
     high = high.cwiseMax(p);
   }
   return {std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff()),
-          (high - low).stableNorm()};
+          (high - low).stableNorm(), 0};
 }
 
 LocalScale joint_scale(const LocalScale& a, const LocalScale& b) {
-  return {std::max(a.magnitude, b.magnitude), std::min(a.size, b.size)};
+  return {std::max(a.magnitude, b.magnitude), std::min(a.size, b.size),
+          std::max(a.rounding, b.rounding)};
 }
 
 LocalTolerance tolerance_of(const LocalScale& scale) {
   LocalTolerance tolerance;
   tolerance.length = std::max(arithmetic * scale.magnitude,
                               std::min(same_point * scale.magnitude, least_feature * scale.size));
-  tolerance.planarity = std::max(
-      tolerance.length, std::min(six_digits * scale.magnitude, least_flatness * scale.size));
+  tolerance.planarity =
+      std::max(tolerance.length, std::min(std::max(six_digits * scale.magnitude, scale.rounding),
+                                          least_flatness * scale.size));
   return tolerance;
 }
 

@@ -11,6 +11,8 @@ namespace halfshade {
 struct LocalScale {
   double magnitude = 0;  ///< the largest coordinate, absolute: what rounding is relative to
   double size = 0;       ///< the diameter of the thing; of several, of the smallest
+  double rounding = 0;   ///< how far apart digits of a file may have moved two such things that
+                         ///< are in one plane, of what is moved most
 
   auto operator<=>(const LocalScale&) const = default;
 };
@@ -30,9 +32,9 @@ struct LocalTolerance {
 };
 
 /// Files carry six to nine digits, so the decimal rounding of a coordinate must not bend a polygon
-/// (1e-6 of the magnitude); distinct points are a billionth of it apart. But nothing is moved by a
-/// noticeable part of its own size, however large its coordinates are, nor is anything asked of
-/// doubles that they do not hold.
+/// (1e-6 of the magnitude, or what its digits tell); distinct points are a billionth of it apart.
+/// But nothing is moved by a noticeable part of its own size, however large its coordinates are,
+/// nor is anything asked of doubles that they do not hold.
 LocalTolerance tolerance_of(const LocalScale& scale);
 
 }  // namespace halfshade

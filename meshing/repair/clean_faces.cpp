@@ -2,7 +2,9 @@
 
 #include "meshing/arrangement/overlay.h"
 #include "meshing/core/error.h"
+#include "meshing/core/plane_frame.h"
 #include "meshing/core/tolerance.h"
+#include "meshing/repair/written_digits.h"
 
 #include <fmt/format.h>
 
@@ -53,7 +55,11 @@ std::vector<Vec3> corners(const WeldedVertices& vertices, const std::vector<int>
 
 LocalScale scale_of_face(const Scene& scene, int face, const WeldedVertices& vertices) {
   const int point = vertices.of_vertex[at(scene.faces[at(face)].vertices.front())];
-  return {vertices.magnitude[at(point)], scale_of(face_corners(scene, face)).size};
+  const std::vector<Vec3> corners = face_corners(scene, face);
+  const Vec3 area = area_vector(corners);
+  const double size = area.stableNorm();
+  return {vertices.magnitude[at(point)], scale_of(corners).size,
+          size > 0 ? rounding_of_plane(corners, area / size) : 0};
 }
 
 double perimeter(const std::vector<Vec3>& polygon) {

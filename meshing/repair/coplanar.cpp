@@ -165,7 +165,8 @@ class Resolver {
     draft.rings = std::move(rings);
     std::vector<Vec3> corners;
     for (const int p : draft.rings[0]) corners.push_back(points_[at(p)]);
-    draft.scale = {face.scale.magnitude, scale_of(corners).size};
+    draft.scale = face.scale;
+    draft.scale.size = scale_of(corners).size;
     for (const int m : members) {
       draft.faces.push_back(faces_[at(m)].face);
       draft.face_rings.push_back(faces_[at(m)].loop);

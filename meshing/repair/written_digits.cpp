@@ -11,6 +11,9 @@ namespace {
 // Numbers in single precision have been multiplied and added in it, too, which rounds some times.
 constexpr double roundings_in_single = 4;
 constexpr int digits_of_single = std::numeric_limits<float>::max_digits10;
+/// What programs write at least. Numbers of fewer digits are what somebody meant.
+constexpr int fewest_digits = 5;
+constexpr int finest_place = -999;
 
 /// Whether a number is one of single precision, or what nine digits, which tell those apart, make
 /// of one.
@@ -66,6 +69,17 @@ Extent extent_of(std::span<const Vec3> points) {
   return extent;
 }
 
+double rounding_between(const Extent& a, const Extent& b, const Vec3& normal,
+                        const WrittenDigits& digits) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (a.low[axis] == a.high[axis] && b.low[axis] == b.high[axis]) continue;
+    sum += std::abs(normal[axis]) *
+           (rounding_of(a.magnitude(axis), digits) + rounding_of(b.magnitude(axis), digits));
+  }
+  return sum;
+}
+
 }  // namespace
 
 WrittenDigits digits_of(std::span<const Vec3> points) {
@@ -86,15 +100,15 @@ double rounding_of(double magnitude, const WrittenDigits& digits) {
 }
 
 double rounding_between(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal) {
-  const WrittenDigits digits = joint_digits(digits_of(a), digits_of(b));
-  const Extent of_a = extent_of(a), of_b = extent_of(b);
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (of_a.low[axis] == of_a.high[axis] && of_b.low[axis] == of_b.high[axis]) continue;
-    sum += std::abs(normal[axis]) *
-           (rounding_of(of_a.magnitude(axis), digits) + rounding_of(of_b.magnitude(axis), digits));
-  }
-  return sum;
+  return rounding_between(extent_of(a), extent_of(b), normal,
+                          joint_digits(digits_of(a), digits_of(b)));
+}
+
+double rounding_of_plane(std::span<const Vec3> corners, const Vec3& normal) {
+  WrittenDigits digits = digits_of(corners);
+  if (digits.most < fewest_digits) digits = {fewest_digits, finest_place, false};
+  const Extent extent = extent_of(corners);
+  return rounding_between(extent, extent, normal, digits);
 }
 
 }  // namespace halfshade

@@ -25,4 +25,8 @@ double rounding_of(double magnitude, const WrittenDigits& digits);
 /// along an axis is one, however few digits tell of it.
 double rounding_between(std::span<const Vec3> a, std::span<const Vec3> b, const Vec3& normal);
 
+/// The same of two polygons like this one. Of fewer digits than five it is not known that more were
+/// rounded: it counts as five, then.
+double rounding_of_plane(std::span<const Vec3> corners, const Vec3& normal);
+
 }  // namespace halfshade

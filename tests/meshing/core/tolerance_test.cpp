@@ -25,6 +25,14 @@ TEST(LocalTolerance, MovesNothingByANoticeablePartOfItsSize) {
     }
 }
 
+TEST(LocalTolerance, FollowsWhatDigitsTellIfThatIsCoarser) {
+  EXPECT_DOUBLE_EQ(tolerance_of({4, 1, 1e-6}).planarity, 4e-6);
+  EXPECT_DOUBLE_EQ(tolerance_of({4, 1, 2e-5}).planarity, 2e-5);
+  EXPECT_DOUBLE_EQ(tolerance_of({4, 1, 2e-2}).planarity, 1e-3)
+      << "not more than a share of the size";
+  EXPECT_DOUBLE_EQ(tolerance_of({4, 1, 2e-2}).length, 4e-9) << "rounding parts no points";
+}
+
 TEST(LocalTolerance, ScalesExactlyWithPowersOfTwo) {
   const LocalTolerance one = tolerance_of({3.7, 0.011});
   for (const int k : {-90, -3, 7, 80}) {
@@ -39,7 +47,7 @@ TEST(LocalScale, IsOfCornersAndOfTheSmallerThing) {
   const LocalScale scale = scale_of(corners);
   EXPECT_DOUBLE_EQ(scale.magnitude, 5);
   EXPECT_DOUBLE_EQ(scale.size, 5);
-  EXPECT_EQ(joint_scale({5, 1}, {2, 3}), (LocalScale{5, 1}));
+  EXPECT_EQ(joint_scale({5, 1, 1e-6}, {2, 3, 1e-5}), (LocalScale{5, 1, 1e-5}));
 }
 
 }  // namespace

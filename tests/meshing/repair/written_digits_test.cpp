@@ -45,5 +45,24 @@ TEST(WrittenDigits, PartNoPlanesAcrossAnAxis) {
   EXPECT_DOUBLE_EQ(rounding_between(floor, slanted, Vec3::UnitZ()), 1e-6);
 }
 
+TEST(WrittenDigits, OfOnePlane) {
+  const std::vector<Vec3> level = {{0, 0, 1.23456}, {4.56789, 0, 1.23456}, {0, 4, 1.23456}};
+  EXPECT_EQ(rounding_of_plane(level, Vec3::UnitZ()), 0) << "equal numbers are rounded equally";
+  const std::vector<Vec3> slanted = {{0, 0, 1.23456}, {4.56789, 0, 1.34567}, {0, 4, 1.23456}};
+  EXPECT_DOUBLE_EQ(rounding_of_plane(slanted, Vec3::UnitZ()), 1e-5);
+  EXPECT_DOUBLE_EQ(rounding_of_plane(slanted, Vec3::UnitY()), 1e-5);
+  EXPECT_DOUBLE_EQ(rounding_of_plane(slanted, Vec3(0, 0.6, 0.8)), 1.4e-5);
+}
+
+TEST(WrittenDigits, AreFiveAtLeast) {
+  const std::vector<Vec3> meant = {{0, 0, 1.2}, {4.5, 0, 1.3}, {0, 4, 1.2}};
+  EXPECT_DOUBLE_EQ(rounding_of_plane(meant, Vec3::UnitZ()), 1e-4);
+  const std::vector<Vec3> larger = {{0, 0, 12}, {45, 0, 13}, {0, 40, 12}};
+  EXPECT_DOUBLE_EQ(rounding_of_plane(larger, Vec3::UnitZ()), 1e-3);
+  // Five decimals of small numbers are fewer digits.
+  const std::vector<Vec3> small = {{0, 0, 0.01234}, {0.04567, 0, 0.02345}, {0, 0.04, 0.01234}};
+  EXPECT_DOUBLE_EQ(rounding_of_plane(small, Vec3::UnitZ()), 1e-6);
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -23,15 +23,14 @@ void add_leaves(const ReflectedMesh& mesh, int triangle, std::vector<int>& eleme
 
 }  // namespace
 
-IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
-                         const Vec3& position, std::span<const Sighted> targets) {
-  IrradianceRow row = maker.row(maker.sight().point_of(root, position), targets);
-  if (!scene.cells.closed[at(scene.cells.before(root))] || !(row.sum > 0)) return row;
+void make_closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
+                     const Vec3& position, std::span<const Sighted> targets, IrradianceRow& row) {
+  maker.make(maker.sight().point_of(root, position), targets, row);
+  if (!scene.cells.closed[at(scene.cells.before(root))] || !(row.sum > 0)) return;
   row.off = std::max(row.off, std::abs(row.sum - 1));
   // What is more than one is counted already.
   if (1 - row.sum > maker.accuracy().allowed()) row.unsure += 1 - row.sum;
   for (double& m : row.moments) m /= row.sum;
-  return row;
 }
 
 bool ExactExchange::fits(const ReflectedMesh& mesh) const {
@@ -58,8 +57,11 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
   const int t = mesh.triangle[at(element)], root = mesh.root(element);
   std::vector<IrradianceRow>& rows = rows_[at(element)];
   const std::vector<Sighted> targets = sight_.may_see(mesh.forest.corners(t), root);
-  for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places)
-    rows.push_back(closed_row(maker, scene_, root, mesh.position(element, place), targets));
+  IrradianceRow row;  // grows once; what is kept of it takes no more memory than it needs
+  for (const TrianglePlace& place : element_nodes_of(mesh.order[at(t)]).places) {
+    make_closed_row(maker, scene_, root, mesh.position(element, place), targets, row);
+    rows.push_back(row);
+  }
   BackShadow& shadow = shadows_[at(element)];
   shadow = backs_.shadow(mesh, element);
   if (shadow.share != 0) return;

@@ -55,9 +55,10 @@ class ExactExchange : public IrradianceOperator {
   std::vector<BackShadow> shadows_;
 };
 
-/// A row for a point of a part of a root; in a closed cell it is scaled to sum to one, and `off`
-/// is at least what it did not, as is `unsure` if that is more than is allowed.
-IrradianceRow closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
-                         const Vec3& position, std::span<const Sighted> targets);
+/// A row for a point of a part of a root, in the place of another one; in a closed cell it is
+/// scaled to sum to one, and `off` is at least what it did not, as is `unsure` if that is more than
+/// is allowed.
+void make_closed_row(const RowMaker& maker, const ReflectingScene& scene, int root,
+                     const Vec3& position, std::span<const Sighted> targets, IrradianceRow& row);
 
 }  // namespace halfshade

@@ -32,7 +32,8 @@ ExactGather::ExactGather(const ExactSight& sight, const ReflectingScene& scene,
 
 ExactGather::Gathered ExactGather::gather(int root, const Vec3& position,
                                           std::span<const Sighted> targets) const {
-  const IrradianceRow row = closed_row(maker_, scene_, root, position, targets);
+  IrradianceRow row;
+  make_closed_row(maker_, scene_, root, position, targets, row);
   return {halfshade::irradiance(row, leaving_), row.sum, row.unsure};
 }
 

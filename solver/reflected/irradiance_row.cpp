@@ -127,7 +127,7 @@ class Walk {
     const double factor = std::min(1., mesh_.forest.area(t) / (M_PI * distance * distance));
     const double length = std::min(accuracy_.length, even_leaves * least_[at(t)]);
     const double share = std::min(size / (is_whole ? distance : length), 1.);
-    return factor * std::pow(share, mesh_.highest_order + 1) < accuracy_.collapse;
+    return factor * whole_power(share, mesh_.highest_order + 1) < accuracy_.collapse;
   }
 
   void keep(int t, const KernelMoments& moments) {
@@ -217,6 +217,16 @@ void RowMaker::add_scaled(const SurfacePoint& point, int surface, const SeenPart
 
 IrradianceRow RowMaker::row(const SurfacePoint& point, std::span<const Sighted> targets) const {
   IrradianceRow row;
+  make(point, targets, row);
+  return row;
+}
+
+void RowMaker::make(const SurfacePoint& point, std::span<const Sighted> targets,
+                    IrradianceRow& row) const {
+  row.triangle.clear();
+  row.first.clear();
+  row.moments.clear();
+  row.sum = row.off = row.unsure = 0;
   SeenPart seen;
   for (const Sighted& target : targets) {
     sight_.see(point, target, seen);
@@ -226,7 +236,6 @@ IrradianceRow RowMaker::row(const SurfacePoint& point, std::span<const Sighted> 
   }
   row.first.push_back(static_cast<int>(row.moments.size()));
   if (row.sum - 1 > accuracy_.allowed()) row.unsure += row.sum - 1;
-  return row;
 }
 
 }  // namespace halfshade

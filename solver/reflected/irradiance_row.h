@@ -44,6 +44,8 @@ class RowMaker {
 
   /// `targets` are what may_see() found for a part of the surface that holds the point.
   IrradianceRow row(const SurfacePoint& point, std::span<const Sighted> targets) const;
+  /// The same in the place of another row, whose memory is used again.
+  void make(const SurfacePoint& point, std::span<const Sighted> targets, IrradianceRow& row) const;
 
   const RowAccuracy& accuracy() const { return accuracy_; }
   const ExactSight& sight() const { return sight_; }

@@ -41,12 +41,6 @@ const std::array<Rule, 4>& rules() {
 
 /// A part is divided if it is larger than this times its distance, whatever the rules promise.
 constexpr double most_open = 0.7;
-double power(double x, int n) {
-  double result = 1;
-  for (; n > 0; n /= 2, x *= x)
-    if (n % 2 == 1) result *= x;
-  return result;
-}
 
 /// Sizes of parts fall by half each time: by then they are as small as rounding.
 constexpr int most_depth = 45;
@@ -172,7 +166,7 @@ void KernelMoments::add_part(const Vec2& a, const Vec2& b, const Vec2& c, double
   // A rule of degree d takes what is smooth to the order d + 1; half of the monomials' is lost.
   for (const Rule& rule : rules())
     if (rule.degree > order_ && open < most_open &&
-        factor * power(open, rule.degree + 1 - order_ / 2) < tolerance_) {
+        factor * whole_power(open, rule.degree + 1 - order_ / 2) < tolerance_) {
       chosen = &rule;
       break;
     }

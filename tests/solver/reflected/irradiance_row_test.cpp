@@ -148,7 +148,9 @@ TEST(IrradianceRow, KnowsThatItSeesMoreThanOneOrTooLittleInAClosedRoom) {
   const SurfacePoint point = rows.point(0, TrianglePlace::Constant(0.3));
   std::vector<Sighted> targets = rows.targets(0);
   const auto closed = [&] {
-    return closed_row(rows.maker, rows.reflecting, rows.root(0), point.position, targets);
+    IrradianceRow row;
+    make_closed_row(rows.maker, rows.reflecting, rows.root(0), point.position, targets, row);
+    return row;
   };
   EXPECT_EQ(closed().unsure, 0);
   const Sighted last = targets.back();

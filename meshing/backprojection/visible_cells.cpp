@@ -184,6 +184,7 @@ std::size_t VisibleCells::run(const Vec3& point, const Vec3& normal, int surface
   if (!(view.distance() > view.slack()) || !search_.outline.make(view, point, normal, surface))
     return 0;
   collect_faces();
+  work_ += faces_[0].size();
   search_.outline.forget(view);
   const Query query{point, normal, surface, part, use};
   for (const auto& vertex : triangles_of(surface)) {

@@ -20,6 +20,10 @@ constexpr double edge_on = 1e-12;
 /// beside them; and balls count as larger by what rounding is.
 constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9, of_distance = 1e-15;
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
+/// Of the two surfaces, multiplied: each pair of them is searched for what comes between.
+constexpr std::size_t most_pieces = 16;
+/// Of a lattice, under what lies close above the surface.
+constexpr double points_under = 4;
 /// Borders of one shade are numbered from a multiple of this on.
 constexpr std::uint32_t borders_of_shade = 1024;
 
@@ -34,14 +38,13 @@ Vec3 turned(const PlaneFrame& frame, const Vec3& direction) {
 }  // namespace
 
 FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers)
-    : target_(scene.surfaces[at(b)]), target_id_(b) {
-  const SightSurface& own = scene.surfaces[at(a)];
-  if (own.pieces.size() * target_.pieces.size() > 4) return;
-  normal_ = turned(target_.frame, own.frame.normal);
+    : own_(scene.surfaces[at(a)]), target_(scene.surfaces[at(b)]), target_id_(b) {
+  if (own_.pieces.size() * target_.pieces.size() > most_pieces) return;
+  normal_ = turned(target_.frame, own_.frame.normal);
   const bool is_known = !blockers.empty();
   double size = 0;
   for (const Polygon3& piece : target_.pieces) {
-    const Polygon3 other = clip_to_front(piece, own.frame.origin, own.frame.normal);
+    const Polygon3 other = clip_to_front(piece, own_.frame.origin, own_.frame.normal);
     if (other.empty()) continue;
     Ring flat;
     for (const Vec3& p : other) {
@@ -50,7 +53,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     }
     parts_.add(flat);
     if (is_known) continue;
-    for (const Polygon3& own_piece : own.pieces) {
+    for (const Polygon3& own_piece : own_.pieces) {
       const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
       if (part.empty()) continue;
       for (const int t : triangles_between(scene, part, a, other, b))
@@ -83,7 +86,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     const ConvexBody& body = scene.bodies[at(blocker.body)];
     if (body.edges.size() < borders_of_shade &&
         std::all_of(body.vertices.begin(), body.vertices.end(), is_before) &&
-        !is_within_sight(body, own.pieces, target_.pieces))
+        !is_within_sight(body, own_.pieces, target_.pieces))
       solids_.push_back({blocker.body, &body, {&blocker}});
     else
       add(blocker);
@@ -134,17 +137,25 @@ double FewBlockers::points_across(std::span<const Vec3> sides) const {
     return most;
   };
   const double longest = most([](const Vec3& side) { return side.squaredNorm(); });
+  const auto under = [&](std::span<const Vec3> corners, double width) {
+    const bool is_near = std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) {
+      return std::abs(own_.frame.height(p)) < width;
+    });
+    return is_near ? points_under : 1;
+  };
   double points = longest / (target_ball_.radius * target_ball_.radius);
-  for (const Solid& solid : solids_)
-    points = std::max(points, longest / (solid.shape->width * solid.shape->width));
+  for (const Solid& solid : solids_) {
+    const double width = solid.shape->width;
+    points = std::max(points, under(solid.shape->vertices, width) * longest / (width * width));
+  }
   for (const Shade& shade : shades_) {
     const Blocker& blocker = *shade.blocker;
-    points = std::max(points, most([&](const Vec3& side) {
-                        const double along = side.dot(blocker.along) / blocker.length;
-                        return side.cross(blocker.along).squaredNorm() /
-                                   (blocker.width * blocker.width) +
-                               along * along;
-                      }));
+    const double across = most([&](const Vec3& side) {
+      const double along = side.dot(blocker.along) / blocker.length;
+      return side.cross(blocker.along).squaredNorm() / (blocker.width * blocker.width) +
+             along * along;
+    });
+    points = std::max(points, under(blocker.corners, blocker.width) * across);
   }
   return points;
 }

@@ -25,9 +25,10 @@ class FewBlockers {
   FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers);
 
   bool is_applicable() const { return is_applicable_; }
-  /// How many points of a lattice over a parallelogram or less it takes for none of the things in
-  /// between, nor the target, to lie between them: what is long and narrow passes between points
-  /// only across.
+  /// How many points of a lattice over a parallelogram or less of `a` it takes for none of the
+  /// things in between, nor the target, to lie between them: what is long and narrow passes between
+  /// points only across. What lies closer to `a` than it is wide hides much from under itself and
+  /// little elsewhere: some points are under it.
   double points_across(std::span<const Vec3> sides) const;
   /// Whether all that is in between are closed convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
@@ -93,7 +94,7 @@ class FewBlockers {
   double sum_over(std::span<const Corner> part) const;
   double sum_over_parts() const;
 
-  const SightSurface& target_;
+  const SightSurface &own_, &target_;
   int target_id_;
   bool is_applicable_ = false;
   double nearness_ = 0;

@@ -31,18 +31,35 @@ Vec3 middle_of(std::span<const Vec3> points) {
   return sum / static_cast<double>(points.size());
 }
 
-/// Mutual area of a cell and what may hide something from it, seen from both: one of them has
-/// points near enough to see it well.
-double hidden_by(const Triangle3& cell, const Vec3& normal, const Polygon3& blocker) {
-  const Vec3 blocker_area = area_vector(blocker);
-  const double size = blocker_area.norm();
+/// What lies over or under a cell.
+Polygon3 above(const Triangle3& cell, const Vec3& normal, Polygon3 polygon) {
+  for (std::size_t k = 0; k < 3 && !polygon.empty(); ++k) {
+    const Vec3 &from = cell[k], &to = cell[(k + 1) % 3], &third = cell[(k + 2) % 3];
+    const Vec3 inwards = normal.cross(to - from);
+    polygon = clip_to_front(polygon, from, inwards.dot(third - from) < 0 ? -inwards : inwards);
+  }
+  return polygon;
+}
+
+/// Mutual area of a cell and a polygon, as the middle of the polygon sees the cell from either
+/// side.
+double seen_from_middle(const Polygon3& polygon, const Triangle3& cell) {
+  if (polygon.empty()) return 0;
+  const Vec3 area = area_vector(polygon);
+  const double size = area.norm();
   if (!(size > 0)) return 0;
+  const Polygon3 outline(cell.begin(), cell.end());
+  const Vec3 middle = middle_of(polygon), up = area / size;
+  return size * std::max(factor_to(middle, up, outline), factor_to(middle, -up, outline));
+}
+
+/// Mutual area of a cell and what may hide something from it, seen from both: one of them has
+/// points near enough to see it well. Close above a part of the cell only what is over that does.
+double hidden_by(const Triangle3& cell, const Vec3& normal, const Polygon3& blocker) {
   double most = factor_to(middle_of(cell), normal, blocker);
   for (const Vec3& corner : cell) most = std::max(most, factor_to(corner, normal, blocker));
-  const Polygon3 outline(cell.begin(), cell.end());
-  const Vec3 middle = middle_of(blocker), up = blocker_area / size;
-  const double seen = std::max(factor_to(middle, up, outline), factor_to(middle, -up, outline));
-  return std::max(size_of_triangle(cell) * most, size * seen);
+  return std::max({size_of_triangle(cell) * most, seen_from_middle(blocker, cell),
+                   seen_from_middle(above(cell, normal, blocker), cell)});
 }
 
 bool is_outside(const Shaft& shaft, const Ball& ball) {

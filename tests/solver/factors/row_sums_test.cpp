@@ -93,6 +93,40 @@ TEST(RowSums, AConcaveRoomInSinglePrecision) {
   }
 }
 
+/// A level sheet with two sides.
+void add_sheet(Scene& scene, const Vec2& low, const Vec2& high, double z) {
+  const int material = test::add_material(scene, 0.5, 0);
+  scene.materials.back().two_sided = true;
+  test::add_polygon(scene,
+                    {{low.x(), low.y(), z},
+                     {high.x(), low.y(), z},
+                     {high.x(), high.y(), z},
+                     {low.x(), high.y(), z}},
+                    material);
+}
+
+/// It hides all from under itself and nothing from elsewhere: points of a lattice, or of a cell,
+/// may all be elsewhere.
+TEST(RowSums, ASheetCloseAboveAFloor) {
+  const Vec2 centre(0.31, 0.62);
+  for (const double height : {1e-5, 1e-4, 1e-3})
+    for (const Vec2& size : {Vec2(0.1, 0.1), Vec2(0.5, 0.5), Vec2(0.02, 0.5)})
+      for (const double tolerance : {1e-3, 1e-5}) {
+        Scene scene = test::room({1, 1, 1}, {});
+        add_sheet(scene, centre - size / 2, centre + size / 2, height);
+        expect_reached(test::face_factors(scene, tolerance), tolerance,
+                       std::to_string(size.x()) + " at " + std::to_string(height));
+      }
+}
+
+/// The same where floor and ceiling are of several convex parts.
+TEST(RowSums, AStripCloseAboveTheFloorOfAConcaveRoom) {
+  Scene scene = concave_room();
+  add_sheet(scene, {3.86, 0.37}, {3.9, 0.54}, 0.013);
+  for (const double tolerance : {1e-4, 1e-6})
+    expect_reached(test::face_factors(scene, tolerance), tolerance, "strip");
+}
+
 /// What stands far off makes the box of the surroundings large, and changes nothing else: neither
 /// points on the box, from which all the rest is next to nothing, nor its contour are rounded away.
 TEST(RowSums, SomethingFarOff) {

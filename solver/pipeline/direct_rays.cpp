@@ -1,8 +1,11 @@
 #include "solver/pipeline/direct_rays.h"
 
+#include "meshing/core/error.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/spread_places.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -17,7 +20,12 @@ constexpr int tried_places = 100;
 constexpr int tried_surfaces = 100;
 /// In rays: exact looks that take more than this are not worth trying more of; about a second.
 constexpr double most_to_tell = 5e6;
+/// The same where no light was found yet.
+constexpr double most_in_the_dark = 2e7;
 constexpr std::size_t places_at_once = 10;
+constexpr std::size_t first_places = 2;  ///< each may take seconds
+/// Looks that a surface takes, at least; and rays in an hour.
+constexpr double looks_of_surface = 6, rays_of_hour = 3600 * most_to_tell;
 /// Of the tolerance: standard deviation of a value, relative to the mean irradiance.
 constexpr double deviation_for_tolerance = 1.5;
 /// A place may take so much of what an exact look takes: rays do with about as many places. Where
@@ -43,16 +51,17 @@ struct ExactWork {
 };
 
 /// Looks at the points, or at as many as tell enough where each takes very long: the others are
-/// dropped. Some light has to be among them.
+/// dropped. Some light has to be among them, or it took far too long.
 ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>& points,
                        const Progress& progress) {
   ExactWork work;
-  for (std::size_t first = 0; first < points.size(); first += places_at_once) {
-    if (work.rays() > most_to_tell && work.reached > 0) {
+  for (std::size_t first = 0, count = first_places; first < points.size() && !progress.stopped();
+       first += count, count = places_at_once) {
+    if (work.rays() > (work.reached > 0 ? most_to_tell : most_in_the_dark)) {
       points.resize(first);
       break;
     }
-    const std::size_t count = std::min(places_at_once, points.size() - first);
+    count = std::min(count, points.size() - first);
     for (const DirectLight& light :
          index.irradiance(std::span(points).subspan(first, count), progress)) {
       work.effort += light.effort;
@@ -64,6 +73,18 @@ ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>&
     }
   }
   return work;
+}
+
+/// Rays follow light that arrives. Throws Error(too_large) where none was found, and exact looks
+/// would take hours.
+void require_light(const SoundScene& scene, const ExactWork& work, std::size_t places) {
+  const double hours = work.rays() / static_cast<double>(places) * looks_of_surface *
+                       static_cast<double>(scene.surfaces.size()) / rays_of_hour;
+  if (work.reached > 0 || work.rays() <= most_in_the_dark || hours < 1) return;
+  throw Error(ErrorCode::too_large, {},
+              fmt::format("exact direct light past {} surfaces takes some {:.0f} hours, and none "
+                          "arrives at {} places; --visibility exact takes all the time there is",
+                          scene.surfaces.size(), hours, places));
 }
 
 double rays_in_all(const RayLight& light, std::span<const SurfacePoint> points) {
@@ -88,6 +109,8 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
   std::vector<SurfacePoint> by_area = mixed(spread_places(scene, ids, tried_places).points);
   std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, ids, tried_surfaces));
   const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
+  if (progress.stopped() || by_area.empty()) return {};
+  require_light(scene, exact, by_area.size());
   const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
   if (!(exact.reached > 0) || progress.stopped()) return {};
   RayLightOptions rays;

@@ -31,7 +31,7 @@ struct LocalTolerance {
   double planarity = 0;  ///< a polygon deviating less than this from its plane is planar; ≥ length
 };
 
-/// Files carry six to nine digits, so the decimal rounding of a coordinate must not bend a polygon
+/// Files carry five to nine digits, so the decimal rounding of a coordinate must not bend a polygon
 /// (1e-6 of the magnitude, or what its digits tell); distinct points are a billionth of it apart.
 /// But nothing is moved by a noticeable part of its own size, however large its coordinates are,
 /// nor is anything asked of doubles that they do not hold.

@@ -16,8 +16,9 @@ constexpr int highest_symmetric = 6;  // triangle_rule
 constexpr double share_of_unseen = 0.5;
 /// What less than this of the most that a thing may hide was found of has been missed.
 constexpr double hardly_found = 0.03;
-/// Things wider than this, in radii of the cell, do not pass between its points; and what is
-/// farther away than this looks alike from all of them.
+/// Things wider than this, in radii of the cell, do not pass between its points, but a corner of
+/// what lies closer above the cell than its radius does; and what is farther away than `near_by`
+/// looks alike from all of them.
 constexpr double wide = 2;
 constexpr double near_by = 1;
 /// Things that hide no more than this share of what is allowed are not asked.
@@ -66,18 +67,6 @@ Triangle3 inset(const Triangle3& cell, double depth) {
   return corners;
 }
 
-/// Along the edges, of what is linear but for a mean: from its moments over the unit triangle.
-std::array<double, 3> change_along_edges(const Vec2& moments) {
-  const double along_u = 12 * (2 * moments.x() + moments.y());
-  const double along_v = 12 * (moments.x() + 2 * moments.y());
-  return {std::abs(along_u), std::abs(along_v - along_u), std::abs(along_v)};
-}
-
-std::array<double, 3> changes(const std::array<double, 3>& at_corners) {
-  return {std::abs(at_corners[1] - at_corners[0]), std::abs(at_corners[2] - at_corners[1]),
-          std::abs(at_corners[0] - at_corners[2])};
-}
-
 int next_degree(int degree) { return *std::upper_bound(degrees.begin(), degrees.end(), degree); }
 
 template <class Use>
@@ -117,6 +106,13 @@ BlockedCells::BlockedCells(const SightScene& scene, PointLooks& looks, int a, in
     size_ = std::max(size_, (p - scene.surfaces[at(a)].outline.front()).norm());
   few_.emplace(scene, a, b);
   if (!few_->is_applicable()) few_.reset();
+  for (std::size_t thing = 0; few_ && thing < few_->things(); ++thing) {
+    heights_.push_back(HUGE_VAL);
+    for (const Blocker* side : few_->sides(thing))
+      for (const Vec3& p : side->corners)
+        heights_.back() =
+            std::min(heights_.back(), std::abs(scene.surfaces[at(a)].frame.height(p)));
+  }
 }
 
 HiddenFactor BlockedCells::factor_at(const Vec3& position) {
@@ -212,19 +208,21 @@ double BlockedCells::missed(const BlockedCell& cell, double whole) {
   for (std::size_t thing = 0; thing < few_->things(); ++thing) {
     const double found = few_->found(thing) * area;
     const auto sides = few_->sides(thing);
-    if (few_->width(thing) > wide * round.radius ||
+    const bool is_wide = few_->width(thing) > wide * round.radius;
+    if ((is_wide && heights_[thing] > round.radius) ||
         std::all_of(sides.begin(), sides.end(), is_beyond))
       continue;
     double most = 0;
     for (const Blocker* side : sides) most += side->area;
     most = std::min(most, whole);
     if (found >= hardly_found * most || most <= negligible) continue;
-    if (!shaft) shaft = make_shaft(cell.corners, few_->target_corners(), 0);
+    if (!is_wide && !shaft) shaft = make_shaft(cell.corners, few_->target_corners(), 0);
     most = 0;
     for (const Blocker* side : sides)
-      most += hidden_at_most(*shaft, cell.corners, own.frame.normal, *side);
+      most += is_wide ? hidden_from_above(cell.corners, own.frame.normal, *side)
+                      : hidden_at_most(*shaft, cell.corners, own.frame.normal, *side);
     most = std::min(most, whole);
-    if (found >= hardly_found * most) continue;
+    if (found >= hardly_found * most || most <= negligible) continue;
     // Others may have hidden it.
     double alone = 0;
     for_each_node(cell.degree, [&](double u, double v, double weight) {

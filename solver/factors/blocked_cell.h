@@ -56,6 +56,12 @@ struct BlockedCell {
   std::array<double, 3> change = {}, change_at_corners = {};
 };
 
+/// Along the edges, of what is linear but for a mean: from its moments over the unit triangle.
+std::array<double, 3> change_along_edges(const Vec2& moments);
+
+/// The same of what is known at the corners.
+std::array<double, 3> changes(const std::array<double, 3>& at_corners);
+
 /// The edge to halve a cell across, from corner k to the next: the longest of those along which
 /// what is seen changes most.
 std::size_t edge_to_halve(const BlockedCell& cell);
@@ -99,7 +105,8 @@ class BlockedCells {
   SightTolerance tolerance_;
   const std::stop_token& stop_;
   std::optional<FewBlockers> few_;
-  double size_ = 0;  ///< of `a`
+  std::vector<double> heights_;  ///< of things in between: the lowest corner's above `a`
+  double size_ = 0;              ///< of `a`
   std::size_t points_ = 0;
 };
 
@@ -111,5 +118,8 @@ double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int
 /// The same of one thing, from a triangle with this normal; `shaft` is that to surface `b`.
 double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& normal,
                       const Blocker& blocker);
+
+/// The same of that part of a thing alone that lies over or under the triangle.
+double hidden_from_above(const Triangle3& part, const Vec3& normal, const Blocker& blocker);
 
 }  // namespace halfshade

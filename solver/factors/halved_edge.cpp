@@ -1,6 +1,7 @@
 #include "solver/factors/blocked_cell.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -10,6 +11,17 @@ namespace {
 constexpr double nearly_most = 0.5;
 
 }  // namespace
+
+std::array<double, 3> change_along_edges(const Vec2& moments) {
+  const double along_u = 12 * (2 * moments.x() + moments.y());
+  const double along_v = 12 * (moments.x() + 2 * moments.y());
+  return {std::abs(along_u), std::abs(along_v - along_u), std::abs(along_v)};
+}
+
+std::array<double, 3> changes(const std::array<double, 3>& at_corners) {
+  return {std::abs(at_corners[1] - at_corners[0]), std::abs(at_corners[2] - at_corners[1]),
+          std::abs(at_corners[0] - at_corners[2])};
+}
 
 std::size_t edge_to_halve(const BlockedCell& cell) {
   const double most = *std::max_element(cell.change.begin(), cell.change.end());

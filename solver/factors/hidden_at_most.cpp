@@ -77,6 +77,10 @@ double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& nor
   return between.empty() ? 0 : hidden_by(part, normal, between);
 }
 
+double hidden_from_above(const Triangle3& part, const Vec3& normal, const Blocker& blocker) {
+  return seen_from_middle(above(part, normal, blocker.corners), part);
+}
+
 double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough) {
   const PlaneFrame& plane = scene.surfaces[at(a)].frame;
   double sum = 0;

@@ -10,8 +10,10 @@ namespace {
 /// what is hidden, whose estimate is no bound to the letter.
 constexpr double share_of_whole = 0.02, share_of_hidden = 0.5;
 
-/// At how many points each of the two surfaces is tried before the better one is gone on with.
-constexpr std::size_t points_to_try = 150;
+/// At how many points each of the two surfaces is tried before the better one is gone on with; and
+/// again at so many times as many, for few points may tell wrong: what lies close before one of
+/// them hides things in layers that it takes many to see.
+constexpr std::size_t points_to_try = 150, more_points = 16;
 
 /// An error that was not found at so many points is believed only if it is far smaller than what
 /// is allowed: few points agree by chance. (In a furnished room one entry in a thousand was off by
@@ -23,8 +25,10 @@ constexpr double far_smaller = 1. / 16;
 /// cells grow like the root of it.
 constexpr double far_off = 20;
 
-/// Errors of two sides that differ by less than this factor check each other.
-constexpr double comparable = 4;
+/// Errors of two sides that differ by less than this factor check each other. If they contradict
+/// each other, both go on to this share of their errors, at most so often.
+constexpr double comparable = 4, share_in_doubt = 0.25;
+constexpr int most_doubts = 3;
 
 bool is_worse(const BlockedCell& a, const BlockedCell& b) { return a.error < b.error; }
 
@@ -111,6 +115,7 @@ struct OneSide {
   MutualSight whole;
   HiddenIntegral hidden;
   SightTolerance tolerance;
+  double share_to_reach = 1;  ///< of what is allowed
 
   OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const SightTolerance& asked,
           const std::stop_token& stop)
@@ -119,7 +124,8 @@ struct OneSide {
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
   double allowed() const { return std::max(tolerance.absolute, tolerance.relative * value()); }
-  bool is_reached() const { return hidden.total().error <= allowed(); }
+  bool is_exact_enough() const { return hidden.total().error <= allowed(); }
+  bool is_reached() const { return hidden.total().error <= share_to_reach * allowed(); }
   bool is_believed() const {
     return hidden.points() >= points_to_believe || hidden.total().error <= far_smaller * allowed();
   }
@@ -140,6 +146,69 @@ struct OneSide {
   const std::stop_token& stop_;
 };
 
+/// A pair from the one side, and if few points do not suffice from the other, too.
+class BothSides {
+ public:
+  BothSides(const SightScene& scene, PointLooks& looks, int a, int b,
+            const SightTolerance& tolerance, const std::stop_token& stop)
+      : tolerance_(tolerance),
+        most_(static_cast<std::size_t>(tolerance.max_points)),
+        stop_(stop),
+        first_(scene, looks, a, b, tolerance, stop) {
+    first_.refine_to(std::min(points_to_try, most_));
+    if (first_.is_reached()) return;
+    second_.emplace(scene, looks, b, a, tolerance, stop);
+    second_->refine_to(std::min(points_to_try, most_));
+  }
+
+  MutualSight see() {
+    if (second_ && !tolerance_.is_trial) {
+      race();
+      for (int k = 0; k < most_doubts && contradiction() > better().allowed(); ++k) {
+        for (OneSide* side : {&first_, &*second_}) side->share_to_reach *= share_in_doubt;
+        race();
+      }
+    }
+    const OneSide& best = better();
+    MutualSight result = best.whole;
+    result.is_reached = result.is_reached && best.is_exact_enough();
+    result.is_at_limit =
+        result.is_at_limit || (!best.is_exact_enough() && best.hidden.points() >= most_);
+    result.value = best.value();
+    result.error = std::max(best.error(), contradiction());
+    result.points = first_.hidden.points() + (second_ ? second_->hidden.points() : 0);
+    return result;
+  }
+
+ private:
+  bool is_second_better() const { return second_ && second_->error() < first_.error(); }
+  OneSide& better() { return is_second_better() ? *second_ : first_; }
+  OneSide& other() { return is_second_better() ? first_ : *second_; }
+
+  /// The one that seems better first, and unless that suffices the other, each with more points.
+  void race() {
+    while (points_ < most_ && !stop_.stop_requested()) {
+      if (first_.is_reached() || second_->is_reached()) return;
+      points_ = std::min(points_ * more_points, most_);
+      OneSide &front = better(), &back = other();
+      front.refine_to(points_);
+      if (!front.is_reached() && points_ < most_) back.refine_to(points_);
+    }
+  }
+
+  /// Where both sides claim to be about as exact, what they say must not differ by more.
+  double contradiction() {
+    if (!second_ || !(other().error() < comparable * better().error())) return 0;
+    return std::abs(other().value() - better().value()) - other().error();
+  }
+
+  SightTolerance tolerance_;
+  std::size_t most_, points_ = points_to_try;
+  const std::stop_token& stop_;
+  OneSide first_;
+  std::optional<OneSide> second_;
+};
+
 }  // namespace
 
 MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
@@ -150,31 +219,7 @@ MutualSight partial_sight(const SightScene& scene, int a, int b, const SightTole
 
 MutualSight partial_sight(const SightScene& scene, PointLooks& looks, int a, int b,
                           const SightTolerance& tolerance, const std::stop_token& stop) {
-  const auto most = static_cast<std::size_t>(tolerance.max_points);
-  OneSide first(scene, looks, a, b, tolerance, stop);
-  first.refine_to(std::min(points_to_try, most));
-  std::optional<OneSide> second;
-  if (!first.is_reached()) {
-    second.emplace(scene, looks, b, a, tolerance, stop);
-    second->refine_to(std::min(points_to_try, most));
-  }
-  const bool is_second_better = second && second->error() < first.error();
-  OneSide& better = is_second_better ? *second : first;
-  if (!tolerance.is_trial) better.refine_to(most);
-  MutualSight result = better.whole;
-  result.is_reached = result.is_reached && better.is_reached();
-  result.is_at_limit =
-      result.is_at_limit || (!better.is_reached() && better.hidden.points() >= most);
-  result.value = better.value();
-  result.error = better.error();
-  result.points = first.hidden.points() + (second ? second->hidden.points() : 0);
-  if (second) {
-    // Where both sides claim to be about as exact, what they say must not differ by more.
-    const OneSide& other = is_second_better ? first : *second;
-    if (other.error() < comparable * result.error)
-      result.error = std::max(result.error, std::abs(other.value() - result.value) - other.error());
-  }
-  return result;
+  return BothSides(scene, looks, a, b, tolerance, stop).see();
 }
 
 }  // namespace halfshade

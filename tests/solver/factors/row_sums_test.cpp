@@ -127,6 +127,35 @@ TEST(RowSums, AStripCloseAboveTheFloorOfAConcaveRoom) {
     expect_reached(test::face_factors(scene, tolerance), tolerance, "strip");
 }
 
+/// A sheet with two sides whose front edge is `low` and whose back edge `high` up.
+void add_slope(Scene& scene, const Vec2& from, const Vec2& to, double low, double high) {
+  add_sheet(scene, from, to, low);
+  for (const std::size_t k : {1, 2}) scene.vertices[scene.vertices.size() - k].z() = high;
+}
+
+/// Of a sheet above a floor, corners reach over cells, between their points; what is next to it
+/// from there is seen by all alike.
+TEST(RowSums, CornersOfSheetsCloseAboveTheFloorOfAConcaveRoom) {
+  Scene scene = test::l_room(false);
+  add_slope(scene, {0.779272, 0.608236}, {0.804838, 0.683867}, 0.000956, 0.183861);
+  add_sheet(scene, {0.760529, 1.602322}, {0.921465, 1.900127}, 0.979824);
+  add_sheet(scene, {0.143162, 0.849777}, {0.270148, 1.069945}, 0.003764);
+  expect_reached(test::face_factors(scene, 1e-6), 1e-6, "sheets");
+}
+
+/// Right under a ceiling things hide in thin layers from there what they hide smoothly from the
+/// floor: few points do not tell from where it takes less.
+TEST(RowSums, SheetsCloseUnderTheCeilingOfAConcaveRoom) {
+  Scene scene = test::l_room(false);
+  add_sheet(scene, {0.725651, 0.829446}, {0.860549, 1.313902}, 0.999294);
+  add_sheet(scene, {1.645592, 0.183992}, {1.681693, 0.451599}, 0.036298);
+  add_sheet(scene, {0.112885, 1.224391}, {0.271749, 1.542091}, 0.999849);
+  for (const auto& face :
+       test::box_faces({1.006066, 0.963691, 0}, {1.215597, 0.985003, 0.362114}, false))
+    test::add_polygon(scene, face, 0);
+  expect_reached(test::face_factors(scene, 2e-6), 2e-6, "sheets");
+}
+
 /// What stands far off makes the box of the surroundings large, and changes nothing else: neither
 /// points on the box, from which all the rest is next to nothing, nor its contour are rounded away.
 TEST(RowSums, SomethingFarOff) {

@@ -25,10 +25,8 @@ constexpr double far_smaller = 1. / 16;
 /// cells grow like the root of it.
 constexpr double far_off = 20;
 
-/// Errors of two sides that differ by less than this factor check each other. If they contradict
-/// each other, both go on to this share of their errors, at most so often.
-constexpr double comparable = 4, share_in_doubt = 0.25;
-constexpr int most_doubts = 3;
+/// Errors of two sides that differ by less than this factor check each other.
+constexpr double comparable = 4;
 
 bool is_worse(const BlockedCell& a, const BlockedCell& b) { return a.error < b.error; }
 
@@ -115,7 +113,6 @@ struct OneSide {
   MutualSight whole;
   HiddenIntegral hidden;
   SightTolerance tolerance;
-  double share_to_reach = 1;  ///< of what is allowed
 
   OneSide(const SightScene& scene, PointLooks& looks, int a, int b, const SightTolerance& asked,
           const std::stop_token& stop)
@@ -124,14 +121,14 @@ struct OneSide {
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
   double allowed() const { return std::max(tolerance.absolute, tolerance.relative * value()); }
-  bool is_exact_enough() const { return hidden.total().error <= allowed(); }
-  bool is_reached() const { return hidden.total().error <= share_to_reach * allowed(); }
+  bool is_reached() const { return hidden.total().error <= allowed(); }
+  bool is_far_off() const { return hidden.total().error > far_off * allowed(); }
   bool is_believed() const {
     return hidden.points() >= points_to_believe || hidden.total().error <= far_smaller * allowed();
   }
   void refine_to(std::size_t points) {
     while (!(is_reached() && is_believed()) && hidden.points() < points && !stop_.stop_requested())
-      hidden.refine_worst(hidden.total().error > far_off * allowed());
+      hidden.refine_worst(is_far_off());
     hidden.settle();
   }
 
@@ -151,7 +148,7 @@ class BothSides {
  public:
   BothSides(const SightScene& scene, PointLooks& looks, int a, int b,
             const SightTolerance& tolerance, const std::stop_token& stop)
-      : tolerance_(tolerance),
+      : is_trial_(tolerance.is_trial),
         most_(static_cast<std::size_t>(tolerance.max_points)),
         stop_(stop),
         first_(scene, looks, a, b, tolerance, stop) {
@@ -162,18 +159,12 @@ class BothSides {
   }
 
   MutualSight see() {
-    if (second_ && !tolerance_.is_trial) {
-      race();
-      for (int k = 0; k < most_doubts && contradiction() > better().allowed(); ++k) {
-        for (OneSide* side : {&first_, &*second_}) side->share_to_reach *= share_in_doubt;
-        race();
-      }
-    }
+    if (second_ && !is_trial_) race();
     const OneSide& best = better();
     MutualSight result = best.whole;
-    result.is_reached = result.is_reached && best.is_exact_enough();
+    result.is_reached = result.is_reached && best.is_reached();
     result.is_at_limit =
-        result.is_at_limit || (!best.is_exact_enough() && best.hidden.points() >= most_);
+        result.is_at_limit || (!best.is_reached() && best.hidden.points() >= most_);
     result.value = best.value();
     result.error = std::max(best.error(), contradiction());
     result.points = first_.hidden.points() + (second_ ? second_->hidden.points() : 0);
@@ -185,14 +176,16 @@ class BothSides {
   OneSide& better() { return is_second_better() ? *second_ : first_; }
   OneSide& other() { return is_second_better() ? first_ : *second_; }
 
-  /// The one that seems better first, and unless that suffices the other, each with more points.
+  /// The one that seems better first and, unless it is nearly there, the other: with more points
+  /// each time.
   void race() {
-    while (points_ < most_ && !stop_.stop_requested()) {
-      if (first_.is_reached() || second_->is_reached()) return;
-      points_ = std::min(points_ * more_points, most_);
+    std::size_t points = std::min(points_to_try, most_);
+    while (!first_.is_reached() && !second_->is_reached() && points < most_ &&
+           !stop_.stop_requested()) {
+      points = std::min(points * more_points, most_);
       OneSide &front = better(), &back = other();
-      front.refine_to(points_);
-      if (!front.is_reached() && points_ < most_) back.refine_to(points_);
+      front.refine_to(points);
+      if (front.is_far_off() && points < most_) back.refine_to(points);
     }
   }
 
@@ -202,8 +195,8 @@ class BothSides {
     return std::abs(other().value() - better().value()) - other().error();
   }
 
-  SightTolerance tolerance_;
-  std::size_t most_, points_ = points_to_try;
+  bool is_trial_;
+  std::size_t most_;
   const std::stop_token& stop_;
   OneSide first_;
   std::optional<OneSide> second_;

@@ -150,10 +150,9 @@ TEST(RowSums, SheetsCloseUnderTheCeilingOfAConcaveRoom) {
   add_sheet(scene, {0.725651, 0.829446}, {0.860549, 1.313902}, 0.999294);
   add_sheet(scene, {1.645592, 0.183992}, {1.681693, 0.451599}, 0.036298);
   add_sheet(scene, {0.112885, 1.224391}, {0.271749, 1.542091}, 0.999849);
-  for (const auto& face :
-       test::box_faces({1.006066, 0.963691, 0}, {1.215597, 0.985003, 0.362114}, false))
-    test::add_polygon(scene, face, 0);
-  expect_reached(test::face_factors(scene, 2e-6), 2e-6, "sheets");
+  const auto box = test::box_faces({1.006066, 0.963691, 0}, {1.215597, 0.985003, 0.362114}, false);
+  for (const std::size_t face : {0, 1, 2, 3, 5}) test::add_polygon(scene, box[face], 0);
+  expect_reached(test::face_factors(scene, 1e-6), 1e-6, "sheets");
 }
 
 /// What stands far off makes the box of the surroundings large, and changes nothing else: neither

@@ -63,7 +63,7 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
                                     files, command.options.tolerance);
   const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   const ContactLimit limit{static_cast<double>(options.max_elements),
-                           contacts_warning(options.max_elements, true)};
+                           contacts_warning(options.max_elements)};
   const Explanation explanation = use_prepared(
       file.scene, limit, context.progress,
       [&](const PreparedScene& prepared) { return explain(prepared, options, context.progress); });

@@ -259,7 +259,7 @@ ExitCode run(const ProbeCommand& command, const Context& context) {
   // Contact lines are for elements; exact light needs none.
   const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   ContactLimit limit{static_cast<double>(options.max_elements), {}};
-  if (!command.direct_only) limit.warning = contacts_warning(options.max_elements, false);
+  if (!command.direct_only) limit.warning = contacts_warning();
   return use_prepared(file.scene, limit, context.progress, [&](const PreparedScene& prepared) {
     return run_prepared(command, file, given, solution, prepared, context);
   });

@@ -40,8 +40,8 @@ class Adaptation {
              const Progress& progress, const Watched& watched)
       : mesh_(mesh), field_(field), options_(options), progress_(progress), watched_(watched) {
     take_elements();
-    for (FittedElement& element : elements_)
-      set_order(element, beginning_order(options, counted_, element.surface, element.area));
+    const std::vector<int> orders = beginning_orders(table_, counted_, options);
+    for (std::size_t e = 0; e < elements_.size(); ++e) set_order(elements_[e], orders[e]);
   }
 
   AdaptiveField run() {
@@ -72,8 +72,7 @@ class Adaptation {
   void refine_and_balance() {
     refine();
     for (int k = 0; k < most_balances && options_.balance && options_.order < 0; ++k) {
-      if (report_.limit != FieldLimit::none || (options_.is_too_much && options_.is_too_much()))
-        return;
+      if (report_.limit != FieldLimit::none || samples_left(options_) <= 0) return;
       const auto better = better_spread(elements_, options_, share_after_dropping * allowed());
       if (better.empty()) return;
       is_met_ = true;
@@ -188,10 +187,6 @@ class Adaptation {
     return values;
   }
 
-  FieldPoint point_at(const FittedElement& element, const TrianglePlace& place) const {
-    return {{position(element.triangle, place), element.normal}, element.surface};
-  }
-
   void fit_new() {
     std::vector<FieldPoint> points;
     for (const FittedElement& element : elements_)
@@ -295,7 +290,7 @@ class Adaptation {
   bool improve() {
     if (options_.max_samples > 0 && !is_met_ && takes_too_many_samples())
       report_.limit = FieldLimit::samples;
-    else if (options_.is_too_much && options_.is_too_much())
+    else if (samples_left(options_) <= 0)
       report_.limit = FieldLimit::work;
     else if (report_.rounds >= most_rounds)
       report_.limit = FieldLimit::rounds;
@@ -312,6 +307,7 @@ class Adaptation {
   FieldLimit change(std::span<const std::pair<int, int>> orders) {
     std::vector<int> to_split;
     double unknowns = static_cast<double>(unknowns_), count = static_cast<double>(elements_.size());
+    double samples = samples_left(options_);
     bool is_changed = false;
     FieldLimit limit = FieldLimit::fixed;
     for (const auto& [e, order] : orders) {
@@ -320,8 +316,9 @@ class Adaptation {
       const bool split = order == element.fit.order;
       if (split && !options_.split) continue;
       const double more = split ? (elements_for_one - 1) * size : basis_size(order) - size;
-      if (unknowns + more > options_.max_unknowns) {
-        limit = FieldLimit::unknowns;
+      samples -= sampling_rule(order).count() * (split ? elements_for_one : 1);
+      if (unknowns + more > options_.max_unknowns || samples < 0) {
+        limit = samples < 0 ? FieldLimit::work : FieldLimit::unknowns;
         break;
       }
       if (split && count + elements_for_one - 1 > options_.max_elements) {

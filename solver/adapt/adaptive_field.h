@@ -35,7 +35,9 @@ struct AdaptiveFieldOptions {
   /// Surface → whether its elements count where others are compared with all of them, in number
   /// and size; empty: all do. Of surfaces that get hardly any light they should not.
   std::vector<bool> counted;
-  std::function<bool()> is_too_much;  ///< gives up where it says so, before a round; none: never
+  /// How many samples may still be taken, about: elements begin with lower orders where all would
+  /// be too many, and a round has no more. None: any number.
+  std::function<double()> samples_left;
 };
 
 struct AdaptiveFieldReport {

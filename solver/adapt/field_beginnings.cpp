@@ -2,12 +2,14 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/rounded.h"
+#include "solver/adapt/element_fit.h"
 #include "solver/elements/triangle_key.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halfshade {
 
@@ -40,13 +42,29 @@ CountedElements counted_elements(const ElementTable& elements,
   return result.count > 0 ? result : all;
 }
 
-int beginning_order(const AdaptiveFieldOptions& options, const CountedElements& all, int surface,
-                    double area) {
-  if (options.order >= 0) return options.order;
-  if (!counts(options, surface)) return 0;
-  constexpr double small = 0.25, tiny = 0.025;
-  const double share = rounded(area * all.count / all.area);
-  return std::max(first_order(options) - (share < tiny ? 2 : share < small ? 1 : 0), 0);
+double samples_left(const AdaptiveFieldOptions& options) {
+  return options.samples_left ? options.samples_left() : std::numeric_limits<double>::infinity();
+}
+
+std::vector<int> beginning_orders(const ElementTable& elements, const CountedElements& all,
+                                  const AdaptiveFieldOptions& options) {
+  if (options.order >= 0) return std::vector<int>(elements.corners.size(), options.order);
+  constexpr double small = 0.25, tiny = 0.025, share_of_first_round = 0.5;
+  std::vector<int> result;
+  for (std::size_t e = 0; e < elements.corners.size(); ++e) {
+    const double share = rounded(elements.area[e] * all.count / all.area);
+    const int lower = share < tiny ? 2 : share < small ? 1 : 0;
+    result.push_back(
+        counts(options, elements.surface[e]) ? std::max(first_order(options) - lower, 0) : 0);
+  }
+  const double most = share_of_first_round * samples_left(options);
+  for (int lower = 0; lower < first_order(options); ++lower) {
+    double samples = 0;
+    for (const int order : result) samples += sampling_rule(order).count();
+    if (samples <= most) break;
+    for (int& order : result) order = std::max(order - 1, 0);
+  }
+  return result;
 }
 
 TrianglePlace spread_place(std::size_t index) {

@@ -29,10 +29,14 @@ struct CountedElements {
 };
 CountedElements counted_elements(const ElementTable& elements, const AdaptiveFieldOptions& options);
 
-/// The order that an element begins with: lower ones if it has a small share of the mean area, for
-/// most of these matter little, and in clutter there are many; 0 if it does not count.
-int beginning_order(const AdaptiveFieldOptions& options, const CountedElements& all, int surface,
-                    double area);
+/// See AdaptiveFieldOptions.
+double samples_left(const AdaptiveFieldOptions& options);
+
+/// The orders that elements begin with: lower ones if they have a small share of the mean area, for
+/// most of these matter little, and in clutter there are many; 0 if they do not count. All are
+/// lower where samples would be too many.
+std::vector<int> beginning_orders(const ElementTable& elements, const CountedElements& all,
+                                  const AdaptiveFieldOptions& options);
 
 /// Places evenly spread over a triangle, different for each index (Roberts' sequence).
 TrianglePlace spread_place(std::size_t index);

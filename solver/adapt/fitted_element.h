@@ -22,6 +22,10 @@ struct FittedElement {
   double square_error() const { return area * weight * fit.error * fit.error; }
 };
 
+inline FieldPoint point_at(const FittedElement& element, const TrianglePlace& place) {
+  return {{position(element.triangle, place), element.normal}, element.surface};
+}
+
 inline Rgb fitted_at(const FittedElement& element, const TrianglePlace& place) {
   Eigen::VectorXd phi(element.fit.coefficients.rows());
   basis_at(element.fit.order, place, phi);

@@ -46,6 +46,10 @@ double slack_of(const NoisyElement& element, double mean_area);
 /// to 10: what is off is judged by the one, noise by the other.
 double peaks_of(std::span<const NoisyElement> elements);
 
+inline FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) {
+  return {{position(element.triangle, place), element.normal}, element.surface};
+}
+
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
 
 /// Fits the order of 0 to 2 with the least error to an element's samples by least squares. What is

@@ -98,10 +98,6 @@ class NoisyFit {
   double estimated() const { return std::max(square_error_, least_estimate * allowed()); }
   double corrected() const { return correction_ * estimated(); }
 
-  FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) const {
-    return {{position(element.triangle, place), element.normal}, element.surface};
-  }
-
   /// Reads the mesh; parts of an element share its samples.
   void take_elements() {
     table_ = mesh_.elements();
@@ -269,7 +265,8 @@ class NoisyFit {
 
   /// False, with a limit set, if nothing can be done.
   bool improve() {
-    if (options_.is_too_much && options_.is_too_much()) report_.limit = FieldLimit::work;
+    double left = samples_left(options_);
+    if (left <= 0) report_.limit = FieldLimit::work;
     if (report_.rounds >= most_noisy_rounds) report_.limit = FieldLimit::rounds;
     if (report_.limit != FieldLimit::none) return false;
     // Samples that compared the elements are theirs now.
@@ -287,6 +284,9 @@ class NoisyFit {
     for (const int e : worst()) {
       NoisyElement& element = elements_[at(e)];
       if (const int samples = next_samples(element); at(samples) > element.samples.size()) {
+        left -= samples - static_cast<double>(element.samples.size());
+        if (left < 0) limit = FieldLimit::work;
+        if (left < 0) break;
         element.wanted = samples;
         is_changed = true;
         continue;

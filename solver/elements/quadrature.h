@@ -20,6 +20,8 @@ std::span<const TriangleNode> triangle_rule(int degree);
 struct TriangleRule {
   std::vector<TrianglePlace> places;
   Eigen::VectorXd weights;
+
+  double count() const { return static_cast<double>(places.size()); }
 };
 
 inline constexpr int highest_gauss_degree = 2 * max_order + 6;

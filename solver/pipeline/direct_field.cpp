@@ -293,11 +293,12 @@ class DirectFieldSearch {
       fit.max_elements = std::max(1, static_cast<int>(share_of_direct * fit.max_elements));
       fit.max_unknowns = std::max(1, static_cast<int>(share_of_direct * fit.max_unknowns));
     }
-    fit.is_too_much = [this] { return is_too_much(work_, options_.max_unknowns); };
+    fit.samples_left = [this] { return places_left(work_, options_.max_unknowns); };
     fit.balance = true;
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;
     stages_.run("direct light", [&] {
+      if (!rays_) try_middles(found_.patches->elements(), direct_light_, progress_);
       if (rays_)
         found_.light = fit_noisy(
             *found_.patches, direct_light_at(prepared_.scene(), *rays_, work_),

@@ -2,6 +2,7 @@
 
 #include "meshing/core/error.h"
 #include "solver/direct/direct_light.h"
+#include "solver/pipeline/lit_places.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/spread_places.h"
 
@@ -46,6 +47,7 @@ struct ExactWork {
   SightEffort effort;
   double crowd_work = 0;
   double irradiance = 0, reached = 0;  ///< sum, and at how many places there is any
+  double inverse = 0;                  ///< sum of 1 / irradiance
 
   double rays() const { return in_rays(effort, crowd_work); }
 };
@@ -69,10 +71,22 @@ ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>&
       const double irradiance = light.irradiance.mean();
       if (!(irradiance > 0)) continue;
       work.irradiance += irradiance;
+      work.inverse += 1 / irradiance;
       ++work.reached;
     }
   }
   return work;
+}
+
+/// W/m²: the mean of those of the places that are reached. If none are, that of places that light
+/// falls on: they are as dense as it is strong, so that the mean over their area is the harmonic
+/// one over them. 0 if there are none of these, either.
+double mean_where_lit(const PreparedScene& prepared, const ExactWork& exact,
+                      const Progress& progress) {
+  if (exact.reached > 0) return exact.irradiance / exact.reached;
+  std::vector<SurfacePoint> lit = mixed(lit_places(prepared, tried_places));
+  const ExactWork there = look_exactly(prepared.direct_light(), lit, progress);
+  return there.reached > 0 ? there.reached / there.inverse : 0;
 }
 
 /// Rays follow light that arrives. Throws Error(too_large) where none was found, and exact looks
@@ -80,7 +94,7 @@ ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>&
 void require_light(const SoundScene& scene, const ExactWork& work, std::size_t places) {
   const double hours = work.rays() / static_cast<double>(places) * looks_of_surface *
                        static_cast<double>(scene.surfaces.size()) / rays_of_hour;
-  if (work.reached > 0 || work.rays() <= most_in_the_dark || hours < 1) return;
+  if (work.rays() <= most_in_the_dark || hours < 1) return;
   throw Error(ErrorCode::too_large, {},
               fmt::format("exact direct light past {} surfaces takes some {:.0f} hours, and none "
                           "arrives at {} places; --visibility exact takes all the time there is",
@@ -110,11 +124,12 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
   std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, ids, tried_surfaces));
   const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
   if (progress.stopped() || by_area.empty()) return {};
-  require_light(scene, exact, by_area.size());
+  const double irradiance = mean_where_lit(prepared, exact, progress);
+  if (!(irradiance > 0)) require_light(scene, exact, by_area.size());
   const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
-  if (!(exact.reached > 0) || progress.stopped()) return {};
+  if (!(irradiance > 0) || progress.stopped()) return {};
   RayLightOptions rays;
-  rays.deviation = deviation_for_tolerance * options.tolerance * exact.irradiance / exact.reached;
+  rays.deviation = deviation_for_tolerance * options.tolerance * irradiance;
   rays.most_rays = std::max(exact.rays() / static_cast<double>(exact.effort.looks), 1.);
   const RayLight light(scene, prepared.direct_light(), prepared.visibility(), rays);
   const bool are_better = rays_in_all(light, by_area) < as_quick * exact.rays() &&

@@ -1,5 +1,7 @@
 #include "solver/pipeline/direct_work.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace halfshade {
@@ -10,8 +12,12 @@ constexpr double crowd_work_for_one = 60, rays_for_one = 150;
 
 }  // namespace
 
-bool is_too_much(const DirectWork& work, int unknowns) {
-  return work.crowd > crowd_work_for_one * unknowns || work.rays > rays_for_one * unknowns;
+double places_left(const DirectWork& work, int unknowns) {
+  double result = std::numeric_limits<double>::infinity();
+  for (const auto& [done, most] : {std::pair(work.crowd, crowd_work_for_one * unknowns),
+                                   std::pair(work.rays, rays_for_one * unknowns)})
+    if (done > 0) result = std::min(result, (most / done - 1) * work.places);
+  return result;
 }
 
 namespace {
@@ -30,12 +36,23 @@ FieldAt direct_light_at(const SoundScene& scene, const DirectLightIndex& index, 
     for (const FieldPoint& point : points) places.push_back(in_own_plane(scene, point).point);
     std::vector<Rgb> values;
     values.reserve(points.size());
+    work.places += static_cast<double>(points.size());
     for (const DirectLight& light : index.irradiance(places, progress)) {
       values.push_back(light.irradiance);
       work.crowd += static_cast<double>(light.crowd_work);
     }
     return values;
   };
+}
+
+void try_middles(const ElementTable& elements, const FieldAt& light, const Progress& progress) {
+  constexpr int many_elements = 10000, tried = 100;
+  if (elements.count() < many_elements) return;
+  std::vector<FieldPoint> middles;
+  for (int e = 0; e < elements.count(); e += elements.count() / tried)
+    middles.push_back({{position(elements.triangle(e), {1. / 3, 1. / 3}), elements.normal[at(e)]},
+                       elements.surface[at(e)]});
+  light(middles, progress);
 }
 
 NoisyFieldAt direct_light_at(const SoundScene& scene, const RayLight& light, DirectWork& work) {
@@ -45,6 +62,7 @@ NoisyFieldAt direct_light_at(const SoundScene& scene, const RayLight& light, Dir
     places.reserve(points.size());
     for (const FieldPoint& point : points) places.push_back(in_own_plane(scene, point));
     RayIrradiance found = light.irradiance(places, slack, progress);
+    work.places += static_cast<double>(points.size());
     work.rays += static_cast<double>(found.rays);
     return std::move(found.at);
   };

@@ -15,13 +15,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <optional>
+#include <utility>
 
 namespace halfshade {
 namespace {
 
 /// Of the work that a tolerance is worth.
 constexpr double share_to_label = 0.2;
+/// Where curves take too many elements, the tolerance by which they are left out is so many times
+/// as large, and again while it is less than so many times the light; then all are left out but
+/// those of order 0.
+constexpr double raise = 4, much_light = 100, all_curves = std::numeric_limits<double>::max();
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
@@ -56,7 +63,9 @@ std::size_t most_elements(const PreparedScene& prepared, const std::vector<Light
   // Each source's part, and what all give.
   const double for_one =
       mean_look_work(prepared, sources) * static_cast<double>(sources.size() + 1);
-  const double affordable = share_to_label * affordable_work(options.tolerance);
+  const double affordable = options.label_work > 0
+                                ? options.label_work
+                                : share_to_label * affordable_work(options.tolerance);
   return for_one * static_cast<double>(most) > affordable
              ? static_cast<std::size_t>(std::max(affordable / for_one, 1.))
              : most;
@@ -68,6 +77,40 @@ std::size_t most_elements(const PreparedScene& prepared, const std::vector<Light
                           "elements, which is all that can be labelled in the time that a "
                           "tolerance is worth; --tolerance 0 takes all the time there is",
                           prepared.scene().surfaces.size(), most));
+}
+
+bool is_limited(const DiscontinuityMeshOptions& options) {
+  return options.max_triangles < DiscontinuityMeshOptions{}.max_triangles;
+}
+
+/// Nothing if it takes more elements than can be labelled.
+std::optional<DiscontinuityMesh> mesh_within(const PreparedScene& prepared,
+                                             const Discontinuities& found,
+                                             const DiscontinuityMeshOptions& options,
+                                             const Progress& progress) {
+  try {
+    return mesh_discontinuities(prepared.scene(), found, options, progress);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::too_large || !is_limited(options)) throw;
+    return std::nullopt;
+  }
+}
+
+/// Throws Error(too_large) where surfaces and contact lines alone are too many, before time goes
+/// into finding curves.
+void require_room(const PreparedScene& prepared, const DiscontinuityMeshOptions& options,
+                  const Progress& progress) {
+  if (is_limited(options) && (least_elements(prepared.scene()) > options.max_triangles ||
+                              !mesh_within(prepared, {}, options, progress)))
+    refuse_labels(prepared, options.max_triangles);
+}
+
+Warning fewer_curves_warning(const DiscontinuityMeshReport& mesh, std::size_t most) {
+  return {Warning::Kind::curves_left_out,
+          fmt::format("elements follow only {} of the {} curves, those that change light most: "
+                      "with more they are more than the {} that can be labelled in the time that a "
+                      "tolerance is worth; --tolerance 0 takes all the time there is",
+                      mesh.kept, mesh.kept + mesh.culled, most)};
 }
 
 /// Finds the curves, and what their effect is measured against.
@@ -90,15 +133,22 @@ void find_curves(const PreparedScene& prepared, const std::vector<LightSource>& 
   });
 }
 
-DiscontinuityMesh make_mesh(const PreparedScene& prepared, const Discontinuities& found,
-                            const DiscontinuityMeshOptions& options, const Progress& progress) {
-  try {
-    return mesh_discontinuities(prepared.scene(), found, options, progress);
-  } catch (const Error& error) {
-    const bool is_limited = options.max_triangles < DiscontinuityMeshOptions{}.max_triangles;
-    if (error.code() != ErrorCode::too_large || !is_limited) throw;
-    refuse_labels(prepared, options.max_triangles);
+/// Along those curves that matter most where all would take more elements than can be labelled.
+DiscontinuityMesh make_mesh(const PreparedScene& prepared, const MeshOptions& asked_for,
+                            DiscontinuityMeshOptions options, const Progress& progress,
+                            MeshResult& result) {
+  double tolerance = asked_for.tolerance;
+  auto mesh = mesh_within(prepared, result.found, options, progress);
+  while (!mesh && options.irradiance_tolerance < all_curves) {
+    tolerance *= raise;
+    options.irradiance_tolerance =
+        tolerance > much_light ? all_curves : raise * options.irradiance_tolerance;
+    mesh = mesh_within(prepared, result.found, options, progress);
   }
+  if (!mesh) refuse_labels(prepared, options.max_triangles);
+  if (tolerance > asked_for.tolerance)
+    add({fewer_curves_warning(mesh->report, options.max_triangles)}, result.warnings);
+  return *std::move(mesh);
 }
 
 /// Whether nothing was left out, so that all of a cell between curves sees the same of a source.
@@ -131,16 +181,16 @@ std::vector<Region> strongest_regions(const DirectLightIndex& index, const MeshR
 
 /// Meshes and labels what was found.
 void make_elements(const PreparedScene& prepared, const DiscontinuityMeshOptions& mesh_options,
-                   const DiscontinuityOptions& events, const Progress& progress, Stages& stages,
+                   const MeshOptions& options, const Progress& progress, Stages& stages,
                    MeshResult& result) {
   stages.run("mesh", [&] {
-    const DiscontinuityMesh mesh = make_mesh(prepared, result.found, mesh_options, progress);
+    const DiscontinuityMesh mesh = make_mesh(prepared, options, mesh_options, progress, result);
     result.mesh = mesh.report;
     result.elements = mesh.patches.elements();
     return result.elements.corners.size();
   });
   stages.run("regions", [&] {
-    const auto label = is_complete(result, events) ? label_cells : label_elements;
+    const auto label = is_complete(result, options.events) ? label_cells : label_elements;
     result.regions =
         label(prepared.scene(), prepared.opaque(), result.elements, result.found.sources, progress);
     result.region = strongest_regions(prepared.direct_light(), result, progress);
@@ -152,7 +202,7 @@ void make_elements(const PreparedScene& prepared, const DiscontinuityMeshOptions
 
 ContactLimit mesh_contact_limit() {
   const std::size_t most = DiscontinuityMeshOptions{}.max_triangles;
-  return {static_cast<double>(most), contacts_warning(static_cast<int>(most), false)};
+  return {static_cast<double>(most), contacts_warning()};
 }
 
 MeshResult mesh_scene(const Scene& scene, const MeshOptions& options, const Progress& progress) {
@@ -177,14 +227,13 @@ MeshResult mesh_scene(const PreparedScene& prepared, const MeshOptions& options,
   mesh_options.deviation = options.deviation;
   if (options.with_elements) {
     mesh_options.max_triangles = most_elements(prepared, sources, options);
-    if (least_elements(prepared.scene()) > mesh_options.max_triangles)
-      refuse_labels(prepared, mesh_options.max_triangles);
+    require_room(prepared, mesh_options, progress);
   }
   find_curves(prepared, sources, options, progress, stages, result);
   mesh_options.irradiance_tolerance = result.irradiance_tolerance;
   add(search_warnings(result.found.report, options.tolerance), result.warnings);
   if (options.with_elements)
-    make_elements(prepared, mesh_options, options.events, progress, stages, result);
+    make_elements(prepared, mesh_options, options, progress, stages, result);
   stages.leave_out_if(!options.with_elements, "mesh", "only the curves were asked for");
   result.interrupted = progress.stopped();
   return result;

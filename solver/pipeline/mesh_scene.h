@@ -20,6 +20,9 @@ struct MeshOptions {
   /// Curves whose effect on the irradiance is below this share of its mean are left out, and
   /// conics are flattened accordingly; see mean_direct_irradiance. 0: the mesh is complete.
   double tolerance = 0;
+  /// With a tolerance, no more elements than can be labelled with so much work, as
+  /// DiscontinuityOptions has it; 0: a fifth of what a tolerance is worth.
+  double label_work = 0;
   double max_length = 0;      ///< no element edge longer than this, scene units; 0: no limit
   double deviation = 0;       ///< of chords from conics, as DiscontinuityMeshOptions has it
   bool with_elements = true;  ///< false: find the curves only

@@ -55,9 +55,9 @@ bool is_convex(const SoundScene& scene);
 double affordable_work(double tolerance);
 
 /// Mean over the surfaces that light reaches straight from emitters of the irradiance it gives
-/// them (strongest channel), from one exact value at each of about 2000 places. Surfaces too far
-/// away to get noticeable light do not count. What relative tolerances refer to. W/m²; 0 if nothing
-/// is reached.
+/// them (strongest channel), from one exact value at each of about 2000 places; if all of these are
+/// dark, from places that it falls on. Surfaces too far away to get noticeable light do not count.
+/// What relative tolerances refer to. W/m²; 0 if nothing is reached.
 double mean_direct_irradiance(const PreparedScene& prepared, const Progress& progress = {});
 
 }  // namespace halfshade

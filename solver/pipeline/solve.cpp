@@ -88,7 +88,7 @@ SolveResult solve(const Scene& scene, const SolveOptions& options, const Progres
   check(options);
   const SolveOptions limited = with_limits(options, scene.faces.size());
   const ContactLimit limit{static_cast<double>(limited.max_elements),
-                           contacts_warning(limited.max_elements, true)};
+                           contacts_warning(limited.max_elements)};
   return use_prepared(scene, limit, progress, [&](const PreparedScene& prepared) {
     return solve(prepared, limited, progress);
   });

@@ -195,12 +195,14 @@ std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound
   return {{Warning::Kind::faces_changed, text}};
 }
 
-Warning contacts_warning(int max_elements, bool by_option) {
+Warning contacts_warning(std::optional<int> max_elements) {
   return {Warning::Kind::contacts_left_out,
           fmt::format("elements do not follow the lines along which surfaces touch and cut through "
-                      "each other, for that takes more than {} of them: light gets smeared across "
+                      "each other, for that takes {}: light gets smeared across "
                       "there, and closed spaces may count as open{}",
-                      max_elements, by_option ? "; --max-elements allows more" : "")};
+                      max_elements ? fmt::format("more than {} of them", *max_elements)
+                                   : "too many of them",
+                      max_elements ? "; --max-elements allows more" : "")};
 }
 
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance) {

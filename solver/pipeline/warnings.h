@@ -7,6 +7,7 @@
 #include "solver/exchange/exchange.h"
 #include "solver/linear/radiosity.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,8 +54,8 @@ struct LightOutcome {
   int bounces = -1;  ///< after which light was not followed; −1: it was to the end
 };
 
-/// Of contact lines that would take more elements than allowed, by an option or not.
-Warning contacts_warning(int max_elements, bool by_option);
+/// Of contact lines that would take more elements than an option, if it is that, allows.
+Warning contacts_warning(std::optional<int> max_elements = {});
 
 /// Of curves that were not looked for; nothing if all were.
 std::vector<Warning> search_warnings(const DiscontinuityReport& report, double tolerance);

@@ -297,6 +297,30 @@ TEST(AdaptiveField, StoppedAnywhereItIsWhole) {
   EXPECT_LT(last_error, 0.02);
 }
 
+TEST(AdaptiveField, TakesAboutAsManySamplesAsThereMayBe) {
+  for (const double for_one : {5., 20., 200.}) {
+    const SoundScene scene = square();
+    PatchMesh mesh = mesh_of(scene, 0.1);
+    const double most = for_one * mesh.element_count();
+    double taken = 0;
+    const FieldAt inner = field_of(jumping);
+    const FieldAt field = [&](std::span<const FieldPoint> points, const Progress& progress) {
+      taken += static_cast<double>(points.size());
+      return inner(points, progress);
+    };
+    AdaptiveFieldOptions options;
+    options.tolerance = 1e-6;
+    options.samples_left = [&] { return most - taken; };
+    const AdaptiveField fit = fit_adaptively(mesh, field, options);
+    EXPECT_EQ(fit.report.limit, FieldLimit::work);
+    EXPECT_LE(taken, 1.2 * most) << for_one;
+    EXPECT_GE(taken, 0.7 * most) << for_one;
+    const double error = true_error(fit, jumping, 4);
+    EXPECT_LE(error, for_one < 10 ? 0.1 : 0.05);
+    EXPECT_LE(error, 1.2 * fit.report.relative_error) << for_one;
+  }
+}
+
 TEST(AdaptiveField, PolynomialsStayExactWhateverIsSplit) {
   test::Random random(11);
   const SoundScene scene = square();

@@ -4,6 +4,7 @@
 #include "solver/pipeline/plan.h"
 #include "solver/pipeline/prepared_scene.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/room_families.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -71,6 +72,26 @@ TEST(MeshScene, TheToleranceIsAShareOfTheMeanIrradiance) {
               0.05 * mean_direct_irradiance(PreparedScene(test::table_scene())), 1e-15);
   EXPECT_GT(result.irradiance_tolerance, 0);
   EXPECT_EQ(mesh_scene(test::table_scene()).irradiance_tolerance, 0);
+}
+
+TEST(MeshScene, FollowsTheCurvesThatMatterMostWhereNotAllElementsCanBeLabelled) {
+  MeshOptions options;
+  options.tolerance = 1e-4;
+  const MeshResult all = mesh_scene(test::furnished_room(50), options);
+  std::size_t last = all.mesh.kept;
+  for (const double work : {1e4, 5e3}) {
+    options.label_work = work;
+    const MeshResult result = mesh_scene(test::furnished_room(50), options);
+    EXPECT_LT(result.mesh.kept, last);
+    EXPECT_LT(result.elements.count(), all.elements.count());
+    ASSERT_FALSE(result.warnings.empty());
+    EXPECT_EQ(result.warnings.back().kind, Warning::Kind::curves_left_out);
+    EXPECT_NE(result.warnings.back().sentence.find("can be labelled"), std::string::npos);
+    last = result.mesh.kept;
+  }
+  options.label_work = 1;
+  test::expect_error([&] { mesh_scene(test::furnished_room(50), options); }, ErrorCode::too_large,
+                     {"can be labelled"});
 }
 
 TEST(MeshScene, StopsWithAValidPartialResult) {

@@ -77,6 +77,19 @@ TEST(MeanDirectIrradiance, IsThePowerOverTheAreaItReaches) {
   EXPECT_NEAR(mean_direct_irradiance(PreparedScene(scene)), 0.2, 1e-3);
 }
 
+TEST(MeanDirectIrradiance, IsFoundWhereNearlyAllIsDark) {
+  // A lantern that is a millionth of all there is, in a hall that gets none of its light.
+  Scene scene = test::lit_cube({0, 0, 0, 0, 0, 0});
+  Scene hall = test::lit_cube({0, 0, 0, 0, 0, 0});
+  for (const Face& face : hall.faces) {
+    std::vector<Vec3> polygon;
+    for (const int corner : face.vertices)
+      polygon.push_back(1000 * hall.vertices[at(corner)] - Vec3(500, 500, 500));
+    test::add_polygon(scene, polygon, 0);
+  }
+  EXPECT_NEAR(mean_direct_irradiance(PreparedScene(scene)), 0.2, 0.03);
+}
+
 TEST(IsConvex, HoldsForEmptyRoomsOnly) {
   const auto convex = [](const Scene& scene) { return is_convex(make_sound(scene)); };
   EXPECT_TRUE(convex(test::lit_cube({0, 0, 0, 0, 0, 0})));

@@ -36,7 +36,7 @@ TEST(UsePrepared, DoesWithoutContactLinesWhereTheyTakeTooMuchAndSaysSo) {
     for (const Surface& surface : prepared.scene().surfaces) count += surface.contacts.size();
     return count;
   };
-  const Warning warning = contacts_warning(100, false);
+  const Warning warning = contacts_warning();
   EXPECT_GT(use_prepared(soup, {}, {}, contacts), 50u);
   EXPECT_EQ(use_prepared(soup, {20, warning}, {}, contacts), 0u);
   int calls = 0;

@@ -3,6 +3,7 @@
 #include "meshing/core/plane_frame.h"
 #include "meshing/repair/repair_sentence.h"
 #include "solver/pipeline/first_few.h"
+#include "solver/pipeline/outward_lamps.h"
 #include "solver/pipeline/weak_lights.h"
 
 #include <fmt/format.h>
@@ -153,6 +154,8 @@ const char* name_of(Warning::Kind kind) {
       return "light_escapes";
     case Warning::Kind::dark_groups:
       return "dark_groups";
+    case Warning::Kind::outward_lamps:
+      return "outward_lamps";
     case Warning::Kind::faces_changed:
       return "faces_changed";
     case Warning::Kind::curves_left_out:
@@ -295,6 +298,13 @@ std::vector<Warning> light_warnings(const LightOutcome& outcome) {
     warnings.push_back({Warning::Kind::dark_groups,
                         fmt::format("no light reaches the group{} {}; {}",
                                     dark.size() == 1 ? "" : "s", first_few(dark), way_out)});
+  const std::vector<std::string> outward = outward_lamps(outcome.scene);
+  if (!is_unlit(outcome) && !outward.empty())
+    warnings.push_back(
+        {Warning::Kind::outward_lamps,
+         fmt::format(
+             "no surface lies before what emits in the group{} {}, and its light is lost; {}",
+             outward.size() == 1 ? "" : "s", first_few(outward), way_out)});
   if (outcome.exchange.unfinished > 0)
     warnings.push_back(
         {Warning::Kind::lost_by_factors,

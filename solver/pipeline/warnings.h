@@ -19,6 +19,7 @@ struct Warning {
     nothing_lit,         ///< no light reaches the front of any surface
     light_escapes,       ///< nearly all light leaves the scene
     dark_groups,         ///< some groups receive nothing
+    outward_lamps,       ///< no surface lies before the emitters of some groups
     faces_changed,       ///< faces were dropped or moved, by more than rounding
     curves_left_out,     ///< kinds of curves were not looked for: it would take too long
     contacts_left_out,   ///< elements do not follow contact lines: there are too many

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -54,6 +55,28 @@ TEST(Warnings, LightThatLeavesAndGroupsInTheDark) {
   EXPECT_NE(dark.find("turned"), std::string::npos);
   EXPECT_EQ(dark.find("near"), std::string::npos);
   EXPECT_EQ(dark.find("lamp"), std::string::npos);
+}
+
+TEST(Warnings, LampsThatNothingLiesBefore) {
+  // A room one of whose walls emits, and a lamp on the floor.
+  const auto room = [](bool outwards) {
+    Scene scene;
+    const int grey = test::add_material(scene, .5, 0), light = test::add_material(scene, 0, 1);
+    scene.groups = {"walls", "window", "lamp"};
+    const auto walls = test::box_faces({0, 0, 0}, {1, 1, 1}, true);
+    for (const auto& face : walls) test::add_polygon(scene, face, grey);
+    if (outwards) std::ranges::reverse(scene.faces[2].vertices);
+    scene.faces[2].material = light;
+    scene.faces[2].group = 1;
+    test::add_polygon(scene, {{.4, .4, .1}, {.6, .4, .1}, {.6, .6, .1}, {.4, .6, .1}}, light);
+    scene.faces.back().group = 2;
+    return scene;
+  };
+  EXPECT_TRUE(solve(room(false), coarse_options()).warnings.empty());
+  const std::string sentence =
+      sentence_of(solve(room(true), coarse_options()), Warning::Kind::outward_lamps);
+  EXPECT_NE(sentence.find("the group window, and its light is lost"), std::string::npos)
+      << sentence;
 }
 
 TEST(Warnings, WhatIsReflectedOutIsNotForSurfacesThatLookAway) {

@@ -139,9 +139,9 @@ class DirectFieldSearch {
     if (watched_) return *watched_;
     const auto emitters = prepared_.direct_light().emitters();
     watched_ = near_features(scene(), emitters, blockers_);
-    for (const auto& more :
-         {shadow_places(scene(), emitters, blockers_), narrow_places(scene(), emitters, blockers_),
-          corner_places(scene(), emitters), spot_places(scene(), emitters)})
+    for (const auto& more : {shadow_places(scene(), emitters, blockers_),
+                             narrow_places(scene(), emitters, blockers_, progress_),
+                             corner_places(scene(), emitters), spot_places(scene(), emitters)})
       watched_->places.insert(watched_->places.end(), more.begin(), more.end());
     return *watched_;
   }

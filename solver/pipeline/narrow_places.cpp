@@ -1,5 +1,6 @@
 #include "solver/pipeline/narrow_places.h"
 
+#include "meshing/core/parallel.h"
 #include "meshing/core/planar.h"
 #include "meshing/geometry/flat_tree.h"
 #include "solver/pipeline/middle.h"
@@ -135,13 +136,17 @@ class Receiver {
   /// How far the next line is from a point.
   double next(const std::vector<ThrownEdge>& edges, const FlatTree& tree, const Vec2& p,
               const Vec2& direction) const {
-    double nearest = narrow * size_;
-    visit_overlaps(tree, flat_bounds(p, p + nearest * direction), [&](int i) {
-      const auto& [a, b] = edges[at(i)].ends;
-      const auto distance = line_meets_segment(p, direction, a, b);
-      if (distance && *distance > same_line * size_) nearest = std::min(nearest, *distance);
-    });
-    return nearest;
+    const double most = narrow * size_;
+    // Among very many lines it is mostly close.
+    for (double reach = most / 64;; reach *= 4) {
+      double nearest = std::min(reach, most);
+      visit_overlaps(tree, flat_bounds(p, p + nearest * direction), [&](int i) {
+        const auto& [a, b] = edges[at(i)].ends;
+        const auto distance = line_meets_segment(p, direction, a, b);
+        if (distance && *distance > same_line * size_) nearest = std::min(nearest, *distance);
+      });
+      if (nearest < reach || reach >= most) return nearest;
+    }
   }
 
   const Surface& surface_;
@@ -173,7 +178,7 @@ void keep_largest(std::vector<WatchedPlace>& places) {
 }  // namespace
 
 std::vector<WatchedPlace> narrow_places(const SoundScene& scene, std::span<const int> sources,
-                                        std::span<const int> blocking) {
+                                        std::span<const int> blocking, const Progress& progress) {
   std::vector<WatchedPlace> places;
   const std::vector<Edge> edges = edges_of(scene, blocking);
   if (edges.empty() || sources.empty()) return places;
@@ -183,23 +188,29 @@ std::vector<WatchedPlace> narrow_places(const SoundScene& scene, std::span<const
   constexpr double around = 1 + 4;  // of most sources
   const bool only_middles = all * around > most_edges;
   const double most = most_edges / each / (only_middles ? 1 : around);
-  for (const int source : sources) {
-    const Surface& lamp = scene.surfaces[at(source)];
-    const std::vector<Vec3> ends =
-        only_middles ? std::vector{middle(lamp)} : middle_and_around(lamp, towards_corner);
-    // Both lines beside something narrow find it.
-    const double share = 0.5 / static_cast<double>(ends.size());
-    for (std::size_t r = 0; r < receivers.size() && static_cast<double>(r) < most; ++r) {
-      const Receiver receiver(scene.surfaces[at(receivers[r])]);
-      for (const Vec3& from : ends) {
-        if (!receiver.is_below(from)) continue;
-        std::vector<ThrownEdge> thrown;
-        for (const Edge& edge : edges)
-          if (auto line = receiver.thrown(edge, from, lamp, size_of(lamp))) thrown.push_back(*line);
-        if (thrown.size() > 1) receiver.add_places(receivers[r], thrown, share, places);
-      }
-    }
-  }
+  std::vector<std::vector<WatchedPlace>> of_source(sources.size());
+  parallel_for(
+      sources.size(),
+      [&](std::size_t s) {
+        const Surface& lamp = scene.surfaces[at(sources[s])];
+        const std::vector<Vec3> ends =
+            only_middles ? std::vector{middle(lamp)} : middle_and_around(lamp, towards_corner);
+        // Both lines beside something narrow find it.
+        const double share = 0.5 / static_cast<double>(ends.size());
+        for (std::size_t r = 0; r < receivers.size() && static_cast<double>(r) < most; ++r) {
+          const Receiver receiver(scene.surfaces[at(receivers[r])]);
+          for (const Vec3& from : ends) {
+            if (!receiver.is_below(from)) continue;
+            std::vector<ThrownEdge> thrown;
+            for (const Edge& edge : edges)
+              if (auto line = receiver.thrown(edge, from, lamp, size_of(lamp)))
+                thrown.push_back(*line);
+            if (thrown.size() > 1) receiver.add_places(receivers[r], thrown, share, of_source[s]);
+          }
+        }
+      },
+      progress, "narrow shadows");
+  for (const auto& more : of_source) places.insert(places.end(), more.begin(), more.end());
   keep_largest(places);
   return places;
 }

@@ -8,7 +8,7 @@ namespace halfshade {
 namespace {
 
 /// Pairs of an emitter and another surface.
-constexpr std::size_t most_pairs = 100'000'000;
+constexpr std::size_t most_comparisons = 100'000'000;
 
 bool emits(const SoundScene& scene, const Surface& surface) {
   return (scene.materials[at(surface.material)].exitance > 0).any();
@@ -36,7 +36,7 @@ std::vector<std::string> outward_lamps(const SoundScene& scene) {
     if (group == inwards || !emits(scene, lamp)) continue;
     group = outwards;
     for (const Surface& other : scene.surfaces) {
-      if (++pairs > most_pairs) return {};
+      if (++pairs > most_comparisons) return {};
       if (!is_before(lamp, other) || !is_before(other, lamp)) continue;
       group = inwards;
       break;

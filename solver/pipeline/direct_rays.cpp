@@ -47,7 +47,6 @@ struct ExactWork {
   SightEffort effort;
   double crowd_work = 0;
   double irradiance = 0, reached = 0;  ///< sum, and at how many places there is any
-  double inverse = 0;                  ///< sum of 1 / irradiance
 
   double rays() const { return in_rays(effort, crowd_work); }
 };
@@ -71,22 +70,18 @@ ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>&
       const double irradiance = light.irradiance.mean();
       if (!(irradiance > 0)) continue;
       work.irradiance += irradiance;
-      work.inverse += 1 / irradiance;
       ++work.reached;
     }
   }
   return work;
 }
 
-/// W/m²: the mean of those of the places that are reached. If none are, that of places that light
-/// falls on: they are as dense as it is strong, so that the mean over their area is the harmonic
-/// one over them. 0 if there are none of these, either.
+/// W/m²: the mean of those of the places that are reached, or, if none are, where light falls.
 double mean_where_lit(const PreparedScene& prepared, const ExactWork& exact,
                       const Progress& progress) {
   if (exact.reached > 0) return exact.irradiance / exact.reached;
-  std::vector<SurfacePoint> lit = mixed(lit_places(prepared, tried_places));
-  const ExactWork there = look_exactly(prepared.direct_light(), lit, progress);
-  return there.reached > 0 ? there.reached / there.inverse : 0;
+  return mean_over_lit_area(
+      prepared, [](const Rgb& light) { return light.mean(); }, progress);
 }
 
 /// Rays follow light that arrives. Throws Error(too_large) where none was found, and exact looks

@@ -1,15 +1,19 @@
 #pragma once
 
-#include "solver/direct/direct_light.h"
+#include "meshing/core/progress.h"
 #include "solver/pipeline/prepared_scene.h"
 
-#include <vector>
+#include <functional>
 
 namespace halfshade {
 
-/// Places that light of emitters falls on, the fewer the darker they are: where up to `count` rays
-/// end that leave the emitters as their light does. Fewer where rays end nowhere, or behind a
-/// surface. The same whatever the unit of length.
-std::vector<SurfacePoint> lit_places(const PreparedScene& prepared, int count);
+/// W/m²: the mean over all that light of emitters reaches of its brightness, from exact values
+/// where up to a hundred rays end that leave the emitters as their light does. Places are as dense
+/// as light is strong there, so that it is the harmonic mean over them. For scenes of which so
+/// little is lit that other places miss it; fewer rays where looks take very long. 0 if none ends
+/// in front of a surface.
+double mean_over_lit_area(const PreparedScene& prepared,
+                          const std::function<double(const Rgb&)>& brightness,
+                          const Progress& progress = {});
 
 }  // namespace halfshade

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,19 +25,20 @@ namespace {
 /// Of the work that a tolerance is worth.
 constexpr double share_to_label = 0.2;
 /// Where curves take too many elements, the tolerance by which they are left out is so many times
-/// as large, and again while it is less than so many times the light; then all are left out but
-/// those of order 0.
-constexpr double raise = 4, much_light = 100, all_curves = std::numeric_limits<double>::max();
+/// as large, and again, up to so many times the mean irradiance: no curve of order 1 and more
+/// matters then.
+constexpr double raise = 4, all_light = 1e6;
 
 void check(const MeshOptions& options) {
   const auto is_usable = [](double x) { return x >= 0 && std::isfinite(x); };
   if (!is_usable(options.tolerance) || !is_usable(options.max_length) || options.secondary < 0 ||
-      !(options.deviation >= 0 && options.deviation < 1))
+      !is_usable(options.label_work) || !(options.deviation >= 0 && options.deviation < 1))
     throw Error(
         ErrorCode::contract, "mesh_scene",
-        fmt::format("tolerance ({}), max_length ({}) and secondary ({}) must be finite and "
-                    "not negative, and deviation ({}) in [0, 1)",
-                    options.tolerance, options.max_length, options.secondary, options.deviation));
+        fmt::format("tolerance ({}), max_length ({}), label_work ({}) and secondary ({}) must be "
+                    "finite and not negative, and deviation ({}) in [0, 1)",
+                    options.tolerance, options.max_length, options.label_work, options.secondary,
+                    options.deviation));
 }
 
 /// Work that it takes to see what an element sees of a source: the mean of some surfaces.
@@ -137,17 +137,15 @@ void find_curves(const PreparedScene& prepared, const std::vector<LightSource>& 
 DiscontinuityMesh make_mesh(const PreparedScene& prepared, const MeshOptions& asked_for,
                             DiscontinuityMeshOptions options, const Progress& progress,
                             MeshResult& result) {
-  double tolerance = asked_for.tolerance;
   auto mesh = mesh_within(prepared, result.found, options, progress);
-  while (!mesh && options.irradiance_tolerance < all_curves) {
-    tolerance *= raise;
-    options.irradiance_tolerance =
-        tolerance > much_light ? all_curves : raise * options.irradiance_tolerance;
+  const bool fits = mesh.has_value();
+  for (double share = asked_for.tolerance; !mesh && share < all_light; share *= raise) {
+    result.irradiance_tolerance *= raise;
+    options.irradiance_tolerance = result.irradiance_tolerance;
     mesh = mesh_within(prepared, result.found, options, progress);
   }
   if (!mesh) refuse_labels(prepared, options.max_triangles);
-  if (tolerance > asked_for.tolerance)
-    add({fewer_curves_warning(mesh->report, options.max_triangles)}, result.warnings);
+  if (!fits) add({fewer_curves_warning(mesh->report, options.max_triangles)}, result.warnings);
   return *std::move(mesh);
 }
 

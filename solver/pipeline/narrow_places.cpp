@@ -175,6 +175,21 @@ void keep_largest(std::vector<WatchedPlace>& places) {
   std::erase_if(places, [&](const WatchedPlace& place) { return place.area <= least; });
 }
 
+/// Those on a receiver in the light of a lamp, from some of its points.
+void add_narrow(const SoundScene& scene, int id, const Surface& lamp, std::span<const Vec3> ends,
+                std::span<const Edge> edges, std::vector<WatchedPlace>& places) {
+  const Receiver receiver(scene.surfaces[at(id)]);
+  // Both lines beside something narrow find it.
+  const double share = 0.5 / static_cast<double>(ends.size());
+  for (const Vec3& from : ends) {
+    if (!receiver.is_below(from)) continue;
+    std::vector<ThrownEdge> thrown;
+    for (const Edge& edge : edges)
+      if (auto line = receiver.thrown(edge, from, lamp, size_of(lamp))) thrown.push_back(*line);
+    if (thrown.size() > 1) receiver.add_places(id, thrown, share, places);
+  }
+}
+
 }  // namespace
 
 std::vector<WatchedPlace> narrow_places(const SoundScene& scene, std::span<const int> sources,
@@ -195,19 +210,8 @@ std::vector<WatchedPlace> narrow_places(const SoundScene& scene, std::span<const
         const Surface& lamp = scene.surfaces[at(sources[s])];
         const std::vector<Vec3> ends =
             only_middles ? std::vector{middle(lamp)} : middle_and_around(lamp, towards_corner);
-        // Both lines beside something narrow find it.
-        const double share = 0.5 / static_cast<double>(ends.size());
-        for (std::size_t r = 0; r < receivers.size() && static_cast<double>(r) < most; ++r) {
-          const Receiver receiver(scene.surfaces[at(receivers[r])]);
-          for (const Vec3& from : ends) {
-            if (!receiver.is_below(from)) continue;
-            std::vector<ThrownEdge> thrown;
-            for (const Edge& edge : edges)
-              if (auto line = receiver.thrown(edge, from, lamp, size_of(lamp)))
-                thrown.push_back(*line);
-            if (thrown.size() > 1) receiver.add_places(receivers[r], thrown, share, of_source[s]);
-          }
-        }
+        for (std::size_t r = 0; r < receivers.size() && static_cast<double>(r) < most; ++r)
+          add_narrow(scene, receivers[r], lamp, ends, edges, of_source[s]);
       },
       progress, "narrow shadows");
   for (const auto& more : of_source) places.insert(places.end(), more.begin(), more.end());

@@ -1,5 +1,6 @@
 #include "solver/pipeline/outward_lamps.h"
 
+#include "meshing/core/light_source.h"
 #include "meshing/core/tolerance.h"
 
 #include <algorithm>
@@ -9,10 +10,6 @@ namespace {
 
 /// Pairs of an emitter and another surface.
 constexpr std::size_t most_comparisons = 100'000'000;
-
-bool emits(const SoundScene& scene, const Surface& surface) {
-  return (scene.materials[at(surface.material)].exitance > 0).any();
-}
 
 bool is_before(const Surface& viewer, const Surface& other) {
   const double least = tolerance_of(viewer, other).length;
@@ -25,15 +22,15 @@ bool is_before(const Surface& viewer, const Surface& other) {
 }  // namespace
 
 std::vector<std::string> outward_lamps(const SoundScene& scene) {
-  const auto emitters = static_cast<std::size_t>(
-      std::ranges::count_if(scene.surfaces, [&](const Surface& s) { return emits(scene, s); }));
-  if (2 * emitters > scene.surfaces.size()) return {};
+  const std::vector<LightSource> sources = light_sources(scene);
+  if (2 * sources.size() > scene.surfaces.size()) return {};
   enum : char { no_lamp, outwards, inwards };
   std::vector<char> of_group(scene.groups.size(), no_lamp);
   std::size_t pairs = 0;
-  for (const Surface& lamp : scene.surfaces) {
+  for (const LightSource& source : sources) {
+    const Surface& lamp = scene.surfaces[at(source.surface)];
     char& group = of_group[at(lamp.group)];
-    if (group == inwards || !emits(scene, lamp)) continue;
+    if (group == inwards) continue;
     group = outwards;
     for (const Surface& other : scene.surfaces) {
       if (++pairs > most_comparisons) return {};

@@ -25,20 +25,6 @@ constexpr std::size_t much_work = 500;
 /// In units of DiscontinuityOptions::most_work: less than a minute on two cores.
 constexpr double most_work = 5e7;
 
-/// W/m²: the mean over what light reaches, from places that are as dense as it is strong: the
-/// harmonic one over them.
-double mean_of_lit_places(const PreparedScene& prepared, const Progress& progress) {
-  const std::vector<SurfacePoint> lit = lit_places(prepared, few_places);
-  double inverse = 0, count = 0;
-  for (const DirectLight& light : prepared.direct_light().irradiance(lit, progress)) {
-    const double irradiance = light.irradiance.maxCoeff();
-    if (!(irradiance > 0)) continue;
-    inverse += 1 / irradiance;
-    ++count;
-  }
-  return count > 0 ? count / inverse : 0;
-}
-
 bool has_many_lines(const SoundScene& scene) {
   std::size_t lines = scene.surfaces.size();
   for (const Surface& surface : scene.surfaces) lines += surface.contacts.size();
@@ -161,7 +147,9 @@ double mean_direct_irradiance(const PreparedScene& prepared, const Progress& pro
   };
   const std::size_t first = add(true);
   if (work <= much_work * first || !(reached > 0)) add(false);
-  return reached > 0 ? power / reached : mean_of_lit_places(prepared, progress);
+  if (reached > 0) return power / reached;
+  return mean_over_lit_area(
+      prepared, [](const Rgb& light) { return light.maxCoeff(); }, progress);
 }
 
 }  // namespace halfshade

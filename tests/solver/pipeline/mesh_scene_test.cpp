@@ -84,6 +84,7 @@ TEST(MeshScene, FollowsTheCurvesThatMatterMostWhereNotAllElementsCanBeLabelled) 
     const MeshResult result = mesh_scene(test::furnished_room(50), options);
     EXPECT_LT(result.mesh.kept, last);
     EXPECT_LT(result.elements.count(), all.elements.count());
+    EXPECT_GT(result.irradiance_tolerance, all.irradiance_tolerance) << "as used";
     ASSERT_FALSE(result.warnings.empty());
     EXPECT_EQ(result.warnings.back().kind, Warning::Kind::curves_left_out);
     EXPECT_NE(result.warnings.back().sentence.find("can be labelled"), std::string::npos);
@@ -107,7 +108,8 @@ TEST(MeshScene, RefusesOptionsOutOfRange) {
   for (const auto& change : std::vector<void (*)(MeshOptions&)>{
            [](MeshOptions& o) { o.tolerance = -1; },
            [](MeshOptions& o) { o.tolerance = std::nan(""); },
-           [](MeshOptions& o) { o.max_length = -1; }, [](MeshOptions& o) { o.secondary = -1; }}) {
+           [](MeshOptions& o) { o.max_length = -1; }, [](MeshOptions& o) { o.label_work = -1; },
+           [](MeshOptions& o) { o.secondary = -1; }}) {
     MeshOptions options;
     change(options);
     test::expect_error([&] { mesh_scene(test::table_scene(), options); }, ErrorCode::contract,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "meshing/geometry/ball.h"
 #include "meshing/rays/ray_space.h"
 #include "meshing/rays/soup_triangle.h"
 #include "meshing/rays/visibility.h"
@@ -23,8 +24,8 @@ class EmbreeScene {
   EmbreeScene(EmbreeScene&&) noexcept;
   ~EmbreeScene();
 
-  /// Whether what lies in a box may meet one of the triangles.
-  bool may_meet(const Bounds& box) const { return box_.meets(box); }
+  /// What meets one of the triangles meets this.
+  const Ball& ball() const { return ball_; }
 
   bool blocked(const Segment& segment) const;
 
@@ -43,7 +44,7 @@ class EmbreeScene {
 
   std::vector<SoupTriangle> triangles_;
   RaySpace space_;
-  Bounds box_;
+  Ball ball_;
   std::unique_ptr<Handles> handles_;
 };
 

@@ -18,6 +18,7 @@ constexpr std::size_t packet_size = EmbreeScene::packet_size;
 constexpr std::size_t chunk_size = 1024;    // segments of one task; a multiple of packet_size
 constexpr std::size_t serial_limit = 4096;  // batches up to this size are not worth a task
 constexpr double largest_extent = 1e50;     // sixth powers of lengths occur
+constexpr double same_distance = 1e-9;      // rounding, for rays that are not too grazing
 
 void check(const TriangleSoup& soup) {
   const std::size_t n = soup.triangles.size();
@@ -44,6 +45,38 @@ void check(const TriangleSoup& soup) {
                 fmt::format("the triangles extend over {}, out of range", 2 * half));
 }
 
+/// The lines that a packet's rays or segments lie on. Most of them go past small clusters.
+class PacketLines {
+ public:
+  /// Of `count` of them, at least one.
+  PacketLines(std::size_t count, const auto& origin, const auto& way) {
+    for (std::size_t i = 0; i < packet_size; ++i) {
+      const std::size_t k = i < count ? i : 0;
+      origins_.row(static_cast<Eigen::Index>(i)) = origin(k).transpose();
+      ways_.row(static_cast<Eigen::Index>(i)) = way(k).transpose();
+    }
+    squares_ = ways_.square().rowwise().sum();
+  }
+
+  /// Whether one of them, from its origin on, may meet what lies in a ball.
+  bool may_meet(const Ball& ball) const {
+    constexpr double rounding = 1e-12;
+    const auto to_centre = (-origins_).rowwise() + ball.centre.transpose().array();
+    const Lanes square = to_centre.square().rowwise().sum(),
+                along = (to_centre * ways_).rowwise().sum(),
+                reach = ball.radius * ball.radius + rounding * square;
+    return (square <= reach ||
+            (along > 0 && square * squares_ - along.square() <= reach * squares_))
+        .any();
+  }
+
+ private:
+  using Lanes = Eigen::Array<double, packet_size, 1>;
+
+  Eigen::Array<double, packet_size, 3> origins_, ways_;
+  Lanes squares_;
+};
+
 }  // namespace
 
 struct VisibilityIndex::Impl {
@@ -57,16 +90,20 @@ struct VisibilityIndex::Impl {
     for (const std::vector<int>& cluster : scale_clusters(soup)) scenes.emplace_back(soup, cluster);
   }
 
-  /// Of segments of one packet: most of them go past small clusters.
-  void look_along(std::span<const Segment> segments, std::span<std::uint8_t> result) const {
-    if (scenes.size() == 1) return scenes[0].blocked(segments, result);
-    Bounds box;
-    for (const Segment& segment : segments) {
-      box.include(segment.from);
-      box.include(segment.to);
-    }
+  /// Calls `look` with each scene that one of a packet's lines may meet.
+  void visit(std::size_t count, const auto& origin, const auto& way, const auto& look) const {
+    if (scenes.size() == 1) return look(scenes[0]);
+    const PacketLines lines(count, origin, way);
     for (const EmbreeScene& scene : scenes)
-      if (scene.may_meet(box)) scene.blocked(segments, result);
+      if (lines.may_meet(scene.ball())) look(scene);
+  }
+
+  /// Of segments of one packet.
+  void look_along(std::span<const Segment> segments, std::span<std::uint8_t> result) const {
+    visit(
+        segments.size(), [&](std::size_t k) -> const Vec3& { return segments[k].from; },
+        [&](std::size_t k) -> Vec3 { return segments[k].to - segments[k].from; },
+        [&](const EmbreeScene& scene) { scene.blocked(segments, result); });
   }
 
   /// Where a ray that meets a triangle does so.
@@ -136,7 +173,7 @@ void VisibilityIndex::first_hits(std::span<const HalfLine> rays, Sides sides,
   std::array<const SoupTriangle*, packet_size> triangles;
   for (std::size_t i = 0; i < rays.size(); i += packet_size) {
     const auto packet = rays.subspan(i, std::min(packet_size, rays.size() - i));
-    for (const EmbreeScene& scene : impl_->scenes) {
+    const auto look = [&](const EmbreeScene& scene) {
       scene.first_hits(packet, sides, std::span(triangles).first(packet.size()));
       for (std::size_t k = 0; k < packet.size(); ++k) {
         if (triangles[k] == nullptr) continue;
@@ -144,8 +181,17 @@ void VisibilityIndex::first_hits(std::span<const HalfLine> rays, Sides sides,
         Hit& nearest = hits[i + k];
         if (nearest.triangle < 0 || hit.distance < nearest.distance) nearest = hit;
       }
-    }
+    };
+    impl_->visit(
+        packet.size(), [&](std::size_t k) -> const Vec3& { return packet[k].origin; },
+        [&](std::size_t k) -> const Vec3& { return packet[k].direction; }, look);
   }
+}
+
+std::optional<Hit> VisibilityIndex::facing_hit(const HalfLine& ray, const Hit& behind) const {
+  const std::optional<Hit> front = first_hit(ray.origin, ray.direction, Sides::front_only);
+  if (!front || front->distance > (1 + same_distance) * behind.distance) return std::nullopt;
+  return front;
 }
 
 std::vector<int> VisibilityIndex::candidates(std::span<const Vec3> a,

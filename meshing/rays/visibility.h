@@ -67,6 +67,10 @@ class VisibilityIndex {
   /// in the batch.
   void first_hits(std::span<const HalfLine> rays, Sides sides, std::span<Hit> hits) const;
 
+  /// The triangle that faces a ray in the place where it met another one from behind, if there is
+  /// one: of two that lie back to back a ray may meet either first.
+  std::optional<Hit> facing_hit(const HalfLine& ray, const Hit& behind) const;
+
   /// Owners of all triangles that can lie between a point of polygon `a` and a point of polygon
   /// `b`: those that reach into the interior of their convex hull (shaft; Haines and Wallace 1991).
   /// Sorted. Conservative except that triangles reaching in by less than 1e-12 of the hull's size

@@ -10,9 +10,6 @@
 namespace halfshade {
 namespace {
 
-/// Twins are met at distances that differ by less, relative to them.
-constexpr double same_distance = 1e-9;
-
 /// A pixel of some area on the cube's surface.
 void add_pixel(const Vec3& place, double area, Hemicube& cube) {
   const double r2 = place.squaredNorm();
@@ -55,8 +52,8 @@ void add_hemicube(const Hemicube& cube, const HemicubePlace& place, const Visibi
     if (hits[k].triangle < 0) continue;
     int owner = hits[k].owner;
     if (normals[at(owner)].dot(rays[k].direction) >= 0) {
-      const auto front = items.first_hit(place.point, rays[k].direction, Sides::front_only);
-      if (!front || front->distance > hits[k].distance * (1 + same_distance)) continue;
+      const std::optional<Hit> front = items.facing_hit(rays[k], hits[k]);
+      if (!front) continue;
       owner = front->owner;
     }
     factors[at(owner)] += cube.factors[k];

@@ -2,6 +2,7 @@
 
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/core/sound_scene.h"
+#include "meshing/geometry/ball.h"
 
 #include <array>
 #include <cstdint>
@@ -9,11 +10,6 @@
 #include <vector>
 
 namespace halfshade {
-
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;
-};
 
 /// Round the mean of some points.
 Ball ball_round(std::span<const Vec3> points);

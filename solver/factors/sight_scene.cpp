@@ -197,7 +197,6 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
   for (int root = 0; root < roots.count(); ++root) {
     SightSurface& surface = result.surfaces[at(roots.surface[at(root)])];
     surface.roots.push_back(root);
-    result.reflecting.two_sided[at(root)] = true;  // unused backs are surfaces, too
     const int cell = result.reflecting.cells.before(root);
     if (std::find(surface.cells.begin(), surface.cells.end(), cell) == surface.cells.end())
       surface.cells.push_back(cell);

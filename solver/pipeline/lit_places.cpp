@@ -37,11 +37,12 @@ std::vector<SurfacePoint> lit_places(const PreparedScene& prepared) {
        spread_places(scene, prepared.direct_light().emitters(), tried_rays).points) {
     const double s = unit_share(mix_bits(numbers++)), t = unit_share(mix_bits(numbers++));
     const Vec3 way = leaving_direction(from.normal, s, t);
-    const auto hit = visibility.first_hit(from.position, way);
+    std::optional<Hit> hit = visibility.first_hit(from.position, way);
+    if (hit && scene.surfaces[at(hit->owner)].frame.normal.dot(way) >= 0)
+      hit = visibility.facing_hit({from.position, way}, *hit);
     if (!hit) continue;
     const PlaneFrame& frame = scene.surfaces[at(hit->owner)].frame;
-    if (frame.normal.dot(way) < 0)
-      result.push_back({frame.foot(from.position + hit->distance * way), frame.normal});
+    result.push_back({frame.foot(from.position + hit->distance * way), frame.normal});
   }
   return result;
 }

@@ -2,6 +2,7 @@
 
 #include "meshing/core/light_source.h"
 #include "meshing/core/planar.h"
+#include "meshing/geometry/ball.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ namespace {
 /// Times the area of all that light reaches: emitters that light themselves only, and are larger,
 /// are suns.
 constexpr double far_larger = 30;
-
-/// Around a surface.
-struct Ball {
-  Vec3 centre = Vec3::Zero();
-  double radius = 0;
-};
 
 Ball ball_around(const Surface& surface) {
   Ball ball;

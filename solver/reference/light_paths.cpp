@@ -57,13 +57,11 @@ const Material& LightPaths::material(const End& end) const {
 /// The first front ahead; nothing if the ray leaves the scene or meets a back, which is black. Of
 /// two surfaces back to back it meets the one that faces it.
 std::optional<LightPaths::End> LightPaths::next_end(const End& from, const Vec3& direction) const {
-  constexpr double same = 1e-9;  // rounding of the distance to a plane
   std::optional<Hit> hit = visibility_.first_hit(from.position, direction);
   if (!hit) return std::nullopt;
   if (scene_.surfaces[at(hit->owner)].frame.normal.dot(direction) >= 0) {
-    const auto front = visibility_.first_hit(from.position, direction, Sides::front_only);
-    if (!front || front->distance > (1 + same) * hit->distance) return std::nullopt;
-    hit = front;
+    hit = visibility_.facing_hit({from.position, direction}, *hit);
+    if (!hit) return std::nullopt;
   }
   const PlaneFrame& frame = scene_.surfaces[at(hit->owner)].frame;
   const Vec3 met = from.position + hit->distance * direction;

@@ -78,15 +78,14 @@ void sort_by_counting(std::span<const int> numbers, std::vector<int>& order) {
   for (const int n : numbers) order.push_back(next[at(n)]++);
 }
 
-/// Whether a two-sided triangle that was met from behind has its front in the same place; `hit` is
-/// that then.
-bool find_other_side(const ReflectingScene& scene, const HalfLine& ray, Hit& hit) {
-  // Rounding of the distance to a plane, for rays that are not too grazing.
-  constexpr double same = 1e-9;
-  const auto front = scene.visibility.first_hit(ray.origin, ray.direction, Sides::front_only);
-  if (!front || front->distance > (1 + same) * hit.distance) return false;
-  hit = *front;
-  return true;
+/// Whether a ray has come to a front: where it met the back of one that another lies back to back
+/// with, `hit` is the other.
+bool is_at_front(const ReflectingScene& scene, const HalfLine& ray, Hit& hit) {
+  if (scene.roots.normal[at(hit.triangle)].dot(ray.direction) < 0) return true;
+  if (!scene.two_sided[at(hit.triangle)]) return false;
+  const std::optional<Hit> front = scene.visibility.facing_hit(ray, hit);
+  if (front) hit = *front;
+  return front.has_value();
 }
 
 /// Some of the hemispheres, at once.
@@ -105,10 +104,7 @@ void trace(const ReflectingScene& scene, std::span<const RayHemisphere> hemisphe
     const std::size_t before = traced.ends.size();
     for (const std::size_t end = k + at(strata * strata); k < end; ++k) {
       Hit& hit = hits[at(order[k])];
-      if (hit.triangle < 0) continue;
-      if (scene.roots.normal[at(hit.triangle)].dot(rays[k].direction) >= 0 &&
-          !(scene.two_sided[at(hit.triangle)] && find_other_side(scene, rays[k], hit)))
-        continue;
+      if (hit.triangle < 0 || !is_at_front(scene, rays[k], hit)) continue;
       if (from.cell >= 0 && scene.cells.before(hit.triangle) != from.cell) continue;
       traced.ends.push_back(
           {hit.triangle, static_cast<float>(hit.weights[1]), static_cast<float>(hit.weights[2])});

@@ -124,7 +124,7 @@ NearBacks::NearBacks(const ReflectingScene& scene) : scene_(scene) {
   std::vector<Bounds> boxes;
   for (int r = 0; r < scene.roots.count(); ++r) {
     const int behind = scene.cells.of_side[at(r)][1];
-    if (scene.two_sided[at(r)] || scene.cells.closed[at(behind)]) continue;
+    if (scene.cells.closed[at(behind)]) continue;
     backs_.push_back(r);
     Bounds box;
     for (const Vec3& p : scene.roots.triangle(r)) box.include(p);

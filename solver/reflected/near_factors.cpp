@@ -38,7 +38,7 @@ Rgb share_lost(const Rgb& rho, double gap) {
 class GapSearch {
  public:
   GapSearch(const ReflectedSystem& system, const ReflectingScene& scene)
-      : system_(system), scene_(scene), backs_(scene) {
+      : system_(system), scene_(scene) {
     const std::vector<int>& surface = system.light.surface;
     for (std::size_t r = 0; r < surface.size(); ++r) {
       if (at(surface[r]) >= roots_.size()) roots_.resize(at(surface[r]) + 1);
@@ -46,11 +46,11 @@ class GapSearch {
     }
   }
 
+  /// Without what backs before the element hide.
   UnsureLoss operator()(int element) const {
     UnsureLoss loss;
     const auto& [mesh, light, exchange, systems] = system_;
     const Rgb rho = light.mean_rho(mesh, element);
-    if ((rho == 0).all()) return loss;
     const double size = std::sqrt(mesh.area(element));
     for (const int surface : seen_surfaces(element)) {
       const Rgb both = (rho * light.rho[at(roots_[at(surface)].front())]).sqrt();
@@ -63,8 +63,6 @@ class GapSearch {
       if (absorbed <= hardly_absorbed && size > long_gaps * height) loss.within = grow_within;
       loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(height, least_gap * size)));
     }
-    add_shadow(element, size, loss);
-    loss.factor += exchange.unsure_loss(element);
     return loss;
   }
 
@@ -119,31 +117,46 @@ class GapSearch {
     return mean - by_nodes;
   }
 
-  void add_shadow(int element, double size, UnsureLoss& loss) const {
-    const BackShadow* known = system_.exchange.shadow(element);
-    const BackShadow shadow = known ? *known : backs_.shadow(system_.mesh, element);
-    if (shadow.share == 0) return;
-    loss.factor += (known ? shadow.unsure : 1) * std::abs(shadow.share);
-    loss.parts =
-        std::max(loss.parts, size / (seen_gaps * std::max(shadow.height, least_gap * size)));
-  }
-
   const ReflectedSystem& system_;
   const ReflectingScene& scene_;
-  NearBacks backs_;
   std::vector<std::vector<int>> roots_;  ///< of each surface
 };
 
+/// Of an element of some size; of what is missed, this part is not known.
+void add_shadow(const BackShadow& shadow, double part, double size, UnsureLoss& loss) {
+  if (shadow.share == 0) return;
+  loss.factor += part * std::abs(shadow.share);
+  loss.parts = std::max(loss.parts, size / (seen_gaps * std::max(shadow.height, least_gap * size)));
+}
+
 }  // namespace
 
-std::vector<UnsureLoss> unsure_losses(const ReflectedSystem& system, const ReflectingScene& scene,
-                                      const Progress& progress) {
-  const GapSearch search(system, scene);
-  std::vector<UnsureLoss> unsure(at(system.mesh.count()));
+std::vector<UnsureLoss> UnsureLosses::find(const ReflectedSystem& system,
+                                           const Progress& progress) {
+  const auto& [mesh, light, exchange, systems] = system;
+  const GapSearch search(system, scene_);
+  of_triangle_.resize(at(mesh.forest.count()));
+  std::vector<UnsureLoss> unsure(at(mesh.count()));
   parallel_for(
-      unsure.size(), [&](std::size_t e) { unsure[e] = search(static_cast<int>(e)); }, progress,
-      "error of reflected light");
+      unsure.size(),
+      [&](std::size_t i) {
+        const int e = static_cast<int>(i);
+        if ((light.mean_rho(mesh, e) == 0).all()) return;
+        UnsureLoss& loss = unsure[i] = search(e);
+        const BackShadow* const known = exchange.shadow(e);
+        add_shadow(known ? *known : shadow(mesh, e), known ? known->unsure : 1,
+                   std::sqrt(mesh.area(e)), loss);
+        loss.factor += exchange.unsure_loss(e);
+      },
+      progress, "error of reflected light");
   return unsure;
+}
+
+const BackShadow& UnsureLosses::shadow(const ReflectedMesh& mesh, int element) {
+  const std::size_t t = at(mesh.triangle[at(element)]);
+  KeptShadow& kept = of_triangle_[t];
+  if (kept.order != mesh.order[t]) kept = {mesh.order[t], backs_.shadow(mesh, element)};
+  return kept.shadow;
 }
 
 }  // namespace halfshade

@@ -2,6 +2,7 @@
 
 #include "meshing/core/progress.h"
 #include "solver/reflected/balance_estimate.h"
+#include "solver/reflected/near_backs.h"
 #include "solver/reflected/reflected_system.h"
 #include "solver/reflected/reflecting_scene.h"
 
@@ -14,8 +15,26 @@ namespace halfshade {
 /// lie, and what these see is taken for the mean. The mean form factor to the surface opposite is
 /// known in closed form (mutual_area), to about 1e-7; what nodes miss of it gets lost unseen. Of
 /// backs that swallow light close before elements (NearBacks), and of slits, what the exchange does
-/// not put right. And what its rays are too few for. If stopped, the rest is zero.
-std::vector<UnsureLoss> unsure_losses(const ReflectedSystem& system, const ReflectingScene& scene,
-                                      const Progress& progress);
+/// not put right. And what its rays are too few for.
+class UnsureLosses {
+ public:
+  /// The scene must outlive it.
+  explicit UnsureLosses(const ReflectingScene& scene) : scene_(scene), backs_(scene) {}
+
+  /// Element → its loss. What backs hide of elements that stay from round to round is found once.
+  /// If stopped, the rest is zero.
+  std::vector<UnsureLoss> find(const ReflectedSystem& system, const Progress& progress);
+
+ private:
+  struct KeptShadow {
+    int order = -1;  ///< of the element; −1: none yet
+    BackShadow shadow;
+  };
+  const BackShadow& shadow(const ReflectedMesh& mesh, int element);
+
+  const ReflectingScene& scene_;
+  NearBacks backs_;
+  std::vector<KeptShadow> of_triangle_;
+};
 
 }  // namespace halfshade

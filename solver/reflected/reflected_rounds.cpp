@@ -19,9 +19,14 @@ namespace {
 
 /// Rays from a node that are kept are two halves of strata², fewer where so much may be off that
 /// their noise matters less than elements; not of many, which have fewer as it is (RayExchange).
-constexpr int usual_strata = 7, few_strata = 5;
+constexpr int usual_strata = 7, few_strata = 5, fewest_strata = 4;
 constexpr double much_off = 0.025;
 constexpr int many_to_solve = 20000;
+
+int strata_for(double tolerance, int elements) {
+  if (tolerance >= any_error) return fewest_strata;
+  return tolerance < much_off || elements > many_to_solve ? usual_strata : few_strata;
+}
 
 /// Errors that the estimate sees are reflected on, too: a little more than that is claimed.
 /// Where the solver amplifies by more, that is solved for.
@@ -34,10 +39,8 @@ constexpr int points_of_projection = 20000;
 constexpr int many_to_free = 100000;
 /// Light of which not more than this share of the goal may get lost unseen is not looked into.
 constexpr double negligible = 0.01;
-/// Of the linear solver's residual: with exact parts, and with rays as a share of the tolerance.
-constexpr double solver_tolerance = 1e-10, solver_share = 1e-3;
-/// Of the tolerance: what open systems lose may be off, relatively; what the residual may do.
-constexpr double loss_share = 0.15, most_of_solver = 0.03;
+/// Of the tolerance: what open systems lose may be off, relatively.
+constexpr double loss_share = 0.15;
 
 // Of the goal, noise may have this share; after a pass elements, noise and twice the estimate's
 // deviation are to have a little less than all.
@@ -62,15 +65,14 @@ class Rounds {
         options_(options),
         progress_(progress),
         mesh_(state.mesh),
-        direct_(state.report.is_exact ? points_of_exact_projection : points_of_projection) {
-    if (state.sight)
+        direct_(state.report.is_exact ? points_of_exact_projection : points_of_projection),
+        losses_(state.reflecting) {
+    if (state.sight && options.visibility != ReflectedVisibility::sampled)
       parts_ = std::make_unique<ExactExchange>(*state.sight, state.reflecting, state.light, direct_,
                                                state.accuracy);
     else
-      kept_rays_ = std::make_unique<RayExchange>(
-          state.reflecting, state.light,
-          options.tolerance < much_off || mesh_.count() > many_to_solve ? usual_strata
-                                                                        : few_strata);
+      kept_rays_ = std::make_unique<RayExchange>(state.reflecting, state.light,
+                                                 strata_for(options.tolerance, mesh_.count()));
   }
 
   bool run(const GiveUp& give_up) {
@@ -117,7 +119,7 @@ class Rounds {
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
     if (!kept.find_losses(mesh_, systems, loss_share * options_.tolerance, progress_)) return false;
-    found.unsure = unsure_losses(system, state_.reflecting, progress_);
+    found.unsure = losses_.find(system, progress_);
     solve(system, found);
     if (is_amplified()) return false;
     ++report.rounds;
@@ -144,23 +146,11 @@ class Rounds {
       state_.by_bounce = split_by_bounce(system, options_.bounces, state_.field);
   }
 
-  ReflectedSolution solved(const ReflectedSystem& system) const {
-    const ElementField source = system.exchange.source(system.mesh);
-    const auto solve_to = [&](double tolerance) {
-      return solve_reflected(system, source, system.systems.power, tolerance);
-    };
-    if (parts_) return solve_to(solver_tolerance);
-    ReflectedSolution solution = solve_to(solver_share * options_.tolerance);
-    if (solution.residual * solution.amplification > most_of_solver * options_.tolerance)
-      solution = solve_to(solver_tolerance);
-    return solution;
-  }
-
   void solve(const ReflectedSystem& system, Found& found) {
     const auto& [mesh, light, exchange, systems] = system;
     ReflectedReport& report = state_.report;
-    ReflectedSolution solution =
-        all_bounces() ? solved(system) : sum_bounces(system, options_.bounces);
+    ReflectedSolution solution = all_bounces() ? solve_for(system, parts_ ? 0 : options_.tolerance)
+                                               : sum_bounces(system, options_.bounces);
     if (all_bounces())
       balance_loss(system, direct_.leaving(mesh, light), found.unsure, solution.irradiance.rest);
     report.systems = systems.count();
@@ -380,6 +370,7 @@ class Rounds {
   const Progress& progress_;
   ReflectedMesh mesh_;
   DirectProjection direct_;
+  UnsureLosses losses_;
   std::unique_ptr<RayExchange> kept_rays_;  ///< either these
   std::unique_ptr<ExactExchange> parts_;    ///< or exact parts
   std::vector<RoundError> rounds_;          ///< of exact parts

@@ -138,6 +138,20 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
   return solution;
 }
 
+ReflectedSolution solve_for(const ReflectedSystem& system, double tolerance) {
+  constexpr double exact = 1e-10;
+  // Of the tolerance: the residual, and what it may do.
+  constexpr double share = 1e-3, most = 0.03;
+  const ElementField source = system.exchange.source(system.mesh);
+  const auto solve_to = [&](double residual) {
+    return solve_reflected(system, source, system.systems.power, residual);
+  };
+  if (tolerance == 0) return solve_to(exact);
+  const ReflectedSolution solution = solve_to(share * tolerance);
+  const bool is_enough = solution.residual * solution.amplification <= most * tolerance;
+  return is_enough ? solution : solve_to(exact);
+}
+
 ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving) {
   ElementField arriving = system.exchange.source(system.mesh);
   arriving.coefficients += system.exchange.apply(system.mesh, leaving).coefficients;

@@ -31,6 +31,10 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
                                   const ChannelArray& power, double tolerance,
                                   const ElementField* ambient = nullptr);
 
+/// The same for the exchange's own source and the power put in, so far that what the residual does,
+/// amplified, is a small share of a tolerance. 0: as far as doubles go.
+ReflectedSolution solve_for(const ReflectedSystem& system, double tolerance);
+
 /// K (S + `leaving`) by the exchange's rows.
 ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving);
 

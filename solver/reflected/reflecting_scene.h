@@ -15,8 +15,9 @@ namespace halfshade {
 struct ReflectingScene {
   ElementTable roots;
   SpaceCells cells;
-  std::vector<bool> two_sided;  ///< root → another surface lies back to back with it
-  VisibilityIndex visibility;   ///< of the roots; owner = root
+  /// Root → another surface of its plane looks the other way, and may lie back to back with it.
+  std::vector<bool> two_sided;
+  VisibilityIndex visibility;  ///< of the roots; owner = root
 };
 
 /// Cost: that of a mesh without a length, and n log n for n roots.

@@ -73,6 +73,39 @@ TEST(ScaleClusters, DustIsNotHeldInMoreThanSixtyFour) {
   EXPECT_THAT(scale_clusters(soup), SizeIs(64));
 }
 
+TEST(ScaleClusters, PacketsGoPastNoneThatOneOfTheirRaysMeets) {
+  Random random(4);
+  TriangleSoup soup = test::random_soup(20, 0.5, random);
+  std::vector<Vec3> places;
+  for (int k = 0; k < 40; ++k) {
+    places.push_back(random.point(0, 1));
+    add(soup, test::random_soup(5, 0.5, random), 1e-5, places.back());
+  }
+  ASSERT_GT(scale_clusters(soup).size(), 30u);
+  const VisibilityIndex index(soup);
+  std::vector<Segment> segments;
+  std::vector<HalfLine> rays;
+  for (int k = 0; k < 3000; ++k) {
+    const Vec3 from = random.point(-0.5, 1.5);
+    const Vec3 aim = k % 2 == 0 ? Vec3(places[at(k) % places.size()] + random.point(0, 1e-5))
+                                : random.point(0, 1);
+    segments.push_back({from, from + random(0.5, 1.5) * (aim - from)});
+    rays.push_back({from, (aim - from).normalized()});
+  }
+  std::vector<std::uint8_t> blocked(segments.size());
+  index.blocked(segments, blocked);
+  std::vector<Hit> hits(rays.size());
+  index.first_hits(rays, Sides::both, hits);
+  int small = 0;
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    EXPECT_EQ(blocked[k] != 0, index.blocked(segments[k]));
+    const auto hit = index.first_hit(rays[k].origin, rays[k].direction);
+    ASSERT_EQ(hits[k].triangle, hit ? hit->triangle : -1);
+    small += hit && hit->triangle >= 20;
+  }
+  EXPECT_GT(small, 100);
+}
+
 /// The nearest triangle ahead, by brute force in extended precision; −1 if a border is near.
 int nearest(const TriangleSoup& soup, const Vec3& from, const Vec3& to, bool& clear) {
   int found = -1;

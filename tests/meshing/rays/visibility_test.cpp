@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <limits>
 #include <thread>
+#include <tuple>
 
 namespace halfshade {
 namespace {
@@ -281,6 +282,24 @@ TEST(Visibility, BacksLetFrontOnlyRaysPass) {
   EXPECT_EQ(index.first_hit(above, down)->owner, 8);
   EXPECT_EQ(index.first_hit(above, down, Sides::front_only)->owner, 7);
   EXPECT_FALSE(index.first_hit({0.3, 0.4, 1.5}, {0, 0, 0}, Sides::front_only));
+}
+
+TEST(Visibility, OfTwoBackToBackARayFindsTheOneThatFacesIt) {
+  TriangleSoup soup = square(0.5);
+  const Vec3 a(0, 0, 0.5), b(1, 0, 0.5), c(1, 1, 0.5), d(0, 1, 0.5);
+  test::add_triangle(soup, d, c, b, 8);
+  test::add_triangle(soup, d, b, a, 8);
+  test::add_triangle(soup, Vec3(0, 0, 0.7), Vec3(0, 1, 0.7), Vec3(1, 0, 0.7), 9);  // looks down
+  const VisibilityIndex index(soup);
+  const Vec3 direction = Vec3(0.1, 0.2, 1).normalized();
+  const HalfLine up{Vec3(0.2, 0.3, 0), direction}, down{Vec3(0.2, 0.3, 1), -direction};
+  for (const auto& [ray, behind, facing] : {std::tuple(up, 7, 8), std::tuple(down, 8, 7)}) {
+    const auto found = index.facing_hit(ray, {behind, 0, 0.5 / direction.z()});
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->owner, facing);
+  }
+  // One that stands alone.
+  EXPECT_FALSE(index.facing_hit(down, {9, 4, 0.3 / direction.z()}));
 }
 
 TEST(Visibility, AnEmptySoupBlocksNothing) {

@@ -92,6 +92,31 @@ TEST(HemisphereRays, BacksSwallowAndTwoSidedSheetsDoNot) {
   }
 }
 
+TEST(HemisphereRays, MeetOfTwoSurfacesBackToBackTheOneThatFacesThem) {
+  Scene scene;
+  const int grey = test::add_material(scene, 0.5, 0);
+  test::add_polygon(scene, {{0.2, 0.3, 0.1}, {1.2, 0.3, 0.4}, {1.2, 1.4, 0.4}, {0.2, 1.4, 0.1}},
+                    grey);
+  // Triangles along the other diagonal.
+  test::add_polygon(scene, {{0.2, 1.4, 0.1}, {1.2, 1.4, 0.4}, {1.2, 0.3, 0.4}, {0.2, 0.3, 0.1}},
+                    grey);
+  const SoundScene sound = make_sound(scene);
+  const ReflectingScene reflecting = make_reflecting_scene(sound);
+  for (const double side : {-1., 1.}) {
+    const Vec3 normal = -side * sound.surfaces[0].frame.normal;
+    const RayHemisphere hemisphere{{Vec3(0.7, 0.9, 0.25) - 0.3 * normal, normal}, 64, 1};
+    const auto [ends, of_each] = trace_hemispheres(reflecting, {&hemisphere, 1});
+    const std::vector<Vec3>& corners = scene.vertices;
+    const double expected = point_to_polygon(
+        hemisphere.from.position, normal,
+        side > 0 ? std::vector<Vec3>{corners[0], corners[1], corners[2], corners[3]}
+                 : std::vector<Vec3>{corners[3], corners[2], corners[1], corners[0]});
+    EXPECT_NEAR(static_cast<double>(ends.size()) / of_each[0].rays, expected, 4e-3);
+    for (const RayEnd& end : ends)
+      EXPECT_LT(reflecting.roots.normal[at(end.triangle)].dot(normal), 0);
+  }
+}
+
 TEST(HemisphereRays, AreTheSameForTheSameSeedOnly) {
   const ReflectingScene scene = make_reflecting_scene(make_sound(test::room({1, 1, 1}, {})));
   const RayOrigin from{{0.3, 0.4, 0}, Vec3::UnitZ()};

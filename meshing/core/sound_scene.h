@@ -37,8 +37,9 @@ struct Repair {
     duplicate_dropped,        ///< the first face has the same corners as the second
     non_planar_triangulated,  ///< size: how far corners are off the plane
     coplanar_merged,          ///< neighbours joined into one surface
-    overlap_removed  ///< coplanar faces of different materials covered each other: the first keeps
-                     ///< the common part; size: its area
+    overlap_removed,  ///< coplanar faces of different materials covered each other: the first keeps
+                      ///< the common part; size: its area
+    gap_shut  ///< two that look at each other count as touching; size: how far apart they are
   };
   Kind kind;
   std::vector<int> faces;  ///< the input faces concerned

@@ -8,6 +8,7 @@
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
 #include "meshing/repair/planes.h"
+#include "meshing/repair/shut_gaps.h"
 
 #include <fmt/format.h>
 
@@ -116,6 +117,7 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
     two_sided.push_back(scene.materials[at(scene.faces[at(piece.face)].material)].two_sided);
   }
   const PlaneClasses classes = classify_planes(points, loops, scales, two_sided);
+  report_shut_gaps(scene, pieces, classes, repairs);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
   for (std::size_t plane = 0; plane < sides.size(); ++plane)

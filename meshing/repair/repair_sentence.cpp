@@ -43,6 +43,11 @@ std::string sentence(const Repair& repair, const SoundScene& scene) {
           "{0} and {1} lie in one plane and cover each other over an area of {2:.6g}, which {0} "
           "keeps",
           face(0), face(1), repair.size);
+    case Repair::Kind::gap_shut:
+      return fmt::format(
+          "{} and {} look at each other across a gap of {:.2g}, too narrow for points so far from "
+          "the origin or for faces so large, and count as touching",
+          face(0), face(1), repair.size);
   }
   return {};
 }
@@ -59,6 +64,8 @@ const char* name_of(Repair::Kind kind) {
       return "coplanar_merged";
     case Repair::Kind::overlap_removed:
       return "overlap_removed";
+    case Repair::Kind::gap_shut:
+      return "gap_shut";
   }
   return "";
 }

@@ -58,6 +58,9 @@ bool matters(const Scene& scene, const Repair& repair) {
              (repair.size > noticeable * area_of(loser) &&
               repair.size < (1 - noticeable) * std::min(area_of(keeper), area_of(loser)));
     }
+    case Repair::Kind::gap_shut:  // hardly any light gets in from elsewhere
+      return std::any_of(repair.faces.begin(), repair.faces.end(),
+                         [&](int face) { return (material(face).exitance > 0).any(); });
   }
   return false;
 }

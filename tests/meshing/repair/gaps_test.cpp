@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <functional>
+#include <gmock/gmock.h>
 
 // Two-sided sheets close over and under others: a gap that is written in the file stays one, and
 // what is flush but for the digits of the file is cut out, whichever way round the sheet goes.
@@ -107,6 +108,40 @@ TEST(MakeSound, LeavesTheGapBetweenTessellations) {
       EXPECT_NEAR(area(sound.surfaces[1]), 1.6 * 1.6, 1e-9);
       EXPECT_EQ(count(sound, Repair::Kind::overlap_removed), 0);
     }
+}
+
+TEST(MakeSound, TellsOfGapsThatItShuts) {
+  const auto shut = [](double gap, double away) {
+    Scene scene =
+        scene_of({{rectangle(0, 0, 1, 1, 0), grey}, {reversed(rectangle(0, 0, 1, 1, gap)), grey}});
+    for (Vec3& p : scene.vertices) p.x() += away;
+    const SoundScene sound = make_sound(scene);
+    std::vector<double> gaps;
+    for (const Repair& repair : sound.repairs)
+      if (repair.kind == Repair::Kind::gap_shut) {
+        EXPECT_EQ(repair.faces, (std::vector<int>{0, 1}));
+        gaps.push_back(repair.size);
+      }
+    return gaps;
+  };
+  EXPECT_THAT(shut(1e-7, 100), testing::ElementsAre(testing::DoubleNear(1e-7, 1e-13)));
+  EXPECT_THAT(shut(1e-6, 1234.5), testing::ElementsAre(testing::DoubleNear(1e-6, 1e-12)));
+  EXPECT_TRUE(shut(1e-6, 100).empty()) << "it stays open";
+  EXPECT_TRUE(shut(-1e-7, 100).empty()) << "back to back";
+  EXPECT_TRUE(shut(0, 100).empty());
+  EXPECT_TRUE(shut(1e-13, 100).empty()) << "arithmetic";
+}
+
+TEST(MakeSound, TellsOfNoGapsThatDigitsMake) {
+  Scene scene = scene_of({{rectangle(0, 0, 1, 1), grey}, {reversed(rectangle(0, 0, 1, 1)), grey}});
+  for (int trial = 0; trial < 20; ++trial) {
+    Scene rounded = turned(scene, trial);
+    for (Vec3& p : rounded.vertices) p += Vec3(3, 5, 7);
+    // The other square a little off, as if its maker had computed it in another way.
+    for (std::size_t v = 4; v < 8; ++v) rounded.vertices[v] += 2e-6 * Vec3(1, 2, 3);
+    round_coordinates(rounded, [](double x) { return std::stod(fmt::format("{:.6g}", x)); });
+    EXPECT_EQ(count(make_sound(rounded), Repair::Kind::gap_shut), 0) << trial;
+  }
 }
 
 /// A slanted ceiling and a flush two-sided lamp.

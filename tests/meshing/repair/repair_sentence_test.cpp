@@ -26,6 +26,10 @@ TEST(RepairSentence, NamesFacesAndValues) {
   EXPECT_EQ(sentence({Kind::overlap_removed, {1, 0}, 12.5}, scene),
             "face 2 (line 11) and face 1 (line 10) lie in one plane and cover each other over an "
             "area of 12.5, which face 2 (line 11) keeps");
+  EXPECT_EQ(sentence({Kind::gap_shut, {0, 2}, 1e-7}, scene),
+            "face 1 (line 10) and face 3 (line 12) look at each other across a gap of 1e-07, too "
+            "narrow for points so far from the origin or for faces so large, and count as "
+            "touching");
 }
 
 TEST(RepairSentence, ShortensLongLists) {

@@ -140,6 +140,23 @@ TEST(Warnings, ARepairThatChangesTheLight) {
   EXPECT_NE(sentence_of(solve(scene, coarse_options()), Warning::Kind::faces_changed), "");
 }
 
+TEST(Warnings, GapsThatAreShutBeforeALight) {
+  for (const bool is_lit : {false, true}) {
+    Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+    const int grey = test::add_material(scene, .5, 0), light = test::add_material(scene, 0, 1);
+    const auto square = [](double z) {
+      return std::vector<Vec3>{{100, 0, z}, {101, 0, z}, {101, 1, z}, {100, 1, z}};
+    };
+    test::add_polygon(scene, square(0), is_lit ? light : grey);
+    std::vector<Vec3> above = square(1e-7);
+    std::reverse(above.begin(), above.end());
+    test::add_polygon(scene, above, grey);
+    const std::string said =
+        sentence_of(solve(scene, coarse_options()), Warning::Kind::faces_changed);
+    EXPECT_EQ(said.find("a gap of 1e-07") != std::string::npos, is_lit) << said;
+  }
+}
+
 TEST(Solve, AsksForAnEmitterAfterTheRepair) {
   Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
   scene.materials[5].exitance.setZero();

@@ -1,0 +1,74 @@
+#include "meshing/repair/shut_gaps.h"
+
+#include "meshing/core/planar.h"
+#include "meshing/geometry/flat_tree.h"
+#include "meshing/repair/common_area.h"
+#include "meshing/repair/written_digits.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace halfshade {
+namespace {
+
+/// Of the largest coordinate: what computing it may have been off.
+constexpr double computed = 64 * std::numeric_limits<double>::epsilon();
+
+/// A face as the file has it.
+struct WrittenFace {
+  int face = 0;
+  LocalScale scale;
+  std::vector<Vec3> corners;
+  Bounds box;
+};
+
+WrittenFace written_face(const Scene& scene, const FacePiece& piece) {
+  WrittenFace result{piece.face, piece.scale, face_corners(scene, piece.face), {}};
+  for (const Vec3& p : result.corners) result.box.include(p);
+  result.box = result.box.grown(tolerance_of(piece.scale).planarity);
+  return result;
+}
+
+/// How far one lies before another that looks at it, everywhere; 0 if digits cannot tell.
+double gap_between(const WrittenFace& a, const WrittenFace& b) {
+  const PlaneFrame frame = fit_plane(a.corners);
+  const LocalScale scale = joint_scale(a.scale, b.scale);
+  double gap = HUGE_VAL;
+  for (const Vec3& p : b.corners) gap = std::min(gap, frame.height(p));
+  const bool is_clear = gap > computed * scale.magnitude &&
+                        gap > rounding_between(a.corners, b.corners, frame.normal) &&
+                        have_common_area(a.corners, b.corners, frame, tolerance_of(scale));
+  return is_clear ? gap : 0;
+}
+
+}  // namespace
+
+void report_shut_gaps(const Scene& scene, const std::vector<FacePiece>& pieces,
+                      const PlaneClasses& classes, std::vector<Repair>& repairs) {
+  std::vector<std::array<std::vector<WrittenFace>, 2>> planes(classes.frames.size());
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const int plane = classes.of_polygon[i];
+    WrittenFace face = written_face(scene, pieces[i]);
+    const bool is_turned = area_vector(face.corners).dot(classes.frames[at(plane)].normal) < 0;
+    std::vector<WrittenFace>& side = planes[at(plane)][is_turned ? 1 : 0];
+    if (side.empty() || side.back().face != face.face) side.push_back(std::move(face));
+  }
+  for (const auto& [up, down] : planes) {
+    if (up.empty() || down.empty()) continue;
+    std::vector<Bounds> boxes;
+    for (const WrittenFace& face : down) boxes.push_back(face.box);
+    const FlatTree tree = make_flat_tree(boxes, 4);
+    for (const WrittenFace& face : up)
+      visit_overlaps(tree, face.box, [&](int k) {
+        const WrittenFace& other = down[at(k)];
+        if (const double gap = gap_between(face, other); gap > 0)
+          repairs.push_back({Repair::Kind::gap_shut,
+                             {std::min(face.face, other.face), std::max(face.face, other.face)},
+                             gap});
+      });
+  }
+}
+
+}  // namespace halfshade

@@ -4,6 +4,7 @@
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/vertex_interpolation.h"
 #include "solver/pipeline/lamp_error.h"
+#include "solver/pipeline/measured_error.h"
 #include "solver/pipeline/require_limits.h"
 #include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -58,17 +60,17 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, S
   return mesh;
 }
 
-/// `exchange_error` is independent of what the mesh does, in the mean.
-void estimate_error(const SolveOptions& options, const Eigen::ArrayXd& exchange_error,
+/// `others` are independent of what the mesh does to smooth light, in the mean.
+void estimate_error(const SolveOptions& options, const std::vector<Eigen::ArrayXd>& others,
                     Stages& stages, SolveResult& result) {
   stages.run("error estimate", [&] {
     // Squares of light of any size must not over- or underflow.
     const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
     const ChannelArray irradiance = scale * result.solution.irradiance;
-    const Eigen::ArrayXd of_exchange = scale * exchange_error;
-    const Eigen::ArrayXd estimate =
-        recovery_estimate(result.elements, irradiance)
-            .binaryExpr(of_exchange, [](double a, double b) { return std::hypot(a, b); });
+    Eigen::ArrayXd estimate = recovery_estimate(result.elements, irradiance);
+    for (const Eigen::ArrayXd& other : others)
+      estimate = estimate.binaryExpr(Eigen::ArrayXd(scale * other),
+                                     [](double a, double b) { return std::hypot(a, b); });
     result.solution.error_estimate = estimate / scale;
     result.relative_error = error_of_elements_and_solver(result);
     add_lamp_error(options, result);
@@ -137,7 +139,14 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
-  estimate_error(options, light.exchange_error, stages, result);
+  std::vector<Eigen::ArrayXd> errors = {light.exchange_error};
+  if (plan.no_exact_direct_light.empty())
+    stages.run("shadows within elements", [&] {
+      errors.push_back(
+          measured_error(prepared, result.elements, result.solution.direct_irradiance, progress));
+      return result.elements.corners.size();
+    });
+  estimate_error(options, errors, stages, result);
   if (options.interpolate) interpolate(result);
   add(exchange_warnings(result.exchange), result.warnings);
 }

@@ -10,6 +10,7 @@
 #include "solver/pipeline/face_radiosity.h"
 #include "solver/pipeline/heat_sums.h"
 #include "solver/pipeline/net_exchange.h"
+#include "solver/pipeline/result_error.h"
 #include "solver/pipeline/straight_files.h"
 
 #include <fmt/format.h>
@@ -116,9 +117,8 @@ bool is_worth_writing(const SolveResult& result) {
 void require_tolerance(const SolveCommand& command, SolveResult& result) {
   const double tolerance = command.options.tolerance, error = error_of_files(result);
   if (command.needs_tolerance && result.not_reached.empty() && error > tolerance)
-    result.not_reached = fmt::format(
-        "with these elements the error is about {:.2g} of the irradiance instead of {:.2g}", error,
-        tolerance);
+    result.not_reached = "with these elements the error is about " +
+                         error_instead(error, "the irradiance", tolerance);
 }
 
 ExitCode exit_code(const SolveResult& result) {
@@ -128,7 +128,10 @@ ExitCode exit_code(const SolveResult& result) {
 
 void print_ending(ExitCode code, const SolveResult& result) {
   if (code == exit_interrupted)
-    complain("interrupted: the results written are incomplete and marked so\n");
+    complain(
+        "interrupted: the results written are incomplete and marked so; they are off by about "
+        "{:.2g} of the irradiance\n",
+        error_of_files(result));
   if (code != exit_not_accurate) return;
   if (!result.not_reached.empty())
     complain("{}; the results written are marked so\n", result.not_reached);
@@ -139,7 +142,8 @@ void print_ending(ExitCode code, const SolveResult& result) {
 
 /// Throws Error(usage) unless there will be stages and their folder is for them alone, and
 /// Error(unwritable) if it cannot be one.
-void check_series(const SolveCommand& command, const std::vector<std::filesystem::path>& outputs) {
+void check_series(const SolveCommand& command, std::vector<std::filesystem::path> outputs,
+                  const std::filesystem::path& report) {
   const std::filesystem::path& folder = command.progressive;
   if (folder.empty()) return;
   const RadiosityOptions& radiosity = command.options.radiosity;
@@ -148,6 +152,7 @@ void check_series(const SolveCommand& command, const std::vector<std::filesystem
     throw Error(ErrorCode::usage, "--progressive",
                 "stages are of shooting: give --method matrix and --solver southwell or "
                 "southwell-ambient, and neither --bounces nor --subdivide");
+  outputs.insert(outputs.end(), {command.values, report});
   for (const auto& path : outputs)
     if (is_of_series(path) && is_same_file(path, folder / path.filename()))
       throw Error(ErrorCode::usage, path.string(),
@@ -213,7 +218,7 @@ ExitCode run(const SolveCommand& given, const Context& context) {
   });
   const CommandFiles files = checked_files(command, outputs, context.common);
   check_method(command.options);
-  check_series(command, outputs);
+  check_series(command, outputs, context.common.json);
   PointTable table;
   if (!command.points.empty()) table = read_points(command.points);
   const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,

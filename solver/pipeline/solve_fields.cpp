@@ -9,6 +9,7 @@
 #include "solver/pipeline/lamp_error.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/require_limits.h"
+#include "solver/pipeline/result_error.h"
 #include "solver/pipeline/straight_files.h"
 #include "solver/pipeline/total_field.h"
 #include "solver/pipeline/weak_lights.h"
@@ -79,11 +80,11 @@ std::string not_reached(const SolveResult& result, const SolveOptions& options,
     return {};
   const auto first =
       std::find_if(reasons.begin(), reasons.end(), [](const auto& text) { return !text.empty(); });
+  const std::string of_what =
+      result.goal ? fmt::format("the mean irradiance of '{}'", options.goal) : "the irradiance";
   return fmt::format(
-      "the error is about {:.2g} of the {} instead of {:.2g}{}{}", result.relative_error,
-      result.goal ? fmt::format("mean irradiance of '{}'", options.goal) : "irradiance",
-      options.tolerance, first == reasons.end() ? "" : "; less would take ",
-      first == reasons.end() ? "" : *first);
+      "the error is about {}{}{}", error_instead(result.relative_error, of_what, options.tolerance),
+      first == reasons.end() ? "" : "; less would take ", first == reasons.end() ? "" : *first);
 }
 
 /// Of lights that are too weak beside others; empty if none are.

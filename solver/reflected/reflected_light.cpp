@@ -195,6 +195,19 @@ struct OneWay {
   bool is_given_up = false;
 };
 
+/// Elements that few rays from take a few seconds at most.
+constexpr int quickly_found = 100000;
+
+/// What is found quickly where the first round was stopped.
+void find_coarsely(ReflectedLight::State& state, ReflectedOptions options) {
+  options.visibility = ReflectedVisibility::sampled;
+  options.tolerance = any_error;
+  options.max_rounds = 1;
+  state.report.is_exact = false;
+  run_rounds(state, options, {}, {});
+  state.report.end = ReflectedEnd::interrupted;
+}
+
 OneWay solve_one_way(const SoundScene& scene, const DirectIrradiance& direct,
                      const ReflectedOptions& options, bool is_exact, const GiveUp& give_up,
                      const Progress& progress) {
@@ -226,6 +239,8 @@ OneWay solve_one_way(const SoundScene& scene, const DirectIrradiance& direct,
   if (!nothing) {
     state->report.error = 1;  // G = 0 if it is stopped in the first round
     is_given_up = !run_rounds(*state, options, give_up, progress);
+    if (progress.stopped() && state->report.rounds == 0 && state->mesh.count() <= quickly_found)
+      find_coarsely(*state, options);
   }
   finish(*state);
   return {std::move(state), is_given_up};

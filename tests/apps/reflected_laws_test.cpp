@@ -282,9 +282,9 @@ TEST(LawsOfExactParts, GiveWayToRaysWhereMoreElementsDoNotHelp) {
                           }};
   const SolveResult stopped = solve(scene, options, progress);
   EXPECT_TRUE(stopped.interrupted);
-  EXPECT_TRUE(stopped.reflected.is_exact);
   // A third and more of the light is reflected.
-  expect_near(powers(expected, scene), powers(stopped, scene), "what they came to is kept", 0.1);
+  EXPECT_LT(stopped.reflected.error, 0.1) << "what either way came to is kept";
+  expect_near(powers(expected, scene), powers(stopped, scene), "in decimals, stopped", 0.1);
 }
 
 /// Few scenes are large enough for rays of their own accord.

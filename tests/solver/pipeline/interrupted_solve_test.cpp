@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stop_token>
 
 // What a solve that is stopped at its form factors has to show.
@@ -84,21 +85,25 @@ TEST(InterruptedSolveEnds, OneThatIsCompleteHasNoEstimates) {
 }
 
 /// Stopped when reflected light is solved for once more, or, if at once, for the first time.
-SolveResult solve_one_round(const Scene& scene, bool at_once) {
+SolveResult solve_one_round(const Scene& scene, ReflectedVisibility visibility, bool at_once) {
   std::stop_source stop;
   bool is_estimated = at_once;
   const auto report = [&](std::string_view stage, double) {
     if (stage == "error of reflected light") is_estimated = true;
-    if (stage == "exact parts of reflected light" && is_estimated) stop.request_stop();
+    const bool is_first =
+        stage == "exact parts of reflected light" || stage == "rays of reflected light";
+    if (is_first && is_estimated) stop.request_stop();
   };
   SolveOptions options;
   options.tolerance = 0.003;
+  options.visibility = visibility;
   return solve(scene, options, {stop.get_token(), report});
 }
 
 TEST(InterruptedFields, KeepTheReflectedLightOfTheLastRound) {
   const Scene scene = test::cornell_box();
-  const SolveResult complete = solve(scene, {}), part = solve_one_round(scene, false);
+  const SolveResult complete = solve(scene, {}),
+                    part = solve_one_round(scene, ReflectedVisibility::exact, false);
   EXPECT_TRUE(part.interrupted);
   EXPECT_EQ(part.reflected.rounds, 1);
   EXPECT_GE(part.relative_error, part.reflected.error);
@@ -106,11 +111,18 @@ TEST(InterruptedFields, KeepTheReflectedLightOfTheLastRound) {
               0.02 * test::mean_irradiance(complete).mean());
 }
 
-TEST(InterruptedFields, WithoutAnyReflectedLightClaimNothing) {
-  const SolveResult part = solve_one_round(test::cornell_box(), true);
-  EXPECT_TRUE(part.interrupted);
-  EXPECT_EQ(part.reflected.rounds, 0);
-  EXPECT_GE(part.relative_error, 1);
+TEST(InterruptedFields, FindReflectedLightCoarselyWhereTheFirstRoundIsStopped) {
+  const Scene scene = test::cornell_box();
+  const double complete = test::mean_irradiance(solve(scene, {})).mean();
+  for (const auto visibility : {ReflectedVisibility::exact, ReflectedVisibility::sampled}) {
+    const SolveResult part = solve_one_round(scene, visibility, true);
+    EXPECT_TRUE(part.interrupted);
+    EXPECT_EQ(part.reflected.rounds, 1);
+    const double off = std::abs(test::mean_irradiance(part).mean() / complete - 1);
+    EXPECT_LT(off, 0.05);
+    EXPECT_GT(part.relative_error, off);
+    EXPECT_LT(part.relative_error, 0.3);
+  }
 }
 
 }  // namespace

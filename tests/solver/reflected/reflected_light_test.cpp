@@ -223,9 +223,9 @@ TEST(ReflectedLight, WhatIsThereWhenStoppedIsKept) {
     return integral(stopped_at(stage, visibility));
   };
   EXPECT_NEAR(kept("error of reflected light", ReflectedVisibility::sampled), 1, 1e-3);
-  EXPECT_EQ(kept("rays of reflected light", ReflectedVisibility::sampled), 0);
+  EXPECT_NEAR(kept("rays of reflected light", ReflectedVisibility::sampled), 1, 1e-3);
   EXPECT_NEAR(kept("error of reflected light", ReflectedVisibility::exact), 1, 1e-9);
-  EXPECT_EQ(kept("exact parts of reflected light", ReflectedVisibility::exact), 0);
+  EXPECT_NEAR(kept("exact parts of reflected light", ReflectedVisibility::exact), 1, 1e-3);
 }
 
 TEST(ReflectedLight, ExactRowsMissByLessWhenLessIsAllowed) {

@@ -48,7 +48,7 @@ void print_stages(const Explanation& explanation, std::FILE* out) {
     if (stage.left_out_because.empty() && stage.amount > 0)
       line += fmt::format(": {:.3g} {}", stage.amount, stage.what);
     if (stage.left_out_because.empty() && stage.seconds > 0)
-      line += fmt::format(", about {:.2g} s", stage.seconds);
+      line += fmt::format(", {:.2g} s or more", stage.seconds);
     fmt::print(out, "{}\n", line);
   }
 }

@@ -74,11 +74,26 @@ std::vector<fs::path> write_study_files(const Study& study, const StudyOptions& 
   return written;
 }
 
+/// Throws Error(usage) if the report would be one of the files that a study makes in its folder.
+void require_own_report(const fs::path& report, const fs::path& folder) {
+  std::error_code error;
+  const bool is_inside =
+      !report.empty() && fs::weakly_canonical(report, error).parent_path() ==
+                             fs::weakly_canonical(folder / "study.csv", error).parent_path();
+  if (is_inside && report.extension() != ".json")
+    throw Error(ErrorCode::usage, report.string(),
+                "a report in the study's folder may be one of the study's files; let its name end "
+                "in .json");
+}
+
 }  // namespace
 
 ExitCode run(const StudyCommand& command, const Context& context) {
-  const CommandFiles files = scene_files(command.scene, command.materials, context.common);
+  CommandFiles files = scene_files(command.scene, command.materials, context.common);
+  for (const char* name : {"study.html", "study.csv", "reference.csv", "points.csv"})
+    add_outputs(files, "-o", {study_file(command.options, name)});
   require_apart(files);
+  require_own_report(context.common.json, command.options.folder);
   require_place(context.common.json);
   const SceneFile file = read_scene(command.scene, command.materials, context.common.orientation,
                                     files, exact_lamp_tolerance);

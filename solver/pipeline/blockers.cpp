@@ -3,6 +3,7 @@
 #include "meshing/core/planar.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace halfshade {
@@ -41,6 +42,28 @@ bool is_shared(const SoundScene& scene, const std::vector<int>& surfaces, int ow
   });
 }
 
+/// Brings those to the front that reach farthest some way: inside of them, a surface has some
+/// before and some behind it.
+void put_outermost_first(const SoundScene& scene, std::vector<int>& ids) {
+  std::vector<std::size_t> outermost;
+  for (int x = -1; x <= 1; ++x)
+    for (int y = -1; y <= 1; ++y)
+      for (int z = -1; z <= 1; ++z) {
+        double farthest = -HUGE_VAL;
+        std::size_t found = 0;
+        for (std::size_t k = 0; k < ids.size(); ++k) {
+          const Surface& surface = scene.surfaces[at(ids[k])];
+          for (const Vec2& p : surface.rings.front())
+            if (const double way = Vec3(x, y, z).dot(surface.frame.to_space(p)); way > farthest)
+              farthest = way, found = k;
+        }
+        outermost.push_back(found);
+      }
+  std::sort(outermost.begin(), outermost.end());
+  outermost.erase(std::unique(outermost.begin(), outermost.end()), outermost.end());
+  for (std::size_t k = 0; k < outermost.size(); ++k) std::swap(ids[k], ids[outermost[k]]);
+}
+
 /// Whether there is some of `others` before a surface and some behind it. Most tell after a few
 /// looks; only walls take all of them.
 bool lies_between(const SoundScene& scene, const Surface& surface, std::span<const int> others) {
@@ -70,6 +93,7 @@ std::vector<int> blocking_surfaces(const SoundScene& scene, std::span<const int>
                                    std::span<const int> others) {
   std::vector<int> around(others.begin(), others.end());
   around.insert(around.end(), ids.begin(), ids.end());
+  if (!around.empty()) put_outermost_first(scene, around);
   std::vector<int> blocking;
   for (const int id : ids) {
     const Surface& surface = scene.surfaces[at(id)];

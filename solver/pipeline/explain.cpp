@@ -93,6 +93,12 @@ PlannedStage plan_reflected_light(const SoundScene& scene, const Plan& plan,
   return stage;
 }
 
+/// Whether curves are only looked for where elements without them are too many.
+bool tells_if_they_pay(const SolveOptions& options) {
+  return options.method == SolveMethod::fields && options.refine == Refinement::adaptive &&
+         !options.force.discontinuities;
+}
+
 std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
                                       const SolveOptions& options, bool any_closed) {
   const double n = options.elements, factors = count_factors(scene, options.elements);
@@ -103,7 +109,8 @@ std::vector<PlannedStage> plan_stages(const SoundScene& scene, const Plan& plan,
   const double points = n * emitters * options.direct_points;
   std::vector<PlannedStage> stages;
   stages.push_back({"discontinuities", plan.no_discontinuities, "discontinuities",
-                    static_cast<double>(plan.sources.size()), "sources", 0});
+                    static_cast<double>(plan.sources.size()), "sources", 0,
+                    tells_if_they_pay(options) ? "if direct light tells that they pay" : ""});
   if (plan.weak_sources > 0)
     stages.push_back({"curves of weak sources",
                       fmt::format("{} of them give too little", plan.weak_sources),

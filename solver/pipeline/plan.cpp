@@ -31,6 +31,15 @@ bool has_many_lines(const SoundScene& scene) {
   return lines > many_lines;
 }
 
+std::vector<int> lit_and_emitting(const PreparedScene& prepared, const std::vector<int>& lit) {
+  const std::span<const int> emitters = prepared.direct_light().emitters();
+  std::vector<int> all = lit;
+  all.insert(all.end(), emitters.begin(), emitters.end());
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 }  // namespace
 
 Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
@@ -43,7 +52,8 @@ Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const
   plan.no_factors = factors_needless(scene, plan.no_exact_direct_light.empty(), options);
   plan.no_channels = channels_needless(scene, options);
   if (plan.no_exact_direct_light.empty()) plan.rays = direct_rays(prepared, options, progress);
-  plan.no_discontinuities = discontinuities_needless(scene, options);
+  const std::vector<int> exchanging = lit_and_emitting(prepared, plan.lit);
+  plan.no_discontinuities = discontinuities_needless(scene, exchanging, options);
   if (!plan.no_discontinuities.empty()) return plan;
   stages.run("sources", [&] {
     plan.sources = all_sources(prepared, options.secondary, progress);
@@ -56,22 +66,24 @@ Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const
   });
   if (plan.sources.empty())
     plan.no_discontinuities = "no source gives more than the tolerance of all light";
-  if (plan.no_discontinuities.empty()) plan.no_eee = eee_needless(scene, options);
+  if (plan.no_discontinuities.empty()) plan.no_eee = eee_needless(scene, exchanging, options);
   return plan;
 }
 
-std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options) {
+std::string discontinuities_needless(const SoundScene& scene, std::span<const int> exchanging,
+                                     const SolveOptions& options) {
   const DiscontinuityOptions& events = options.events;
   if (!options.discontinuities || !(events.contact || events.face || events.ev || events.eee))
     return "they were not asked for";
   if (options.force.discontinuities) return {};
-  if (is_convex(scene)) return "no surface can come between two others";
+  if (is_convex(scene, exchanging)) return "no surface can come between two others";
   return most_surfaces_emit(scene);
 }
 
-std::string eee_needless(const SoundScene& scene, const SolveOptions& options) {
+std::string eee_needless(const SoundScene& scene, std::span<const int> exchanging,
+                         const SolveOptions& options) {
   if (options.force.eee) return {};
-  return is_one_convex_body(scene, blocking_surfaces(scene))
+  return is_one_convex_body(scene, blocking_surfaces(scene, exchanging, {}))
              ? "what can come between is one convex body"
              : "";
 }
@@ -104,16 +116,16 @@ std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice)
   return most_surfaces_emit(scene);
 }
 
-bool is_convex(const SoundScene& scene) {
+bool is_convex(const SoundScene& scene, std::span<const int> ids) {
   const auto is_behind = [&](const Surface& viewer, const Surface& other) {
     const Ring& ring = other.rings.front();
     return std::any_of(ring.begin(), ring.end(), [&](const Vec2& p) {
       return viewer.frame.height(other.frame.to_space(p)) < -tolerance_of(viewer, other).length;
     });
   };
-  for (const Surface& viewer : scene.surfaces)
-    for (const Surface& other : scene.surfaces)
-      if (is_behind(viewer, other)) return false;
+  for (const int viewer : ids)
+    for (const int other : ids)
+      if (is_behind(scene.surfaces[at(viewer)], scene.surfaces[at(other)])) return false;
   return true;
 }
 

@@ -5,6 +5,7 @@
 #include "solver/pipeline/prepared_scene.h"
 #include "solver/pipeline/solve_options.h"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,12 +31,15 @@ struct Plan {
 Plan make_plan(const PreparedScene& prepared, const SolveOptions& options, const Progress& progress,
                Stages& stages);
 
-/// Why no discontinuities need be looked for, as far as the scene alone tells; empty if they do.
-std::string discontinuities_needless(const SoundScene& scene, const SolveOptions& options);
+/// Why no discontinuities need be looked for, as far as the surfaces that exchange light tell;
+/// empty if they do. What lies beyond a wall has no part in it.
+std::string discontinuities_needless(const SoundScene& scene, std::span<const int> exchanging,
+                                     const SolveOptions& options);
 
 /// Why no curves at three edges need be looked for, if any are: the edges of one convex body, or of
 /// one convex polygon, are never three in a line of sight.
-std::string eee_needless(const SoundScene& scene, const SolveOptions& options);
+std::string eee_needless(const SoundScene& scene, std::span<const int> exchanging,
+                         const SolveOptions& options);
 
 /// Why no form factors are needed, with direct light that is exact or not.
 std::string factors_needless(const SoundScene& scene, bool is_exact, const SolveOptions& options);
@@ -46,9 +50,9 @@ std::string channels_needless(const SoundScene& scene, const SolveOptions& optio
 /// Why direct light needs no stage of its own; empty if it does.
 std::string direct_light_needless(const SoundScene& scene, DirectLightBy choice);
 
-/// True if every surface lies in front of every other, as in an empty room: nothing can hide a
-/// part of anything from anywhere.
-bool is_convex(const SoundScene& scene);
+/// True if each of some surfaces lies in front of every other, as in an empty room: none of them
+/// can hide a part of another from anywhere.
+bool is_convex(const SoundScene& scene, std::span<const int> ids);
 
 /// The work on finding curves that a tolerance is worth, see DiscontinuityOptions::most_work; 0, no
 /// limit, for a tolerance of 0.

@@ -93,6 +93,8 @@ TEST_F(ProgressiveSeries, IsRefusedInOneSentence) {
   test::expect_sentence(shoot({"--progressive", "s", "-o", "s/stage_000.vtu"}), 5, "s");
   fs::create_directory(folder_.path() / "s");
   test::expect_sentence(shoot({"--progressive", "s", "-o", "s/stage_000.vtu"}), 2, "another name");
+  test::expect_sentence(shoot({"--progressive", "s", "--json", "s/progressive.pvd"}), 2,
+                        "another name");
   test::expect_sentence(shoot({"--progressive", "file"}), 5, "file");
   test::expect_sentence(shoot({"--progressive", "/proc/none/s"}), 5, "/proc");
 }

@@ -188,6 +188,8 @@ TEST_F(StudyCommandTest, SaysInOneSentenceWhatIsWrong) {
       {{"dark.obj", "-o", "out"}, 3, "emit"},
       {{s1_, "-o", "file"}, 5, "file"},
       {{s1_, "-o", "/proc/none/out"}, 5, "/proc/none/out"},
+      {{s1_, "-o", "out", "--json", "out/study.csv"}, 2, "out/study.csv"},
+      {{s1_, "-o", "out", "--json", "out/any.svg"}, 2, "end in .json"},
   };
   for (const auto& wrong : all) {
     test::expect_sentence(study(wrong.arguments), wrong.exit_code, wrong.names);

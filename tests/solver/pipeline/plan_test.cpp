@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -91,7 +92,12 @@ TEST(MeanDirectIrradiance, IsFoundWhereNearlyAllIsDark) {
 }
 
 TEST(IsConvex, HoldsForEmptyRoomsOnly) {
-  const auto convex = [](const Scene& scene) { return is_convex(make_sound(scene)); };
+  const auto convex = [](const Scene& scene) {
+    const SoundScene sound = make_sound(scene);
+    std::vector<int> all(sound.surfaces.size());
+    std::iota(all.begin(), all.end(), 0);
+    return is_convex(sound, all);
+  };
   EXPECT_TRUE(convex(test::lit_cube({0, 0, 0, 0, 0, 0})));
   Scene turned = test::lit_cube({0, 0, 0, 0, 0, 0});
   const Eigen::AngleAxisd turn(0.7, Vec3(1, 2, 3).normalized());
@@ -99,6 +105,27 @@ TEST(IsConvex, HoldsForEmptyRoomsOnly) {
   EXPECT_TRUE(convex(turned));
   EXPECT_FALSE(convex(test::l_room(false)));
   EXPECT_FALSE(convex(test::table_scene()));
+}
+
+TEST(MakePlan, DoesNotChangeWithTinyThingsBeyondTheWalls) {
+  const auto plan_of = [](const Scene& scene) {
+    std::vector<StageReport> reports;
+    Stages stages(reports);
+    return make_plan(PreparedScene(scene), {}, {}, stages);
+  };
+  for (const bool has_box : {false, true}) {
+    Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+    if (has_box)
+      for (const auto& face : test::box_faces({.4, .4, .4}, {.6, .6, .6}, false))
+        test::add_polygon(scene, face, 0);
+    const Plan before = plan_of(scene);
+    EXPECT_NE(has_box ? before.no_eee : before.no_discontinuities, "");
+    const Vec3 corner(-1, -1, -1);
+    test::add_polygon(scene, {corner, corner + Vec3(1e-9, 0, 0), corner + Vec3(0, 1e-9, 0)}, 0);
+    const Plan after = plan_of(scene);
+    EXPECT_EQ(after.no_eee, before.no_eee);
+    EXPECT_EQ(after.no_discontinuities, before.no_discontinuities);
+  }
 }
 
 /// The largest difference of two solutions on the same elements, relative to the largest light.

@@ -19,12 +19,12 @@ namespace {
 
 /// Rays from a node that are kept are two halves of strata², fewer where so much may be off that
 /// their noise matters less than elements; not of many, which have fewer as it is (RayExchange).
-constexpr int usual_strata = 7, few_strata = 5, fewest_strata = 4;
+constexpr int usual_strata = 7, few_strata = 5, hurried_strata = 4;
 constexpr double much_off = 0.025;
 constexpr int many_to_solve = 20000;
 
 int strata_for(double tolerance, int elements) {
-  if (tolerance >= any_error) return fewest_strata;
+  if (tolerance >= any_error) return hurried_strata;
   return tolerance < much_off || elements > many_to_solve ? usual_strata : few_strata;
 }
 

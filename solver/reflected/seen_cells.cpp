@@ -14,8 +14,8 @@
 namespace halfshade {
 namespace {
 
-constexpr double most_rays = 1 << 18;
-constexpr int fewest_strata = 2, most_strata = 8;
+constexpr double rays_in_all = 1 << 18;
+constexpr int strata_at_least = 2, strata_at_most = 8;
 /// Of what leaves a cell; and so many rays.
 constexpr double clear_share = 0.01;
 constexpr int clear_number = 3;
@@ -30,7 +30,7 @@ using RaysBetween = std::map<std::pair<int, int>, Passage>;
 RaysBetween rays_between_cells(const ReflectingScene& scene) {
   const int count = scene.roots.count();
   const int strata =
-      std::clamp(static_cast<int>(std::sqrt(most_rays / count)), fewest_strata, most_strata);
+      std::clamp(static_cast<int>(std::sqrt(rays_in_all / count)), strata_at_least, strata_at_most);
   std::vector<std::vector<int>> seen(at(count));  // root → cells in which its rays end
   parallel_for(at(count), [&](std::size_t r) {
     const auto [a, b, c] = scene.roots.triangle(static_cast<int>(r));

@@ -135,7 +135,7 @@ struct EmbreeScene::Handles {
 
 EmbreeScene::EmbreeScene(const TriangleSoup& soup, std::span<const int> triangles)
     : space_(make_ray_space(soup, triangles)),
-      ball_{space_.centre, space_.box().half_size().norm()},
+      ball_(space_.ball()),
       handles_(std::make_unique<Handles>()) {
   triangles_.reserve(triangles.size());
   for (const int t : triangles) triangles_.emplace_back(soup, t);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "meshing/geometry/ball.h"
 #include "meshing/rays/ray_space.h"
 #include "meshing/rays/soup_triangle.h"
 #include "meshing/rays/visibility.h"

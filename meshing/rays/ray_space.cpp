@@ -1,5 +1,7 @@
 #include "meshing/rays/ray_space.h"
 
+#include "meshing/geometry/flat_tree.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,7 +40,7 @@ bool clip_to_cube(Ray& ray) {
 
 }  // namespace
 
-Bounds RaySpace::box() const { return Bounds{centre, centre}.grown(half_of_cube / scale); }
+Ball RaySpace::ball() const { return {centre, std::sqrt(3) * half_of_cube / scale}; }
 
 std::optional<Ray> RaySpace::ray(const Vec3& from, const Vec3& to) const {
   const Vec3 start = (from - centre) * scale, end = (to - centre) * scale;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "meshing/geometry/flat_tree.h"
+#include "meshing/geometry/ball.h"
 #include "meshing/rays/occluders.h"
 
 #include <optional>
@@ -24,7 +24,7 @@ struct RaySpace {
   double enlargement = 0;  ///< of triangles, in scene units
 
   /// Holds all triangles, with room for rays that are off by rounding; in scene units.
-  Bounds box() const;
+  Ball ball() const;
 
   /// A segment, a little lengthened and without what lies far from all triangles. Nothing if it has
   /// no length, or nothing is left of it.

@@ -1,45 +1,63 @@
 #include "solver/pipeline/measured_error.h"
 
-#include "meshing/geometry/mix_bits.h"
-#include "solver/elements/element_field.h"
+#include "solver/elements/balancing_scale.h"
+#include "solver/exchange/ray_sequence.h"
+#include "solver/pipeline/direct_work.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <vector>
 
 namespace halfshade {
 namespace {
 
-constexpr int fewest_places = 6000, most_of_element = 40;
+constexpr double usual_places = 6000;
 
-/// Spread evenly over the triangle.
-TrianglePlace random_place(std::uint64_t number) {
-  const double u = unit_share(mix_bits(2 * number)), v = unit_share(mix_bits(2 * number + 1));
-  return u + v <= 1 ? TrianglePlace(u, v) : TrianglePlace(1 - u, 1 - v);
+/// Those of an element follow each other.
+struct Places {
+  std::vector<FieldPoint> points;
+  std::vector<int> count;  ///< element → how many
+};
+
+/// Spread evenly, as many for equal areas, at least one on each element.
+Places spread_over(const ElementTable& elements) {
+  const double area = std::accumulate(elements.area.begin(), elements.area.end(), 0.);
+  Places places;
+  for (int e = 0; e < elements.count(); ++e) {
+    const double share = elements.area[at(e)] / area;
+    places.count.push_back(std::max(1, static_cast<int>(std::lround(usual_places * share))));
+    const RaySequence sequence(at(e));
+    for (int k = 0; k < places.count.back(); ++k) {
+      const auto u = sequence[k];
+      places.points.push_back({{point_on(elements.triangle(e), u[0], u[1]), elements.normal[at(e)]},
+                               elements.surface[at(e)]});
+    }
+  }
+  return places;
 }
 
 }  // namespace
 
 Eigen::ArrayXd measured_error(const PreparedScene& prepared, const ElementTable& elements,
                               const ChannelArray& direct_irradiance, const Progress& progress) {
-  const int count = elements.count();
-  Eigen::ArrayXd error = Eigen::ArrayXd::Zero(count);
-  if (count == 0) return error;
-  const int of_each = std::clamp((fewest_places + count - 1) / count, 1, most_of_element);
-  std::vector<SurfacePoint> places;
-  for (int e = 0; e < count; ++e)
-    for (int k = 0; k < of_each; ++k) {
-      const PlaneFrame& frame = prepared.scene().surfaces[at(elements.surface[at(e)])].frame;
-      const TrianglePlace place = random_place(at(e) * at(of_each) + at(k));
-      places.push_back({frame.foot(position(elements.triangle(e), place)), frame.normal});
-    }
-  const std::vector<DirectLight> light = prepared.direct_light().irradiance(places, progress);
+  Eigen::ArrayXd error = Eigen::ArrayXd::Zero(elements.count());
+  const Places places = spread_over(elements);
+  DirectWork work;
+  const std::vector<Rgb> exact =
+      direct_light_at(prepared.scene(), prepared.direct_light(), work)(places.points, progress);
   if (progress.stopped()) return error;
-  for (std::size_t k = 0; k < light.size(); ++k) {
-    const auto e = static_cast<Eigen::Index>(k / at(of_each));
-    const Rgb off = light[k].irradiance - direct_irradiance.row(e).transpose();
-    error[e] += off.square().mean() / of_each;
-  }
-  return error.sqrt();
+  double largest = direct_irradiance.maxCoeff();
+  for (const Rgb& light : exact) largest = std::max(largest, light.maxCoeff());
+  // Squares of light of any size must not over- or underflow.
+  const double scale = balancing_scale(largest);
+  auto light = exact.begin();
+  for (int e = 0; e < elements.count(); ++e)
+    for (int k = 0; k < places.count[at(e)]; ++k, ++light) {
+      const Rgb off = scale * (*light - direct_irradiance.row(e).transpose());
+      error[e] += off.square().mean() / places.count[at(e)];
+    }
+  return error.sqrt() / scale;
 }
 
 }  // namespace halfshade

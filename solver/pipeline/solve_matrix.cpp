@@ -60,10 +60,16 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, S
   return mesh;
 }
 
-/// `others` are independent of what the mesh does to smooth light, in the mean.
-void estimate_error(const SolveOptions& options, const std::vector<Eigen::ArrayXd>& others,
-                    Stages& stages, SolveResult& result) {
+/// `exchange_error` is independent of what the mesh does, in the mean. What is measured of direct
+/// light counts beside what the recovery tells of all smooth light.
+void estimate_error(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
+                    const Eigen::ArrayXd& exchange_error, const Progress& progress, Stages& stages,
+                    SolveResult& result) {
   stages.run("error estimate", [&] {
+    std::vector<Eigen::ArrayXd> others = {exchange_error};
+    if (plan.no_exact_direct_light.empty())
+      others.push_back(
+          measured_error(prepared, result.elements, result.solution.direct_irradiance, progress));
     // Squares of light of any size must not over- or underflow.
     const double scale = balancing_scale(result.solution.irradiance.maxCoeff());
     const ChannelArray irradiance = scale * result.solution.irradiance;
@@ -139,14 +145,7 @@ void solve_matrix(const PreparedScene& prepared, const Plan& plan, const SolveOp
   result.exchange = light.exchange;
   result.radiosity = light.radiosity;
   result.solution = std::move(light.solution);
-  std::vector<Eigen::ArrayXd> errors = {light.exchange_error};
-  if (plan.no_exact_direct_light.empty())
-    stages.run("shadows within elements", [&] {
-      errors.push_back(
-          measured_error(prepared, result.elements, result.solution.direct_irradiance, progress));
-      return result.elements.corners.size();
-    });
-  estimate_error(options, errors, stages, result);
+  estimate_error(prepared, plan, options, light.exchange_error, progress, stages, result);
   if (options.interpolate) interpolate(result);
   add(exchange_warnings(result.exchange), result.warnings);
 }

@@ -61,5 +61,18 @@ TEST(MeasuredError, KnowsShadowsThatElementsAreTooLargeFor) {
   }
 }
 
+TEST(MeasuredError, IsRelativeToLightOfAnySize) {
+  SolveOptions options;
+  options.method = SolveMethod::matrix;
+  options.discontinuities = false;
+  options.elements = 150;
+  Scene scene = slats();
+  const double expected = solve(scene, options).relative_error;
+  for (const double exitance : {1e-190, 1e190}) {
+    scene.materials[1].exitance.setConstant(exitance);
+    EXPECT_NEAR(solve(scene, options).relative_error, expected, 1e-9) << exitance;
+  }
+}
+
 }  // namespace
 }  // namespace halfshade

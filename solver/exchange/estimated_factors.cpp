@@ -1,13 +1,12 @@
 #include "solver/exchange/estimated_factors.h"
 
 #include "meshing/core/parallel.h"
+#include "meshing/geometry/cosine_direction.h"
 #include "solver/exchange/element_soup.h"
 #include "solver/exchange/ray_sequence.h"
 #include "solver/exchange/scaled_operator.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 
 namespace halfshade {
 namespace {
@@ -37,11 +36,7 @@ class Estimation {
     for (int k = 0; k < rays_; ++k) {
       const auto u = sequence[k];
       const Vec3 from = point_on(triangle, u[0], u[1]);
-      // Evenly in the disk below the hemisphere is cosine-weighted on it.
-      const double radius = std::sqrt(u[2]), turn = 2 * std::numbers::pi * u[3];
-      const Vec3 along =
-          radius * (std::cos(turn) * surface.frame.e1 + std::sin(turn) * surface.frame.e2) +
-          std::sqrt(1 - u[2]) * surface.frame.normal;
+      const Vec3 along = cosine_direction(surface.frame, u[2], u[3]);
       if (const int other = first_met(from, along, e); other >= 0) result.push_back(other);
     }
     return result;

@@ -1,14 +1,13 @@
 #include "solver/pipeline/lit_places.h"
 
 #include "meshing/core/plane_frame.h"
+#include "meshing/geometry/cosine_direction.h"
 #include "meshing/geometry/mix_bits.h"
 #include "meshing/rays/visibility.h"
 #include "solver/direct/direct_light.h"
 #include "solver/pipeline/spread_places.h"
 
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <vector>
 
 namespace halfshade {
@@ -19,14 +18,6 @@ constexpr int tried_rays = 100;
 constexpr std::size_t batches = 10;
 constexpr double most_lit_work = 5e6;
 
-/// Two random numbers make a direction away from a surface, as likely as the cosine is large.
-Vec3 leaving_direction(const Vec3& normal, double s, double t) {
-  const PlaneFrame frame = make_frame(Vec3::Zero(), normal);
-  const double angle = 2 * std::numbers::pi * t;
-  return frame.to_space(std::sqrt(s) * Vec2(std::cos(angle), std::sin(angle))) +
-         std::sqrt(1 - s) * normal;
-}
-
 /// Where rays from the emitters meet the front of a surface.
 std::vector<SurfacePoint> lit_places(const PreparedScene& prepared) {
   const SoundScene& scene = prepared.scene();
@@ -36,7 +27,7 @@ std::vector<SurfacePoint> lit_places(const PreparedScene& prepared) {
   for (const SurfacePoint& from :
        spread_places(scene, prepared.direct_light().emitters(), tried_rays).points) {
     const double s = unit_share(mix_bits(numbers++)), t = unit_share(mix_bits(numbers++));
-    const Vec3 way = leaving_direction(from.normal, s, t);
+    const Vec3 way = cosine_direction(make_frame(Vec3::Zero(), from.normal), s, t);
     std::optional<Hit> hit = visibility.first_hit(from.position, way);
     if (hit && scene.surfaces[at(hit->owner)].frame.normal.dot(way) >= 0)
       hit = visibility.facing_hit({from.position, way}, *hit);

@@ -1,8 +1,8 @@
 #include "solver/reference/light_paths.h"
 
 #include "meshing/core/error.h"
+#include "meshing/geometry/cosine_direction.h"
 
-#include <cmath>
 #include <numbers>
 
 namespace halfshade {
@@ -19,14 +19,6 @@ enum Use : std::uint32_t { way_ahead, place_on_emitter, roulette, uses };
 
 std::uint32_t use_of(int bounce, Use use) {
   return static_cast<std::uint32_t>(bounce) * uses + use;
-}
-
-/// Directions with a density of cos θ / π.
-Vec3 spread_direction(const Vec3& normal, const Vec2& u) {
-  const PlaneFrame frame = make_frame(Vec3::Zero(), normal);
-  const double r = std::sqrt(u.x()), angle = 2 * std::numbers::pi * u.y();
-  return r * std::cos(angle) * frame.e1 + r * std::sin(angle) * frame.e2 +
-         std::sqrt(1 - u.x()) * frame.normal;
 }
 
 /// Goes on with a probability that keeps the weight of what goes on at 1 in its largest channel.
@@ -110,7 +102,9 @@ ArrivingLight LightPaths::trace(const ReferencePoint& point, int bounces,
   for (int bounce = 0; bounce < longest_path; ++bounce) {
     Rgb& sum = bounce == 0 ? light.direct : light.reflected;
     sum += weight * from_emitters(here, bounce, numbers);
-    const Vec3 way = spread_direction(here.normal, numbers.pair(use_of(bounce, way_ahead)));
+    const Vec2 turned = numbers.pair(use_of(bounce, way_ahead));
+    const Vec3 way =
+        cosine_direction(make_frame(Vec3::Zero(), here.normal), turned.x(), turned.y());
     const std::optional<End> next = next_end(here, way);
     if (next) sum += weight * from_ahead(here, *next, way);
     if (next) weight *= reflectance_at(scene_, scene_.surfaces[at(next->surface)], next->position);

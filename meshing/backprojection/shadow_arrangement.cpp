@@ -11,7 +11,7 @@ namespace halfshade {
 namespace {
 
 /// A view with more layers of faces than these is crowded.
-constexpr int many_layers = 16;
+constexpr int many_layers = 4;
 
 }  // namespace
 
@@ -29,7 +29,6 @@ bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bo
   }
   if (view.among() == nullptr && find_near_faces()) view.look_among(&near_faces_);
   first_layers_ = view.layers_over({arcs_[0].from, arcs_[0].to, 1});
-  if (unless_crowded && first_layers_ > many_layers) return false;
   for (const int surface : view.layer_surfaces())
     if (is_hidden_by(surface)) {
       crossings_.clear();
@@ -37,6 +36,7 @@ bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bo
       junction_count = 0;
       return true;
     }
+  if (unless_crowded && first_layers_ > many_layers) return false;
   collect_silhouettes();
   if (arcs_.size() == outline.edges.size()) {  // all is seen, or all is hidden
     crossings_.clear();
@@ -65,22 +65,47 @@ bool ShadowArrangement::build(PointView& view, const EmitterOutline& outline, bo
 }
 
 /// Whether a surface that lies over a direction in the pyramid lies over all: its border stays
-/// outside.
+/// outside, and all of the outline lies clearly behind its plane, or all of it before the
+/// emitter's.
 bool ShadowArrangement::is_hidden_by(int id) {
   const auto& surface = view_->topology().surfaces[at(id)];
+  bool is_before = true;
   for (int r = surface.first_ring; r < surface.first_ring + surface.ring_count; ++r) {
     const auto ring = view_->topology().ring(r);
     int from = view_->corner_of_vertex(ring.back().vertex);
     for (const auto& next : ring) {
       const int to = view_->corner_of_vertex(next.vertex);
-      if (view_->corners[at(to)].side == PlaneSide::beyond ||
-          !outline_->pyramid.is_outside(view_->corners[at(from)].direction,
-                                        view_->corners[at(to)].direction))
-        return false;
+      is_before = is_before && view_->corners[at(to)].side != PlaneSide::beyond;
+      if (!passes_outline(from, to)) return false;
       from = to;
     }
   }
+  return is_before || is_outline_behind(surface);
+}
+
+/// Whether an edge stays outside the outline, if it is convex: some line separates them then.
+bool ShadowArrangement::passes_outline(int from, int to) const {
+  const auto& corners = view_->corners;
+  if (outline_->pyramid.is_outside(corners[at(from)].direction, corners[at(to)].direction))
+    return true;
+  int side = 0;
+  for (const OutlineEdge& edge : outline_->edges) {
+    if (edge.from == from || edge.from == to) continue;
+    const int turn = view_->turn(from, to, edge.from);
+    if (turn == 0 || turn == -side) return false;
+    side = turn;
+  }
   return true;
+}
+
+/// Whether sight lines to the outline meet a surface's plane before they end.
+bool ShadowArrangement::is_outline_behind(const OpaqueTopology::OpaqueSurface& surface) const {
+  const double margin = surface.tolerance.length + view_->blur();
+  const double height = surface.frame.height(view_->point());
+  return std::all_of(outline_->edges.begin(), outline_->edges.end(), [&](const OutlineEdge& edge) {
+    const double beyond = surface.frame.height(view_->corners[at(edge.from)].true_position);
+    return height > 0 ? beyond < -margin : beyond > margin;
+  });
 }
 
 Vec3 ShadowArrangement::position(const Arc& arc, double along) const {

@@ -55,6 +55,8 @@ class ShadowArrangement {
   };
 
   bool is_hidden_by(int surface);
+  bool passes_outline(int from, int to) const;
+  bool is_outline_behind(const OpaqueTopology::OpaqueSurface& surface) const;
   bool find_near_faces();
   void collect_silhouettes();
   void collect_near();

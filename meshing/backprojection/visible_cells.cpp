@@ -4,6 +4,7 @@
 #include "meshing/triangulation/ring_triangles.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -18,18 +19,32 @@ constexpr std::size_t deepest = 30;
 
 }  // namespace
 
-/// All triangles that may lie between point and emitter.
+/// All triangles that may lie between point and emitter. Those that look large are likely to hide
+/// something, and are asked first.
 void VisibleCells::collect_faces() {
   PointView& view = search_.view;
   const SightPyramid& pyramid = search_.outline.pyramid;
-  std::vector<int>& faces = faces_[0];
-  faces.clear();
+  sizes_.clear();
   walk_tree(
       view.face_tree(),
       [&](int node) { return pyramid.is_outside(view.face_tree().nodes[at(node)].box); },
       [&](int triangle) {
-        if (view.face_sign(triangle) != 0) faces.push_back(triangle);
+        if (view.face_sign(triangle) != 0) sizes_.emplace_back(-size_of(triangle), triangle);
       });
+  std::sort(sizes_.begin(), sizes_.end());
+  faces_[0].clear();
+  for (const auto& [size, triangle] : sizes_) faces_[0].push_back(triangle);
+}
+
+/// How large a triangle looks, roughly.
+double VisibleCells::size_of(int triangle) const {
+  const OpaqueTopology& topology = search_.view.topology();
+  const auto& corner = topology.triangles[at(triangle)].corner;
+  std::array<Vec3, 3> way;
+  for (std::size_t k = 0; k < 3; ++k)
+    way[k] = topology.vertices[at(corner[k])] - search_.view.point();
+  const double distance = ((way[0] + way[1] + way[2]) / 3).norm();
+  return std::abs(way[0].dot(way[1].cross(way[2]))) / (distance * distance * distance);
 }
 
 bool VisibleCells::make_outline(const Query& query, const Cell& cell) {
@@ -77,18 +92,10 @@ bool VisibleCells::narrow(std::size_t depth) {
   faces_[depth + 1].clear();
   for (const int triangle : faces_[depth]) {
     const Cover cover = cover_by(triangle);
-    if (cover == Cover::all) {
-      last_cover_ = triangle;
-      return true;
-    }
+    if (cover == Cover::all) return true;
     if (cover == Cover::some) faces_[depth + 1].push_back(triangle);
   }
   return false;
-}
-
-bool VisibleCells::is_hidden_as_before() {
-  return last_cover_ >= 0 && search_.view.face_sign(last_cover_) != 0 &&
-         cover_by(last_cover_) == Cover::all;
 }
 
 bool VisibleCells::is_stuck(std::size_t depth) const {
@@ -106,7 +113,7 @@ void VisibleCells::look_at(const Query& query, const Cell& cell, std::size_t dep
     query.use(query.part);
     return search_.outline.forget(search_.view);
   }
-  // What one face hides is left out of the count: that is known at once where it was the last one.
+  // What one face hides is left out of the count: most is known from the first face.
   work_ += faces_[depth + 1].size();
   if (faces_[depth + 1].size() > few_faces && !is_stuck(depth)) {
     search_.outline.forget(search_.view);

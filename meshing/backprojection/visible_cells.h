@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace halfshade {
@@ -17,9 +18,6 @@ class VisibleCells {
   /// See VisiblePartFinder::find_in_cells.
   std::size_t run(const Vec3& point, const Vec3& normal, int surface, VisiblePart& part,
                   const std::function<void(const VisiblePart&)>& use);
-
-  /// Whether the face that hid something last hides the whole outline, which must be made.
-  bool is_hidden_as_before();
 
   /// The vertices of triangles that make up an emitter. Also of backs, which have no triangles of
   /// their own in the topology.
@@ -41,6 +39,7 @@ class VisibleCells {
   enum class Cover { none, some, all };
 
   void collect_faces();
+  double size_of(int triangle) const;
   bool make_outline(const Query& query, const Cell& cell);
   bool narrow(std::size_t depth);
   Cover cover_by(int triangle);
@@ -50,9 +49,10 @@ class VisibleCells {
   void split(const Query& query, const Cell& cell, std::size_t depth);
 
   PartSearch& search_;
-  int last_cover_ = -1;  ///< a triangle
   std::size_t work_ = 0;
-  std::vector<std::vector<int>> faces_;  ///< by depth: triangles that may lie before a cell
+  /// By depth: triangles that may lie before a cell; those that look larger first.
+  std::vector<std::vector<int>> faces_;
+  std::vector<std::pair<double, int>> sizes_;               ///< of triangles
   std::vector<std::vector<std::array<int, 3>>> triangles_;  ///< of surfaces, vertices; if known
 };
 

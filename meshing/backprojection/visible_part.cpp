@@ -63,10 +63,6 @@ bool VisiblePartFinder::Impl::find(const Vec3& point, const Vec3& normal, int su
     if (candidates != nullptr && jitter == 0) view.narrow_to(*candidates);
     if (!(view.distance() > view.slack()) || !search.outline.make(view, point, normal, surface))
       return true;
-    if (unless_crowded && cells.is_hidden_as_before()) {
-      search.write_hidden(part);
-      return true;
-    }
     const PartSearch::End end = search.arrange(unless_crowded);
     if (end == PartSearch::End::crowded) return false;
     if (end == PartSearch::End::found) break;

@@ -5,8 +5,8 @@
 #include "solver/pipeline/direct_work.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 namespace halfshade {
@@ -20,13 +20,16 @@ struct Places {
   std::vector<int> count;  ///< element → how many
 };
 
-/// Spread evenly, as many for equal areas, at least one on each element.
-Places spread_over(const ElementTable& elements) {
-  const double area = std::accumulate(elements.area.begin(), elements.area.end(), 0.);
+/// Half of them as many for equal areas, half as many for an equal part of the square of the light,
+/// which a few small elements may hold; at least one on each element.
+Places spread_over(const ElementTable& elements, const Eigen::ArrayXd& light) {
+  const Eigen::Map<const Eigen::ArrayXd> area(elements.area.data(), elements.count());
+  const Eigen::ArrayXd squares = area * (light / std::max(light.maxCoeff(), DBL_MIN)).square();
+  const Eigen::ArrayXd share =
+      area / (2 * area.sum()) + squares / (2 * std::max(squares.sum(), DBL_MIN));
   Places places;
   for (int e = 0; e < elements.count(); ++e) {
-    const double share = elements.area[at(e)] / area;
-    places.count.push_back(std::max(1, static_cast<int>(std::lround(usual_places * share))));
+    places.count.push_back(std::max(1, static_cast<int>(std::lround(usual_places * share[e]))));
     const RaySequence sequence(at(e));
     for (int k = 0; k < places.count.back(); ++k) {
       const auto u = sequence[k];
@@ -42,7 +45,7 @@ Places spread_over(const ElementTable& elements) {
 Eigen::ArrayXd measured_error(const PreparedScene& prepared, const ElementTable& elements,
                               const ChannelArray& direct_irradiance, const Progress& progress) {
   Eigen::ArrayXd error = Eigen::ArrayXd::Zero(elements.count());
-  const Places places = spread_over(elements);
+  const Places places = spread_over(elements, direct_irradiance.rowwise().maxCoeff());
   DirectWork work;
   const std::vector<Rgb> exact =
       direct_light_at(prepared.scene(), prepared.direct_light(), work)(places.points, progress);

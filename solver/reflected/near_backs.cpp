@@ -18,6 +18,9 @@ constexpr double least_height = 1e-9;  // of an element's size
 /// it long, or have this share of the area of all, or what changes in them has that share: less
 /// than that hardly counts, the less as it may be too much or too little.
 constexpr double share_of_distance = 0.93, least_part = 1e-7, least_change = 1e-6;
+/// Past many backs at once fewer parts are looked at, of which so many backs hide something in all:
+/// those in which most changes first. What is left then counts as missed.
+constexpr std::size_t most_looks = 100000;
 /// Narrower elements are a thousand times as long as wide, as where corners of two surfaces differ
 /// by rounding: too little to integrate over.
 constexpr double narrow = 1e-3;
@@ -55,6 +58,16 @@ double distance(const Vec3& p, const NearBack& back) {
   return least;
 }
 
+/// A part of an element, by its share of the area, and the largest share of that over which light
+/// changes with one of the backs; 0 if it need not be cut.
+struct ElementPart {
+  std::array<TrianglePlace, 3> corners;
+  double share = 0, changing = 0;
+
+  /// What changes in it, as a share of the element.
+  double change() const { return share * changing; }
+};
+
 /// ∫ ω and ∫ ω (ω − π) over an element, in the mean.
 class ShadowIntegrals {
  public:
@@ -66,11 +79,14 @@ class ShadowIntegrals {
     for (std::size_t n = 0; n < nodes.places.size(); ++n)
       at_nodes[static_cast<Eigen::Index>(n)] = seen_past(position(corners_, nodes.places[n]));
     polynomial_ = nodes.fit * at_nodes;
-    add({TrianglePlace(0, 0), TrianglePlace(1, 0), TrianglePlace(0, 1)}, 1);
+    cut();
+    Eigen::VectorXd basis(basis_size(order_));
+    for (const ElementPart& part : parts_) add(part, basis);
   }
 
   Eigen::VectorXd at_nodes;  ///< ω
   double all = 0, missed = 0;
+  double unseen = 0;  ///< of `missed`, in parts that should have been cut, as their nodes tell
 
  private:
   double seen_past(const Vec3& p) const {
@@ -79,36 +95,58 @@ class ShadowIntegrals {
     return std::clamp(1 - hidden, 0., 1.);
   }
 
-  /// Whether so much of a part changes with one of the backs that it has to be cut.
-  bool is_too_long(const std::array<Vec3, 3>& part, double share) const {
-    const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
-    const double length = longest_length(part);
-    return share > least_part &&
-           std::any_of(backs_.begin(), backs_.end(), [&](const NearBack& back) {
-             return length > share_of_distance * distance(middle, back) &&
-                    share * changing_share(part, normal_, back, length) > least_change;
-           });
+  ElementPart part_of(const std::array<TrianglePlace, 3>& corners, double share) const {
+    ElementPart part{corners, share};
+    if (!(share > least_part)) return part;
+    const std::array<Vec3, 3> at_corners = positions(corners);
+    const Vec3 middle = (at_corners[0] + at_corners[1] + at_corners[2]) / 3;
+    const double length = longest_length(at_corners);
+    for (const NearBack& back : backs_)
+      if (length > share_of_distance * distance(middle, back))
+        part.changing = std::max(part.changing, changing_share(at_corners, normal_, back, length));
+    if (!(part.change() > least_change)) part.changing = 0;
+    return part;
   }
 
-  void add(const std::array<TrianglePlace, 3>& part, double share) {
-    const std::array<Vec3, 3> at_corners = {
-        position(corners_, part[0]), position(corners_, part[1]), position(corners_, part[2])};
-    if (is_too_long(at_corners, share)) {
-      const std::size_t k = at(longest_edge(at_corners));
-      const TrianglePlace &a = part[k], &b = part[(k + 1) % 3], &c = part[(k + 2) % 3];
-      add({a, (a + b) / 2, c}, share / 2);
-      add({(a + b) / 2, b, c}, share / 2);
-      return;
+  std::array<Vec3, 3> positions(const std::array<TrianglePlace, 3>& corners) const {
+    return {position(corners_, corners[0]), position(corners_, corners[1]),
+            position(corners_, corners[2])};
+  }
+
+  /// In two again and again, at longest edges.
+  void cut() {
+    const auto changes_less = [](const ElementPart& a, const ElementPart& b) {
+      return a.change() < b.change();
+    };
+    parts_ = {part_of({TrianglePlace(0, 0), TrianglePlace(1, 0), TrianglePlace(0, 1)}, 1)};
+    while (parts_.front().changing > 0 && parts_.size() * backs_.size() < most_looks) {
+      std::ranges::pop_heap(parts_, changes_less);
+      const ElementPart part = parts_.back();
+      parts_.pop_back();
+      const std::size_t k = at(longest_edge(positions(part.corners)));
+      const TrianglePlace &a = part.corners[k], &b = part.corners[(k + 1) % 3],
+                          &c = part.corners[(k + 2) % 3];
+      for (const auto& half : {std::array{a, TrianglePlace((a + b) / 2), c},
+                               std::array{TrianglePlace((a + b) / 2), b, c}}) {
+        parts_.push_back(part_of(half, part.share / 2));
+        std::ranges::push_heap(parts_, changes_less);
+      }
     }
-    Eigen::VectorXd basis(basis_size(order_));
+  }
+
+  void add(const ElementPart& part, Eigen::VectorXd& basis) {
+    const auto& [a, b, c] = part.corners;
+    double least = 1, most = 0;
     for (const TriangleNode& node : triangle_rule(4)) {
-      const TrianglePlace place =
-          part[0] + node.u * (part[1] - part[0]) + node.v * (part[2] - part[0]);
+      const TrianglePlace place = a + node.u * (b - a) + node.v * (c - a);
       const double past = seen_past(position(corners_, place));
+      least = std::min(least, past);
+      most = std::max(most, past);
       basis_at(order_, place, basis);
-      all += share * node.weight * past;
-      missed += share * node.weight * past * (past - basis.dot(polynomial_));
+      all += part.share * node.weight * past;
+      missed += part.share * node.weight * past * (past - basis.dot(polynomial_));
     }
+    unseen += part.change() * (most - least);
   }
 
   const std::array<Vec3, 3>& corners_;
@@ -116,6 +154,7 @@ class ShadowIntegrals {
   int order_;
   const std::vector<NearBack>& backs_;
   Eigen::VectorXd polynomial_;
+  std::vector<ElementPart> parts_;  ///< a heap, first what changes most
 };
 
 }  // namespace
@@ -182,12 +221,14 @@ BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
   const Eigen::RowVectorXd weights = element_nodes_of(order).fit.row(0);
   if (!(integrals.all > 0)) return shadow;
   const double missed = integrals.missed / integrals.all;
-  shadow.share = missed / std::max(integrals.all, hardly_seen);
+  const double all_missed = missed + std::copysign(integrals.unseen / integrals.all, missed);
+  shadow.share = all_missed / std::max(integrals.all, hardly_seen);
+  if (shadow.share == 0) return shadow;
   // What arrives past the backs if nothing were hidden: least squares over the nodes.
   const double seen = weights * past.cwiseAbs2();
   if (!(seen > hardly_seen * hardly_seen)) return shadow;
   shadow.of_nodes = (missed / seen) * weights.cwiseProduct(past.transpose());
-  shadow.unsure = unsure_past_backs;
+  shadow.unsure = 1 - (1 - unsure_past_backs) * missed / all_missed;
   return shadow;
 }
 

@@ -38,7 +38,7 @@ class NearBacks {
   /// With what an element sees of backs in closed form, as if all else that arrives were even and
   /// nothing came between: ω = 1 − F of what leaves a place gets out, and as much arrives there.
   /// Nodes take π for ω, so that ∫ ω (ω − π) too little gets out. Of splinters all counts as
-  /// missed.
+  /// missed, and past very many backs what might be in parts that are left too large.
   BackShadow shadow(const ReflectedMesh& mesh, int element) const;
 
  private:

@@ -1,6 +1,7 @@
 #include "meshing/backprojection/edge_sum.h"
 #include "meshing/backprojection/visible_part.h"
 #include "meshing/repair/repair.h"
+#include "tests/support/scenes.h"
 #include "tests/support/triangle_soups.h"
 #include "tests/support/turned_slats.h"
 
@@ -162,6 +163,34 @@ TEST(VisiblePart, TakesNoWorkForWhatCrossesBesideTheEmitter) {
   const SightEffort before = views.effort();
   views.whole({0.1, 0.2, 0}, Vec3::UnitZ(), emitter);
   EXPECT_LT((views.effort() - before).turns, 2000U);
+}
+
+/// A light of 1 by 1 two above the origin's corner, a face below it and 300 triangles in between.
+Scene crowd_behind(const std::vector<Vec3>& face) {
+  Scene scene;
+  const int black = test::add_material(scene, 0, 0), light = test::add_material(scene, 0, 1);
+  test::add_polygon(scene, {{0, 0, 2}, {0, 1, 2}, {1, 1, 2}, {1, 0, 2}}, light);
+  test::add_polygon(scene, face, black);
+  test::Random random(8);
+  for (int k = 0; k < 300; ++k) {
+    const auto corner = [&] { return Vec3(random(0, 1), random(0, 1), random(1.3, 1.9)); };
+    const Vec3 a = corner(), b = corner();
+    test::add_polygon(scene, {a, b, corner()}, black);
+  }
+  return scene;
+}
+
+// One whose border passes a corner of the light, whose ends lie beyond no side of it both; and one
+// that rises above the light.
+TEST(VisiblePart, TakesNoWorkForWhatLiesBehindAFaceThatHidesAll) {
+  for (const std::vector<Vec3>& face :
+       {std::vector<Vec3>{{-0.1, -0.1, 1}, {1.65, -0.1, 1}, {-0.1, 1.65, 1}},
+        std::vector<Vec3>{{-5, -5, 0.2}, {10, -5, 0.2}, {0.5, 20, 4}}}) {
+    Views views(crowd_behind(face));
+    const SightEffort before = views.effort();
+    EXPECT_EQ(views.whole({0.5, 0.5, 0}, Vec3::UnitZ(), views.emitter()).region, Region::umbra);
+    EXPECT_LT((views.effort() - before).turns, 2000U);
+  }
 }
 
 }  // namespace

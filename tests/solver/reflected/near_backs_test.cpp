@@ -58,6 +58,38 @@ TEST(NearBacks, WhatIsMissedOfAStraightEdgeIsKnown) {
   }
 }
 
+/// The same plate in so many strips across its edge.
+ReflectingScene strips_below_a_ceiling(double gap, int strips) {
+  Scene scene;
+  const int white = test::add_material(scene, 0.9, 0);
+  test::add_polygon(scene, {{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}}, white);
+  const int grey = test::add_material(scene, 0.8, 0);  // so that strips are not joined
+  double from = -wide;
+  for (int k = 0; k <= strips; ++k) {
+    const double to = k == strips ? wide : 4. * k / (strips - 1) - 2;
+    test::add_polygon(scene,
+                      {{-wide, from, -gap}, {-wide, to, -gap}, {0, to, -gap}, {0, from, -gap}},
+                      k % 2 == 0 ? white : grey);
+    from = to;
+  }
+  return make_reflecting_scene(make_sound(scene));
+}
+
+TEST(NearBacks, WhatIsNotLookedAtPastManyCountsAsMissed) {
+  constexpr double gap = 0.01;
+  int bright = 0;
+  for (const BackShadow& shadow : shadows(strips_below_a_ceiling(gap, 60), 0)) {
+    if (shadow.share > 0) continue;
+    ++bright;
+    EXPECT_GT(shadow.unsure, 0.3);
+    // What even light past one back would leave unknown, a fifth, is taken for known here.
+    const double known = shadow.share * (1 - shadow.unsure) / 0.8;
+    const double area = 2, lit = 1.5 / area;
+    EXPECT_NEAR(known * lit * lit * area, -M_PI / 4 * gap, 0.1 * gap);
+  }
+  EXPECT_EQ(bright, 1);
+}
+
 TEST(NearBacks, NodesMissLessWhereElementsAreSmall) {
   const ReflectingScene scene = plate_below_a_ceiling(0.03, 0);
   const NearBacks backs(scene);

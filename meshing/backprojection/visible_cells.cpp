@@ -36,15 +36,16 @@ void VisibleCells::collect_faces() {
   for (const auto& [size, triangle] : sizes_) faces_[0].push_back(triangle);
 }
 
-/// How large a triangle looks, roughly.
+/// How large a triangle looks, roughly, whatever the unit of the scene.
 double VisibleCells::size_of(int triangle) const {
   const OpaqueTopology& topology = search_.view.topology();
   const auto& corner = topology.triangles[at(triangle)].corner;
   std::array<Vec3, 3> way;
   for (std::size_t k = 0; k < 3; ++k)
     way[k] = topology.vertices[at(corner[k])] - search_.view.point();
-  const double distance = ((way[0] + way[1] + way[2]) / 3).norm();
-  return std::abs(way[0].dot(way[1].cross(way[2]))) / (distance * distance * distance);
+  const double distance = ((way[0] + way[1] + way[2]) / 3).stableNorm();
+  for (Vec3& w : way) w /= distance;
+  return std::abs(way[0].dot(way[1].cross(way[2])));
 }
 
 bool VisibleCells::make_outline(const Query& query, const Cell& cell) {

@@ -52,7 +52,7 @@ class VisibleCells {
   std::size_t work_ = 0;
   /// By depth: triangles that may lie before a cell; those that look larger first.
   std::vector<std::vector<int>> faces_;
-  std::vector<std::pair<double, int>> sizes_;               ///< of triangles
+  std::vector<std::pair<double, int>> sizes_;  ///< how large they look, negated, and triangles
   std::vector<std::vector<std::array<int, 3>>> triangles_;  ///< of surfaces, vertices; if known
 };
 

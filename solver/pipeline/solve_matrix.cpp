@@ -9,6 +9,7 @@
 #include "solver/pipeline/result_error.h"
 #include "solver/pipeline/solve_light.h"
 #include "solver/pipeline/solve_mesh.h"
+#include "solver/pipeline/sources.h"
 #include "solver/pipeline/subdivide.h"
 
 #include <fmt/format.h>
@@ -62,14 +63,13 @@ SolveMesh make_elements(const SoundScene& scene, const Discontinuities& found, S
 
 /// `exchange_error` is independent of what the mesh does, in the mean. What is measured of direct
 /// light counts beside what the recovery tells of all smooth light, also where it was asked to come
-/// out of the matrix. Where it does because most surfaces emit, it is smooth, and there is too much
-/// to look at.
+/// out of the matrix. Where most surfaces emit, it is smooth, and there is too much to look at.
 void estimate_error(const PreparedScene& prepared, const Plan& plan, const SolveOptions& options,
                     const Eigen::ArrayXd& exchange_error, const Progress& progress, Stages& stages,
                     SolveResult& result) {
   stages.run("error estimate", [&] {
     std::vector<Eigen::ArrayXd> others = {exchange_error};
-    if (plan.no_exact_direct_light.empty() || options.direct_light == DirectLightBy::matrix)
+    if (plan.no_exact_direct_light.empty() || most_surfaces_emit(prepared.scene()).empty())
       others.push_back(
           measured_error(prepared, result.elements, result.solution.direct_irradiance, progress));
     // Squares of light of any size must not over- or underflow.

@@ -64,14 +64,15 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   const SolveOptions options = with_limits(command.options, file.scene.faces.size());
   const ContactLimit limit{static_cast<double>(options.max_elements),
                            contacts_warning(options.max_elements)};
-  const Explanation explanation = use_prepared(
+  Explanation explanation = use_prepared(
       file.scene, limit, context.progress,
       [&](const PreparedScene& prepared) { return explain(prepared, options, context.progress); });
   context.progress_ends();
   const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;
+  print_warnings(file, explanation.warnings, context);
+  add(warnings_of(file), explanation.warnings);
   if (!context.common.json.empty())
     write_explanation(explanation, run_info(context, code, {}), context.common.json);
-  print_warnings(file, explanation.warnings, context);
   if (!context.common.quiet) {
     print_scene(explanation, context.summary);
     print_stages(explanation, context.summary);

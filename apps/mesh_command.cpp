@@ -122,9 +122,10 @@ ExitCode run_prepared(const MeshCommand& command, const SceneFile& file,
   if (!command.picture.empty() && !command.picture_of.empty())
     picture_surfaces(prepared.scene(), {}, command.picture_of);
   require_time(command, prepared.scene());
-  const MeshResult result = mesh_scene(prepared, command.options, context.progress);
+  MeshResult result = mesh_scene(prepared, command.options, context.progress);
   context.progress_ends();
   print_warnings(file, result.warnings, context);
+  add(warnings_of(file), result.warnings);
   if (result.interrupted && result.found.curves.empty()) return end_without_results();
   const auto written = write(command, prepared, result, context);
   const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;

@@ -36,6 +36,13 @@ void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
   for (const Warning& warning : of_result) complain("warning: {}\n", warning.sentence);
 }
 
+std::vector<Warning> warnings_of(const SceneFile& file) {
+  std::vector<Warning> warnings;
+  for (const std::string& text : file.warnings) warnings.push_back({Warning::Kind::not_used, text});
+  for (const std::string& text : file.guesses) warnings.push_back({Warning::Kind::guessed, text});
+  return warnings;
+}
+
 void print_repairs(const SoundScene& scene, const Context& context) {
   if (!context.common.verbose) return;
   for (const Repair& repair : scene.repairs)

@@ -17,6 +17,9 @@ namespace halfshade {
 void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
                     const Context& context);
 
+/// The first of that, for reports.
+std::vector<Warning> warnings_of(const SceneFile& file);
+
 /// Prints what was put right in a scene, if more than the summary is to be told.
 void print_repairs(const SoundScene& scene, const Context& context);
 

@@ -43,6 +43,8 @@ Picture read_png(const std::filesystem::path& path, const std::string& bytes) {
   const std::unique_ptr<png_image, decltype(&png_image_free)> owner(&image, &png_image_free);
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) fail_damaged(path);
   check_size(path, image.width, image.height);
+  // Those of 16 bits are as the others, where the file does not say otherwise.
+  image.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
   // With its opacity, or colours would be mixed with black.
   image.format = PNG_FORMAT_RGBA;
   std::vector<std::uint8_t> rgba(PNG_IMAGE_SIZE(image));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/adapt/element_fit.h"
+#include "solver/direct/direct_light.h"
 #include "solver/elements/element_field.h"
 
 #include <cmath>

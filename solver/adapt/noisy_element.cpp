@@ -20,7 +20,6 @@ constexpr double sure = 2;
 /// area to the power of .4: that is noise to the power of -.3, and less than twice as much of it in
 /// all as without any slack.
 constexpr double power_of_slack = 0.3, most_slack = 16;
-constexpr double most_peaks = 10;
 
 /// No element has more samples than this.
 constexpr int most_samples = 96;
@@ -28,6 +27,10 @@ constexpr int most_samples = 96;
 constexpr double few_samples = 0.5;
 /// An element whose light varies by less than this share of it is worth samples for order 2.
 constexpr double varies_little = 0.3;
+
+/// An edge across an element leaves a sixth of the square of its height on the mean of all places;
+/// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
+constexpr double missed = 3;
 
 constexpr int most_coefficients = basis_size(highest_order);
 using BasisRow = Eigen::Matrix<double, most_coefficients, 1>;
@@ -79,20 +82,6 @@ double slack_of(const NoisyElement& element, double mean_area) {
   return std::clamp(std::pow(mean_area / element.area, power_of_slack), 1., most_slack);
 }
 
-double peaks_of(std::span<const NoisyElement> elements) {
-  double lit = 0, square = 0;
-  Rgb sum = Rgb::Zero();
-  for (const NoisyElement& element : elements) {
-    const Rgb mean = element.coefficients.row(0);  // of the element: the first function is 1
-    if (!(mean.sum() > 0)) continue;
-    lit += element.area;
-    sum += element.area * mean;
-    square += element.area * element.coefficients.matrix().squaredNorm();
-  }
-  const double even = sum.square().sum();
-  return even > 0 ? std::clamp(std::sqrt(square * lit / even), 1., most_peaks) : 1;
-}
-
 Rgb value_at(const NoisyElement& element, const TrianglePlace& place) {
   Eigen::VectorXd phi(element.coefficients.rows());
   basis_at(element.order, place, phi);
@@ -132,6 +121,18 @@ int next_samples(const NoisyElement& element) {
   const bool too_few = element.by_chance > few_samples * element.known_error();
   if (now >= most_samples || !(too_few || now < enough)) return now;
   return std::min(std::max(2 * now, least_samples_of_parts), most_samples);
+}
+
+void suspect_unseen(std::span<const std::array<int, 3>> neighbours,
+                    std::span<NoisyElement> elements) {
+  for (std::size_t e = 0; e < elements.size(); ++e) {
+    double seen = 0;  // by neighbours
+    for (const int n : neighbours[e])
+      if (n >= 0) seen += elements[at(n)].surely_left / 3;
+    NoisyElement& element = elements[e];
+    element.unseen = missed * std::max(seen - std::max(element.left, 0.), 0.) /
+                     static_cast<double>(element.samples.size() + 1);
+  }
 }
 
 void share_samples(const NoisyElement& whole, std::span<const int> parts,

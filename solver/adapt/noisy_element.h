@@ -42,10 +42,6 @@ struct NoisyElement {
 /// the mean, ≥ 1.
 double slack_of(const NoisyElement& element, double mean_area);
 
-/// The root mean square of the values where they are positive, relative to their mean there, from 1
-/// to 10: what is off is judged by the one, noise by the other.
-double peaks_of(std::span<const NoisyElement> elements);
-
 inline FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) {
   return {{position(element.triangle, place), element.normal}, element.surface};
 }
@@ -64,6 +60,11 @@ constexpr int least_samples_of_parts = 6;
 /// them are what it is off by, or where light varies so little that it may be an order that is
 /// missing.
 int next_samples(const NoisyElement& element);
+
+/// Sets `unseen`: an edge of a shadow seen in an element goes on in the next one, whose samples may
+/// miss it.
+void suspect_unseen(std::span<const std::array<int, 3>> neighbours,
+                    std::span<NoisyElement> elements);
 
 /// Gives each sample of an element to the part of it where it lies.
 void share_samples(const NoisyElement& whole, std::span<const int> parts,

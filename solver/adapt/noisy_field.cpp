@@ -4,6 +4,7 @@
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
 #include "solver/adapt/field_beginnings.h"
+#include "solver/adapt/noise_peaks.h"
 #include "solver/adapt/noisy_element.h"
 #include "solver/elements/balancing_scale.h"
 #include "solver/elements/triangle_key.h"
@@ -31,9 +32,9 @@ constexpr double least_of_round = 0.1;
 /// Where elements must not be split, rounds that leave more than this of the square of the error
 /// do not pay.
 constexpr double hardly_less = 0.97;
-/// An edge across an element leaves a sixth of the square of its height on the mean of all places;
-/// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
-constexpr double missed = 3;
+/// Elements, and places that tell how uneven light is before it is known on them.
+constexpr double many_at_first = 5000;
+constexpr int places_for_peaks = 2000;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
@@ -66,6 +67,7 @@ class NoisyFit {
       const auto reaches = [&](const auto& samples) { return share >= samples.first; };
       element.wanted = std::ranges::find_if(first_samples, reaches)->second;
     }
+    find_peaks();
   }
 
   AdaptiveField run() {
@@ -87,6 +89,15 @@ class NoisyFit {
   }
 
  private:
+  /// Where very many elements begin, the noise that they may have is worth some places.
+  void find_peaks() {
+    if (counted_.count < many_at_first) return;
+    const PeakPlaces places = peak_places(elements_, places_for_peaks);
+    const std::vector<NoisyValue> values =
+        sample(places.points, std::vector<double>(places.points.size(), most_peaks));
+    if (values.size() == places.points.size()) peaks_ = peaks_of(places, values);
+  }
+
   double sum_of_reaches() const {
     double sum = 0;
     for (const NoisyElement& element : elements_) sum += element.area * element.reach;
@@ -185,26 +196,16 @@ class NoisyFit {
     if (!scale_) {
       std::vector<Rgb> means;
       for (const NoisyValue& value : values) means.push_back(value.mean());
-      scale_ = balancing_scale(means);
+      if (std::ranges::any_of(means, [](const Rgb& mean) { return (mean > 0).any(); }))
+        scale_ = balancing_scale(means);
     }
-    for (NoisyValue& value : values) value = {value.a * *scale_, value.b * *scale_};
+    const Rgb scale = scale_.value_or(Rgb::Ones());
+    for (NoisyValue& value : values) value = {value.a * scale, value.b * scale};
     return values;
   }
 
-  /// An edge of a shadow seen in an element goes on in the next one, whose samples may miss it.
-  void suspect_unseen() {
-    for (std::size_t e = 0; e < elements_.size(); ++e) {
-      double seen = 0;  // by neighbours
-      for (const int n : table_.neighbours[e])
-        if (n >= 0) seen += elements_[at(n)].surely_left / 3;
-      NoisyElement& element = elements_[e];
-      element.unseen = missed * std::max(seen - std::max(element.left, 0.), 0.) /
-                       static_cast<double>(element.samples.size() + 1);
-    }
-  }
-
   void sum_up() {
-    suspect_unseen();
+    suspect_unseen(table_.neighbours, elements_);
     square_error_ = square_ = 0;
     unknowns_ = 0;
     for (const NoisyElement& element : elements_) {

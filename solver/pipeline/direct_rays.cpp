@@ -19,6 +19,8 @@ constexpr std::size_t many_surfaces = 100;
 constexpr double loose = 0.01;
 constexpr int tried_places = 100;
 constexpr int tried_surfaces = 100;
+/// Of the places: so many with light tell its mean.
+constexpr double enough_lit = 10;
 /// In rays: exact looks that take more than this are not worth trying more of; about a second.
 constexpr double most_to_tell = 5e6;
 /// The same where no light was found yet.
@@ -76,12 +78,15 @@ ExactWork look_exactly(const DirectLightIndex& index, std::vector<SurfacePoint>&
   return work;
 }
 
-/// W/m²: the mean of those of the places that are reached, or, if none are, where light falls.
+/// W/m²: the mean of those of the places that are reached, or, if hardly any are, where light
+/// falls.
 double mean_where_lit(const PreparedScene& prepared, const ExactWork& exact,
                       const Progress& progress) {
-  if (exact.reached > 0) return exact.irradiance / exact.reached;
-  return mean_over_lit_area(
+  const double mean = exact.reached > 0 ? exact.irradiance / exact.reached : 0;
+  if (exact.reached >= enough_lit) return mean;
+  const double found = mean_over_lit_area(
       prepared, [](const Rgb& light) { return light.mean(); }, progress);
+  return found > 0 ? found : mean;
 }
 
 /// Rays follow light that arrives. Throws Error(too_large) where none was found, and exact looks

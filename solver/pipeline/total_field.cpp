@@ -5,6 +5,8 @@
 #include "solver/elements/balancing_scale.h"
 #include "solver/pipeline/field_lookup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -71,17 +73,34 @@ ElementField fitted(const ElementTable& elements, std::vector<int> orders, const
   return field;
 }
 
-bool gathers(FinalGather asked, const ReflectedReport& report) {
-  return asked == FinalGather::on ||
-         (asked == FinalGather::automatic && report.end != ReflectedEnd::accurate &&
-          report.end != ReflectedEnd::interrupted);
+/// Unless it is asked for, a final gather takes no more than so many times what finding the
+/// solution took: rays, or points whose exactly visible parts are looked for; or so few of them.
+constexpr double most_of_solution = 3, few_rays = 5e6, few_points = 5000;
+
+/// Rays whose noise is half of what polynomials are allowed to be off.
+int rays_of_gather(double tolerance) { return gathering_rays(tolerance / 2); }
+
+/// What a final gather takes, relative to finding the solution; 0 if that is little.
+double share_of_gather(const ReflectedReport& report, const ElementField& polynomials,
+                       double tolerance) {
+  double points = 0;
+  for (const int order : polynomials.order)
+    points += static_cast<double>(sampling_rule(order).weights.size());
+  const double work = report.is_exact ? points : points * rays_of_gather(tolerance);
+  if (work <= (report.is_exact ? few_points : few_rays)) return 0;
+  return work / static_cast<double>(report.is_exact ? report.unknowns : report.rays);
 }
 
-/// What arrives of a solution, on elements and of orders that suit its polynomials. Rays whose
-/// noise is half of what these are allowed to be off.
+/// Whether a final gather makes light better that is not as exact as was asked for.
+bool would_help(const ReflectedReport& report) {
+  return report.end != ReflectedEnd::accurate && report.end != ReflectedEnd::nothing &&
+         report.end != ReflectedEnd::interrupted;
+}
+
+/// What arrives of a solution, on elements and of orders that suit its polynomials.
 ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomials,
                       double tolerance, const Progress& progress) {
-  const int rays = gathering_rays(tolerance / 2);
+  const int rays = rays_of_gather(tolerance);
   const ElementTable& elements = polynomials.elements;
   return fitted(
       elements, polynomials.field.order,
@@ -203,7 +222,12 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
                                  {{}, progress.report}, middles_of(*total.reflected));
     return on_elements.elements.corners.size();
   });
-  if (gathers(options.final_gather, report))
+  const double share = share_of_gather(report, on_elements.field, options.reflected.tolerance);
+  const bool is_tried = options.final_gather == FinalGather::automatic && would_help(report);
+  const bool is_dear = share > most_of_solution;
+  stages.leave_out_if(is_tried && is_dear, "final gather",
+                      fmt::format("it takes some {:.2g} times as long as the solution", share));
+  if (options.final_gather == FinalGather::on || (is_tried && !is_dear))
     stages.run("final gather", [&] {
       ElementField field =
           gathered(*total.reflected, on_elements, options.reflected.tolerance, progress);

@@ -181,6 +181,10 @@ const char* name_of(Warning::Kind kind) {
       return "lost_by_factors";
     case Warning::Kind::lamps_uneven:
       return "lamps_uneven";
+    case Warning::Kind::not_used:
+      return "not_used";
+    case Warning::Kind::guessed:
+      return "guessed";
   }
   return "";
 }

@@ -30,7 +30,9 @@ struct Warning {
     exchange_estimated,  ///< form factors were stopped; few rays stand for what is missing
     backs_exchange,      ///< surfaces exchange heat with backs in closed parts of space
     lost_by_factors,     ///< light gets lost in a closed space, for factors are off
-    lamps_uneven         ///< pictures that lamps shine with have more detail than their pieces
+    lamps_uneven,        ///< pictures that lamps shine with have more detail than their pieces
+    not_used,            ///< something in the scene's files
+    guessed              ///< what they do not say
   };
   Kind kind;
   std::string sentence;  ///< without a full stop

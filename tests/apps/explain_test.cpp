@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -112,6 +113,29 @@ TEST(Orientation, WhatLooksAwayFromTheLightIsToldAndCanBeTurned) {
     std::ifstream(folder.path() / "r.json") >> report;
     EXPECT_TRUE(report["warnings"].empty());
     EXPECT_GT(report["groups"][0]["mean_irradiance_w_per_m2"][0], 0.01) << way;
+  }
+}
+
+TEST(Reports, TellWhatWasReadAsTheTerminalDoes) {
+  const test::TempDir folder;
+  folder.write("s.mtl", "newmtl lamp\nKe 1 1 1\nmap_Ke missing.png\nnewmtl grey\n");
+  folder.write("s.obj",
+               "mtllib s.mtl\nv 0 0 2\nv 0 1 2\nv 1 0 2\nf 1 2 3\nusemtl lamp\nv 0 0 0\nv 1 0 0\nv "
+               "0 1 0\nf 4 5 6\n"
+               "usemtl grey\nv 0 0 1\nv 0 1 1\nv 1 0 1\nf 7 8 9\n");
+  for (const char* command : {"solve", "mesh", "explain"}) {
+    const test::Outcome outcome =
+        test::run_halfshade({command, "s.obj", "--json", "r.json"}, folder.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    nlohmann::json report;
+    std::ifstream(folder.path() / "r.json") >> report;
+    std::vector<std::string> kinds;
+    for (const auto& warning : report["warnings"]) {
+      EXPECT_TRUE(has(outcome.err, warning["sentence"].get<std::string>())) << outcome.err;
+      kinds.push_back(warning["kind"]);
+    }
+    EXPECT_NE(std::ranges::find(kinds, "not_used"), kinds.end()) << command;
+    EXPECT_NE(std::ranges::find(kinds, "guessed"), kinds.end()) << command;
   }
 }
 

@@ -3,8 +3,10 @@
 #include "tests/support/files.h"
 
 #include <vtkImageData.h>
+#include <vtkImageWriter.h>
 #include <vtkJPEGWriter.h>
 #include <vtkNew.h>
+#include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -65,17 +67,39 @@ TEST(ReadPictures, AreLinearInLight) {
   EXPECT_EQ(scene.materials[0].rho[0], 1) << "no Kd: the picture alone";
 }
 
-void write_green(const std::filesystem::path& file) {
+/// Of one colour, in values of type `type` up to `most`.
+void write_even(vtkImageWriter& writer, const std::array<double, 3>& colour, int type, double most,
+                const std::filesystem::path& file) {
   vtkNew<vtkImageData> image;
   image->SetDimensions(16, 8, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  image->AllocateScalars(type, 3);
   for (int y = 0; y < 8; ++y)
     for (int x = 0; x < 16; ++x)
-      for (int c = 0; c < 3; ++c) image->SetScalarComponentFromDouble(x, y, 0, c, c == 1 ? 255 : 0);
+      for (int c = 0; c < 3; ++c)
+        image->SetScalarComponentFromDouble(x, y, 0, c, most * colour[at(c)]);
+  writer.SetFileName(file.c_str());
+  writer.SetInputData(image);
+  writer.Write();
+}
+
+void write_green(const std::filesystem::path& file) {
   vtkNew<vtkJPEGWriter> writer;
-  writer->SetFileName(file.c_str());
-  writer->SetInputData(image);
-  writer->Write();
+  write_even(*writer, {0, 1, 0}, VTK_UNSIGNED_CHAR, 255, file);
+}
+
+// Where the file does not say how they are coded; VTK's writer does not.
+TEST(ReadPictures, TakeSixteenBitsAsEight) {
+  const TempDir folder;
+  const std::array<double, 3> shown = {0.2, 0.4, 0.8};
+  folder.write("scene.mtl", "newmtl m\nmap_Kd even.png\n");
+  const auto read = [&](int type, double most) {
+    vtkNew<vtkPNGWriter> writer;
+    write_even(*writer, shown, type, most, folder.path() / "even.png");
+    return colour(read_scene(folder.write("scene.obj", whole_square)).scene, 0, {1, 0.5, 0});
+  };
+  const Rgb eight = read(VTK_UNSIGNED_CHAR, 255), sixteen = read(VTK_UNSIGNED_SHORT, 65535);
+  EXPECT_NEAR(eight[1], 0.1329, 1e-4) << ".4 by the standard's curve";
+  EXPECT_LT((eight - sixteen).abs().maxCoeff(), 1e-6);
 }
 
 TEST(ReadPictures, TakeJpegs) {

@@ -165,6 +165,29 @@ TEST(NoisyField, AllowsMoreNoiseWhereAFewPlacesCarryTheNorm) {
   }
 }
 
+/// Very many elements of which a few carry the norm: their first samples may be as noisy as suits
+/// it.
+TEST(NoisyField, KnowsOfPeaksBeforeManyElementsAreSampled) {
+  PatchMesh mesh = unit_square(0.015);
+  ASSERT_GT(mesh.element_count(), 5000);
+  const Function f = [](const Vec3& p) { return p.x() < 0.02 && p.y() < 0.5 ? 30 : 1; };
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.1;
+  std::vector<std::pair<std::size_t, double>> calls;  // how many places, and the least slack
+  const NoisyFieldAt noisier = [&](std::span<const FieldPoint> points,
+                                   std::span<const double> slack, const Progress& progress) {
+    calls.emplace_back(points.size(), *std::ranges::min_element(slack));
+    return noisy_field_of(f, 0.05)(points, {}, progress);
+  };
+  const AdaptiveField fit = fit_noisy(
+      mesh, noisier, [&](const FieldPoint& p) { return f(p.point.position); }, options);
+  const double norm = std::sqrt(0.99 + 0.01 * 900), mean = 0.99 + 0.01 * 30;
+  ASSERT_GE(calls.size(), 2u);
+  EXPECT_LT(calls[0].first, calls[1].first / 5);
+  EXPECT_NEAR(calls[1].second, norm / mean, 0.1 * norm / mean);
+  EXPECT_LE(true_error(fit, f), 1.15 * fit.report.relative_error);
+}
+
 TEST(NoisyField, SaysWhenALimitStopsIt) {
   PatchMesh mesh = unit_square(0.2);
   AdaptiveFieldOptions options;

@@ -24,8 +24,9 @@ SolveOptions within(double tolerance, FinalGather gather) {
 }
 
 bool has_gathered(const SolveResult& result) {
-  return std::any_of(result.stages.begin(), result.stages.end(),
-                     [](const StageReport& stage) { return stage.name == "final gather"; });
+  return std::any_of(result.stages.begin(), result.stages.end(), [](const StageReport& stage) {
+    return stage.name == "final gather" && stage.left_out_because.empty();
+  });
 }
 
 /// Mean square, of reflected light alone.
@@ -73,6 +74,16 @@ TEST(FinalGather, IsAutomaticWhereTheToleranceIsNotReached) {
   const SolveResult limited = solve(prepared, options);
   EXPECT_EQ(limited.reflected.end, ReflectedEnd::elements);
   EXPECT_TRUE(has_gathered(limited));
+}
+
+TEST(FinalGather, IsLeftOutWhereItTakesLongerThanTheSolution) {
+  SolveOptions options = within(1e-3, FinalGather::automatic);
+  options.max_elements = 1000;
+  const SolveResult result = solve(test::cornell_box(), options);
+  EXPECT_EQ(result.reflected.end, ReflectedEnd::elements);
+  const auto stage = std::ranges::find(result.stages, "final gather", &StageReport::name);
+  ASSERT_NE(stage, result.stages.end());
+  EXPECT_NE(stage->left_out_because.find("times as long"), std::string::npos);
 }
 
 TEST(FinalGather, GoesWithAllLightOnly) {

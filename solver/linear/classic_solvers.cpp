@@ -104,13 +104,18 @@ SweepResult run(const ReflectionProblem& problem, const SweepLimits& limits, Swe
   result.reflected = problem.first;
   const double first = power(problem, problem.first);
   if (!(first > 0)) return result;
+  const auto find_residual = [&] {
+    const Eigen::VectorXd off = gathered(problem, result.reflected) - result.reflected;
+    result.residual = power(problem, off) / first;
+  };
   while (result.sweeps < limits.sweeps && !limits.stop.stop_requested()) {
     result.reflected = once();
     ++result.sweeps;
-    const Eigen::VectorXd off = gathered(problem, result.reflected) - result.reflected;
-    result.history.push_back(power(problem, off) / first);
-    if (result.history.back() <= limits.tolerance) break;
+    find_residual();
+    result.history.push_back(result.residual);
+    if (result.residual <= limits.tolerance) break;
   }
+  if (result.sweeps == 0) find_residual();
   return result;
 }
 

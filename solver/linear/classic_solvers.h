@@ -37,6 +37,7 @@ struct SweepResult {
   int sweeps = 0;
   /// After each sweep: Σ A |first + ρ F R − R|, relative to Σ A first.
   std::vector<double> history;
+  double residual = 0;  ///< the same of `reflected`, also if there was no sweep
   /// Of shooting, if asked for: before the first shot, then at numbers of shots that grow by a half
   /// of an octave each until hardly anything is left to send, and at the end.
   std::vector<ShotStage> stages;

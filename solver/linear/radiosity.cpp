@@ -70,6 +70,21 @@ ChannelSolution solve_channel(const LightExchange& exchange, const Channel& chan
   return solution;
 }
 
+/// Of the reflected radiosity, relative to it. What is left falls as it fell in the last sweep; in
+/// the first ones, after which one was stopped, that is faster than it goes on, and as slow as
+/// where nothing gets lost.
+double error_of_sweeps(const ReflectionProblem& problem, const Eigen::VectorXd& reflected,
+                       const ChannelReport& report, double tolerance) {
+  constexpr double slowest = 0.999999;
+  const std::size_t n = report.history.size();
+  double rate = n > 1 ? report.residual / report.history[n - 2] : 0;
+  if (report.residual > tolerance)
+    rate = std::max(rate, (problem.area * problem.rho.array()).sum() / problem.area.sum());
+  const double first = (problem.area * problem.first.array()).sum(),
+               all = (problem.area * reflected.array()).sum();
+  return all > 0 ? report.residual / (1 - std::min(rate, slowest)) * (first / all) : 0;
+}
+
 /// By the solvers that radiosity began with, all systems at once.
 ChannelSolution sweep_channel(const LightExchange& exchange, const Channel& channel,
                               const RadiosityOptions& options, const Progress& progress,
@@ -83,12 +98,8 @@ ChannelSolution sweep_channel(const LightExchange& exchange, const Channel& chan
                              options.stages && shoots(options.solver), progress.stop});
   report.iterations = swept.sweeps;
   report.history = std::move(swept.history);
-  if (const std::size_t n = report.history.size(); n > 0) {
-    report.residual = report.history.back();
-    // What is left falls as it fell in the last sweep.
-    const double rate = n > 1 ? std::min(report.residual / report.history[n - 2], 0.999999) : 0;
-    report.error = report.residual / (1 - rate);
-  }
+  report.residual = swept.residual;
+  report.error = error_of_sweeps(problem, swept.reflected, report, options.tolerance);
   ChannelSolution solution;
   solution.stages = std::move(swept.stages);
   solution.reflected = std::move(swept.reflected);

@@ -4,9 +4,11 @@
 #include "solver/elements/material_arrays.h"
 #include "solver/exchange/estimated_factors.h"
 #include "solver/pipeline/gap_light.h"
+#include "solver/pipeline/level_error.h"
 #include "solver/pipeline/require_limits.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -108,8 +110,12 @@ SolvedLight solve_light(const PreparedScene& prepared, const ElementTable& eleme
                                      radiosity_options, light.radiosity, progress);
     light.solution.region = std::move(direct.region);
     const ChannelArray& sent = light.solution.radiosity;
-    light.exchange_error =
+    const Eigen::ArrayXd estimated =
         estimation_error(exchange, is_exact ? ChannelArray(sent - materials.exitance) : sent);
+    const Eigen::ArrayXd of_level =
+        level_error(elements, exchange, materials, light.solution.irradiance);
+    light.exchange_error =
+        estimated.binaryExpr(of_level, [](double a, double b) { return std::hypot(a, b); });
     light.in_gaps = light_in_gaps(exchange, materials, light.solution.irradiance);
     return static_cast<std::size_t>(light.radiosity.unknowns);
   });

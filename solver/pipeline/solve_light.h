@@ -11,7 +11,8 @@ struct SolvedLight {
   Solution solution;  ///< without an error estimate
   ExchangeReport exchange;
   RadiosityReport radiosity;
-  /// Standard deviation of the irradiance that estimated factors make, see estimation_error.
+  /// What the irradiance is off by for estimated factors and for light that gets lost, see
+  /// estimation_error and level_error. W/m².
   Eigen::ArrayXd exchange_error;
   double in_gaps = 0;  ///< see light_in_gaps
 };

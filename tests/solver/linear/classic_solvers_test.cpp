@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <stop_token>
 
 namespace halfshade {
 namespace {
@@ -182,6 +183,36 @@ TEST(ClassicSolvers, AllAgreeInAnyScene) {
       for (Eigen::Index c = 0; c < 3; ++c) mixed(i, c) = random(0.05, 0.99);
     for (const ChannelArray& rho : {mixed, even(0.3, count), even(0.9, count), even(0, count)})
       expect_agreement(exchange, rho);
+  }
+}
+
+// What is left of a residual of one sign in a closed room of one reflectance follows from that.
+TEST(ClassicSolvers, KnowHowFarTheyAreWhereverTheyAreStopped) {
+  const Exchange exchange = test::cube(4);
+  const auto area = exchange.area.replicate<1, 3>();
+  std::stop_source stopped;
+  stopped.request_stop();
+  for (const double rho : {0.5, 0.9, 0.985}) {
+    const ChannelArray rhos = even(rho, exchange.area.size());
+    const ChannelArray exitance = wall_light(rhos.rows());
+    RadiosityReport report;
+    const Solution right =
+        solved(exchange, rhos, RadiositySolver::conjugate_gradients, 1e-13, 1000, report);
+    for (const RadiositySolver solver :
+         {RadiositySolver::jacobi, RadiositySolver::gauss_seidel, RadiositySolver::southwell})
+      for (const int sweeps : {0, 1, 2, 5}) {
+        RadiosityOptions options;
+        options.solver = solver;
+        options.max_sweeps = std::max(sweeps, 1);
+        const Progress progress{sweeps == 0 ? stopped.get_token() : std::stop_token(), {}};
+        const Solution found =
+            solve_radiosity(exchange, rhos, exitance, {}, options, report, progress);
+        const double off = (area * (found.radiosity - right.radiosity).abs()).sum() /
+                           (area * (found.radiosity - exitance)).sum();
+        // One more exchange makes the light that is shown.
+        EXPECT_LE(off, 1.001 * report.channel[0].error) << rho << ' ' << sweeps;
+        EXPECT_GE(3 * off, report.channel[0].error) << rho << ' ' << sweeps;
+      }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <string_view>
 
 namespace halfshade {
 namespace {
@@ -263,6 +264,9 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
     SolveOptions& options = command.options;
     const auto given = [&app](const char* name) { return is_given(app, name); };
     options.radiosity.stages = given("--progressive");
+    // Saved factors are a matrix: that this is the method is all that may be said of it.
+    const bool is_matrix = options.method == SolveMethod::matrix;
+    if (!command.factors.empty()) options.method = SolveOptions().method;
     if ((given("--elements") || given("--max-length")) && !given("--refine"))
       options.refine = Refinement::uniform;
     command.needs_tolerance = given("--tolerance") && (options.refine == Refinement::uniform ||
@@ -275,7 +279,7 @@ void add_solve(CLI::App& program, SolveCommand& command, CommonOptions& common) 
       note_idle_of_method(app, options, common.notes);
     if (command.factors.empty()) return;
     for (const char* name : needless_with_saved_factors)
-      if (given(name))
+      if (given(name) && !(is_matrix && std::string_view(name) == "--method"))
         throw CLI::ValidationError(
             name, fmt::format("has no part in a solution by saved form factors (--factors {})",
                               command.factors.string()));

@@ -19,8 +19,8 @@ constexpr std::size_t many_surfaces = 100;
 constexpr double loose = 0.01;
 constexpr int tried_places = 100;
 constexpr int tried_surfaces = 100;
-/// Of the places: so many with light tell its mean.
-constexpr double enough_lit = 10;
+/// Of the places: so many with light tell its mean, or rather less, which is on the safe side.
+constexpr double enough_lit = 3;
 /// In rays: exact looks that take more than this are not worth trying more of; about a second.
 constexpr double most_to_tell = 5e6;
 /// The same where no light was found yet.

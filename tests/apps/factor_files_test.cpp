@@ -69,6 +69,11 @@ TEST(FactorFiles, OfAnotherSceneAreRefused) {
   folder.write("moved.obj", scene(".5"));
   ASSERT_EQ(run({"factors", "plates.obj", "--by", "face", "-o", "f.mtx"}).exit_code, 0);
   EXPECT_EQ(run({"solve", "plates.obj", "--factors", "f.mtx", "-o", "o.vtu"}).exit_code, 0);
+  const auto by_method = [&](const std::string& method) {
+    return run({"solve", "plates.obj", "--factors", "f.mtx", "-o", "o.vtu", "--method", method});
+  };
+  EXPECT_EQ(by_method("matrix").exit_code, 0) << "that is what they are";
+  EXPECT_EQ(by_method("fields").exit_code, 2);
   std::string text = test::contents(folder.path() / "f.mtx");
   for (const std::vector<std::string>& command :
        {std::vector<std::string>{"solve", "moved.obj", "--factors", "f.mtx", "-o", "o.vtu"},

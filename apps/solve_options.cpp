@@ -78,7 +78,7 @@ void add_light(CLI::App& app, SolveCommand& command) {
       },
       "Reflected light in files: the polynomials it was solved for as ('off'), or gathered once\n"
       "more at points of each element, which is more exact and takes longer ('on'); 'auto' does\n"
-      "so where the tolerance was not reached");
+      "so where the tolerance was not reached, if that takes but a few times as long");
   add_factors_by(app, options.exchange, &command.factors);
   add_choice(
       app, "--solver",

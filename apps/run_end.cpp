@@ -38,7 +38,9 @@ void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
 
 std::vector<Warning> warnings_of(const SceneFile& file) {
   std::vector<Warning> warnings;
-  for (const std::string& text : file.warnings) warnings.push_back({Warning::Kind::not_used, text});
+  for (const std::string& text : file.warnings)
+    warnings.push_back(
+        {text == file.lamps.limit ? Warning::Kind::lamps_uneven : Warning::Kind::in_files, text});
   for (const std::string& text : file.guesses) warnings.push_back({Warning::Kind::guessed, text});
   return warnings;
 }

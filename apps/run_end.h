@@ -17,7 +17,7 @@ namespace halfshade {
 void print_warnings(const SceneFile& file, std::span<const Warning> of_result,
                     const Context& context);
 
-/// The first of that, for reports.
+/// The first of that, for reports: what was printed already.
 std::vector<Warning> warnings_of(const SceneFile& file);
 
 /// Prints what was put right in a scene, if more than the summary is to be told.

@@ -227,10 +227,7 @@ ExitCode run(const SolveCommand& given, const Context& context) {
   require_tolerance(command, result);
   context.progress_ends();
   print_warnings(file, result.warnings, context);
-  // Told already, as what was read.
   add(warnings_of(file), result.warnings);
-  if (file.lamps.is_limited)
-    result.warnings.push_back({Warning::Kind::lamps_uneven, file.lamps.limit});
   if (!is_worth_writing(result)) return end_without_results();
   for (const auto& path : outputs) write(result, command, context, path);
   if (!command.progressive.empty() && !result.radiosity.stages.empty())

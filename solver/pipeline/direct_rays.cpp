@@ -127,7 +127,8 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
   const double irradiance = mean_where_lit(prepared, exact, progress);
   if (!(irradiance > 0)) require_light(scene, exact, by_area.size());
   const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
-  if (!(irradiance > 0) || progress.stopped()) return {};
+  // Places that lie before no emitter take nothing.
+  if (!(irradiance > 0) || exact.effort.looks == 0 || progress.stopped()) return {};
   RayLightOptions rays;
   rays.deviation = deviation_for_tolerance * options.tolerance * irradiance;
   rays.most_rays = std::max(exact.rays() / static_cast<double>(exact.effort.looks), 1.);

@@ -222,12 +222,14 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
                                  {{}, progress.report}, middles_of(*total.reflected));
     return on_elements.elements.corners.size();
   });
-  const double share = share_of_gather(report, on_elements.field, options.reflected.tolerance);
-  const bool is_tried = options.final_gather == FinalGather::automatic && would_help(report);
-  const bool is_dear = share > most_of_solution;
-  stages.leave_out_if(is_tried && is_dear, "final gather",
-                      fmt::format("it takes some {:.2g} times as long as the solution", share));
-  if (options.final_gather == FinalGather::on || (is_tried && !is_dear))
+  bool gathers = options.final_gather == FinalGather::on;
+  if (options.final_gather == FinalGather::automatic && would_help(report)) {
+    const double share = share_of_gather(report, on_elements.field, options.reflected.tolerance);
+    gathers = share <= most_of_solution;
+    stages.leave_out_if(!gathers, "final gather",
+                        fmt::format("it takes some {:.2g} times as long as the solution", share));
+  }
+  if (gathers)
     stages.run("final gather", [&] {
       ElementField field =
           gathered(*total.reflected, on_elements, options.reflected.tolerance, progress);

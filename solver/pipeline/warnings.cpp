@@ -181,8 +181,8 @@ const char* name_of(Warning::Kind kind) {
       return "lost_by_factors";
     case Warning::Kind::lamps_uneven:
       return "lamps_uneven";
-    case Warning::Kind::not_used:
-      return "not_used";
+    case Warning::Kind::in_files:
+      return "in_files";
     case Warning::Kind::guessed:
       return "guessed";
   }

@@ -31,7 +31,7 @@ struct Warning {
     backs_exchange,      ///< surfaces exchange heat with backs in closed parts of space
     lost_by_factors,     ///< light gets lost in a closed space, for factors are off
     lamps_uneven,        ///< pictures that lamps shine with have more detail than their pieces
-    not_used,            ///< something in the scene's files
+    in_files,            ///< something in the scene's files is not used, or not as it may be meant
     guessed              ///< what they do not say
   };
   Kind kind;

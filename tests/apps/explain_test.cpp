@@ -1,3 +1,4 @@
+#include "io/picture/picture.h"
 #include "tests/support/files.h"
 #include "tests/support/places.h"
 #include "tests/support/process.h"
@@ -134,9 +135,34 @@ TEST(Reports, TellWhatWasReadAsTheTerminalDoes) {
       EXPECT_TRUE(has(outcome.err, warning["sentence"].get<std::string>())) << outcome.err;
       kinds.push_back(warning["kind"]);
     }
-    EXPECT_NE(std::ranges::find(kinds, "not_used"), kinds.end()) << command;
+    EXPECT_NE(std::ranges::find(kinds, "in_files"), kinds.end()) << command;
     EXPECT_NE(std::ranges::find(kinds, "guessed"), kinds.end()) << command;
   }
+}
+
+// A lamp of black and white texels close over the floor takes more pieces than there may be.
+TEST(Reports, NameALampWithTooMuchDetailOnce) {
+  const test::TempDir folder;
+  Picture checks{16, 16, 1, {}, {}};
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 16; ++x)
+      checks.pixels.insert(checks.pixels.end(), 3, (x + y) % 2 == 0 ? 255 : 0);
+  write_png(checks, folder.path() / "checks.png");
+  folder.write("s.mtl",
+               "newmtl floor\nKd .5 .5 .5\nnewmtl lamp\nKd 0 0 0\nKe 1 1 1\n"
+               "map_Ke checks.png\n");
+  folder.write("s.obj",
+               "mtllib s.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 .1\nv 0 1 .1\n"
+               "v 1 1 .1\nv 1 0 .1\nvt 0 0\nvt 0 1\nvt 1 1\nvt 1 0\nusemtl floor\n"
+               "f 1 2 3 4\nusemtl lamp\nf 5/1 6/2 7/3 8/4\n");
+  const test::Outcome outcome =
+      test::run_halfshade({"solve", "s.obj", "--bounces", "0", "--json", "r.json"}, folder.path());
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  nlohmann::json report;
+  std::ifstream(folder.path() / "r.json") >> report;
+  ASSERT_EQ(report["warnings"].size(), 1u) << report["warnings"];
+  EXPECT_EQ(report["warnings"][0]["kind"], "lamps_uneven");
+  EXPECT_TRUE(has(outcome.err, report["warnings"][0]["sentence"].get<std::string>()));
 }
 
 }  // namespace

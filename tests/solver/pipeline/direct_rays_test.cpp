@@ -1,11 +1,16 @@
 #include "solver/pipeline/direct_rays.h"
 
 #include "solver/pipeline/solve.h"
+#include "solver/pipeline/spread_places.h"
 #include "tests/support/direct_error.h"
+#include "tests/support/random.h"
 #include "tests/support/room_families.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
+
+#include <numeric>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -34,6 +39,50 @@ TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
   EXPECT_EQ(direct_rays(crowded, forced).deviation, 0);
   EXPECT_EQ(direct_rays(PreparedScene(test::furnished_room(50)), test::directly(0.05)).deviation,
             0);
+}
+
+/// Triangles through each other, of which the first shines.
+Scene soup(std::uint64_t seed) {
+  test::Random random(seed);
+  Scene scene;
+  const int grey = test::add_material(scene, 0.5, 0), lamp = test::add_material(scene, 0.2, 10);
+  for (int k = 0; k < 150; ++k) {
+    const Vec3 middle = random.point(0, 1);
+    test::add_polygon(scene,
+                      {middle + random.point(-0.4, 0.4), middle + random.point(-0.4, 0.4),
+                       middle + random.point(-0.4, 0.4)},
+                      k == 0 ? lamp : grey);
+  }
+  return scene;
+}
+
+/// W/m², in the mean over what is lit.
+double mean_of_lit(const PreparedScene& prepared) {
+  std::vector<int> all(prepared.scene().surfaces.size());
+  std::iota(all.begin(), all.end(), 0);
+  double sum = 0, lit = 0;
+  for (const DirectLight& light :
+       prepared.direct_light().irradiance(spread_places(prepared.scene(), all, 20000).points)) {
+    sum += light.irradiance.mean();
+    lit += light.irradiance.mean() > 0;
+  }
+  return sum / lit;
+}
+
+// One or two of the hundred places that are tried get light: much less than the mean in one of the
+// scenes, and twice as much in the other.
+TEST(DirectRays, AreAsNoisyAsSuitsTheLightWhereHardlyAnyPlaceGetsAny) {
+  for (const std::uint64_t seed : {17, 24}) {
+    const PreparedScene prepared(soup(seed));
+    const double right = 1.5 * 0.03 * mean_of_lit(prepared);
+    const double deviation = direct_rays(prepared, test::directly(0.03)).deviation;
+    EXPECT_GT(deviation, 0.5 * right) << seed;
+    EXPECT_LT(deviation, 1.5 * right) << seed;
+  }
+}
+
+TEST(DirectRays, AreNotNeededWhereNoPlaceLiesBeforeALamp) {
+  EXPECT_EQ(direct_rays(PreparedScene(soup(32)), test::directly(0.03)).deviation, 0);
 }
 
 TEST(DirectRays, SolveToTheToleranceAsked) {

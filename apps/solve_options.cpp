@@ -51,7 +51,7 @@ void add_size(CLI::App& app, SolveOptions& options) {
   add_whole(
       app, "--max-unknowns", options.max_unknowns, {1, 100000000},
       "Make no more coefficients than this, for each channel (default: 4 for each of these\n"
-      "elements, at least 1000000), nor trace more than 75 rays to emitters for each of them");
+      "elements, at least 1000000), nor trace more than 200 rays to emitters for each of them");
 }
 
 void add_light(CLI::App& app, SolveCommand& command) {

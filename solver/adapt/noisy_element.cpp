@@ -14,12 +14,12 @@ namespace {
 constexpr int highest_order = 2;
 /// Samples for one coefficient, at least.
 constexpr int samples_each = 2;
-/// Standard deviations of a sum of squares of noise that more is no noise.
+/// Standard deviations that more is no noise, of a sum of squares of it and of what it is thought
+/// to be, which as many samples tell.
 constexpr double sure = 2;
 /// With n^-1.5 as the variance of n rays, what they can do for all elements is most with n as the
-/// area to the power of .4: that is noise to the power of -.3, and less than twice as much of it in
-/// all as without any slack.
-constexpr double power_of_slack = 0.3, most_slack = 16;
+/// area to the power of .4: that is noise to the power of -.3.
+constexpr double power_of_slack = 0.3, most_slack = 3;
 
 /// No element has more samples than this.
 constexpr int most_samples = 96;
@@ -65,18 +65,26 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples,
     spread += (samples[k].value.mean().matrix() -
                result.coefficients.transpose().lazyProduct(basis[k].head(size)))
                   .squaredNorm();
-  const double freedom = static_cast<double>(samples.size()) - static_cast<double>(size);
+  const auto count = static_cast<double>(samples.size());
+  const double freedom = count - static_cast<double>(size);
   spread /= freedom;
   const double trace = inverse.trace();
   if (!(factors.isPositive() && std::isfinite(spread) && trace > 0 && std::isfinite(trace)))
     return result;
   result.left = spread - noise;
-  result.surely_left = std::max(result.left - sure * noise * std::sqrt(2 / freedom), 0.);
+  result.surely_left =
+      std::max(result.left - sure * noise * std::sqrt(2 / freedom + 2 / count), 0.);
   result.by_chance = std::max(spread, noise) * trace;
   return result;
 }
 
 }  // namespace
+
+double known_error(std::span<const NoisyElement> elements) {
+  double sum = 0;
+  for (const NoisyElement& element : elements) sum += element.area * element.known_error();
+  return sum;
+}
 
 double slack_of(const NoisyElement& element, double mean_area) {
   return std::clamp(std::pow(mean_area / element.area, power_of_slack), 1., most_slack);

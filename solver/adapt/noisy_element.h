@@ -16,10 +16,11 @@ struct NoisySample {
 /// An element of a noisy field while it is made.
 struct NoisyElement {
   std::array<Vec3, 3> triangle;
-  Vec3 normal;
+  Vec3 normal = Vec3::Zero();
   int surface = 0;
   double area = 0;
   double reach = -1;  ///< square of what light there does not exceed, as a share; < 0: not known
+  double slack = 1;   ///< how many times as noisy as usual each of its samples may be
   int wanted = 0;     ///< samples
   std::vector<NoisySample> samples;
   bool is_fitted = false;
@@ -38,8 +39,11 @@ struct NoisyElement {
   double known_error() const { return surely_left + by_chance + unseen; }
 };
 
-/// How many times as much noise as usual each sample may have: more where elements are smaller than
-/// the mean, ≥ 1.
+/// ∫ of that over all of them.
+double known_error(std::span<const NoisyElement> elements);
+
+/// What slack an element has to begin with, and its parts keep: more where it is smaller than the
+/// mean.
 double slack_of(const NoisyElement& element, double mean_area);
 
 inline FieldPoint point_at(const NoisyElement& element, const TrianglePlace& place) {

@@ -2,12 +2,11 @@
 
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
-#include "meshing/geometry/mix_bits.h"
 #include "solver/adapt/field_beginnings.h"
+#include "solver/adapt/fresh_places.h"
 #include "solver/adapt/noise_peaks.h"
 #include "solver/adapt/noisy_element.h"
 #include "solver/elements/balancing_scale.h"
-#include "solver/elements/triangle_key.h"
 
 #include <fmt/format.h>
 
@@ -40,9 +39,7 @@ constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
 constexpr double most_fresh = 40000, least_fresh = 10000;
 constexpr double fresh_for_one = 0.2;  ///< element
-/// Of the density of fresh places, what has nothing to do with the estimate: half of it by area,
-/// half by the square of what light may be there, which bounds what one place can add.
-constexpr double even_share = 0.5;
+constexpr int most_comparisons = 4;    ///< of so many places each
 /// Of the square of the error allowed: what is looked for at least; and how surely.
 constexpr double least_estimate = 1e-3, deviations = 3;
 
@@ -62,7 +59,9 @@ class NoisyFit {
       : mesh_(mesh), field_(field), bound_(bound), options_(options), progress_(progress) {
     take_elements();
     const double each = sum_of_reaches() / counted_.count;
+    const double mean_area = counted_.area / counted_.count;
     for (NoisyElement& element : elements_) {
+      element.slack = slack_of(element, mean_area);
       const double share = each > 0 ? element.area * element.reach / each : 1;
       const auto reaches = [&](const auto& samples) { return share >= samples.first; };
       element.wanted = std::ranges::find_if(first_samples, reaches)->second;
@@ -135,7 +134,9 @@ class NoisyFit {
       element.surface = table_.surface[at(e)];
       element.area = table_.area[at(e)];
       element.wanted = least_samples_of_parts;
-      if (known >= 0) parts[at(index_before[at(known)])].push_back(e);
+      if (known < 0) continue;
+      element.slack = before[at(index_before[at(known)])].slack;
+      parts[at(index_before[at(known)])].push_back(e);
     }
     for (std::size_t whole = 0; whole < before.size(); ++whole)
       share_samples(before[whole], parts[whole], elements_);
@@ -157,7 +158,6 @@ class NoisyFit {
 
   /// As many samples as are wanted, and what follows from them.
   void sample_and_fit() {
-    const double mean_area = counted_.area / counted_.count;
     std::vector<FieldPoint> points;
     std::vector<double> slack;
     std::vector<int> changed;
@@ -173,7 +173,7 @@ class NoisyFit {
         places.push_back(spread_place(start + k));
         points.push_back(point_at(element, places.back()));
       }
-      slack.resize(points.size(), peaks_ * slack_of(element, mean_area));
+      slack.resize(points.size(), peaks_ * element.slack);
     }
     first.push_back(places.size());
     const std::vector<NoisyValue> values = sample(points, slack);
@@ -216,52 +216,25 @@ class NoisyFit {
     peaks_ = peaks_of(elements_);
   }
 
-  /// Compares the elements with samples that they do not know, at places that are drawn where the
-  /// error is thought to be, and elsewhere.
+  /// Compares the elements with samples that they do not know; with more of them while what these
+  /// are off by chance is most of what they say, and too much.
   void compare() {
-    const double even = even_share / 2 * estimated() / counted_.area;
-    const double reaches = sum_of_reaches();
-    // Of places that are drawn, but for a factor: where light may reach far, it may be far off.
-    const auto density = [&](const NoisyElement& element) {
-      return (1 - even_share) * element.known_error() +
-             (counts(options_, element.surface) ? even : 0) +
-             (reaches > 0 ? even_share / 2 * estimated() * element.reach / reaches : 0);
-    };
-    double sum = 0;
-    for (const NoisyElement& element : elements_) sum += element.area * density(element);
     const double count = std::clamp(fresh_for_one * counted_.count, least_fresh, most_fresh);
-    std::vector<FieldPoint> points;
-    std::vector<std::pair<std::size_t, TrianglePlace>> places;
-    for (std::size_t e = 0; e < elements_.size() && sum > 0; ++e) {
-      const NoisyElement& element = elements_[e];
-      // As many as its share in the mean of such draws, whatever there is besides.
-      const double draw = unit_share(
-          mix_bits(triangle_key(element.triangle) + static_cast<std::uint64_t>(report_.rounds)));
-      const auto end =
-          element.samples.size() +
-          static_cast<std::size_t>(count * element.area * density(element) / sum + draw);
-      const std::size_t start = first_spread(element.triangle);
-      for (std::size_t k = element.samples.size(); k < end; ++k) {
-        places.emplace_back(e, spread_place(start + k));
-        points.push_back(point_at(element, places.back().second));
-      }
-    }
-    const std::vector<NoisyValue> values =
-        sample(points, std::vector<double>(points.size(), peaks_));
-    if (values.size() < points.size() || points.empty()) return;
-    double mean = 0, mean_square = 0;
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      NoisyElement& element = elements_[places[k].first];
-      const Rgb fitted = value_at(element, places[k].second);
-      const double product =
-          ((values[k].a - fitted) * (values[k].b - fitted)).sum() * sum / density(element);
-      mean += product / count;
-      mean_square += product * product / count;
-      element.samples.push_back({places[k].second, values[k]});
-    }
-    // How many there are is random, too: nothing is known of the mean beforehand.
-    correction_ = std::max((mean + deviations * std::sqrt(mean_square / count)) / estimated(), 1.);
-    correction_of_round_ = report_.rounds;
+    SquareError error;
+    double by_chance = 0;
+    do {
+      const auto draw =
+          static_cast<std::uint64_t>(report_.rounds * most_comparisons + error.count());
+      const FreshPlaces fresh = fresh_places(elements_, options_, estimated(), count, draw);
+      const std::vector<NoisyValue> values =
+          sample(fresh.points, std::vector<double>(fresh.points.size(), peaks_));
+      if (values.size() < fresh.points.size() || fresh.points.empty()) break;
+      error.add(fresh, values, elements_);
+      by_chance = deviations * error.deviation();
+      correction_ = std::max((error.mean() + by_chance) / estimated(), 1.);
+      correction_of_round_ = report_.rounds;
+    } while (error.count() < most_comparisons && by_chance > error.mean() &&
+             corrected() > allowed());
   }
 
   /// False, with a limit set, if nothing can be done.
@@ -326,11 +299,9 @@ class NoisyFit {
   /// The fewest elements that are likely to make the error do, and without which it would.
   std::vector<int> worst() const {
     std::vector<std::pair<double, int>> heap;  // error and −index
-    double known = 0;
-    for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
+    for (int e = 0; e < static_cast<int>(elements_.size()); ++e)
       heap.emplace_back(elements_[at(e)].area * elements_[at(e)].known_error(), -e);
-      known += heap.back().first;
-    }
+    const double known = known_error(elements_);
     // The sum over elements of what noise did not surely make is not what is said of all together.
     const double most = std::clamp(allowed() / correction_, least_of_round * known, known);
     const double may_stay = noisy_share_left_alone * most, aim = aim_of_round * most;
@@ -355,11 +326,14 @@ class NoisyFit {
     for (const NoisyElement& element : elements_) order.push_back(element.order);
     out.field = zero_field(std::move(order));
     out.error.resize(static_cast<Eigen::Index>(elements_.size()));
+    // Of each, only that is known which noise did not make; together they are off by all there is.
+    const double known = known_error(elements_);
+    const double share = known > 0 ? corrected() / known : 0;
     const Rgb unscaled = scale_.value_or(Rgb::Ones()).inverse();
     for (int e = 0; e < out.field.count(); ++e) {
       const NoisyElement& element = elements_[at(e)];
       out.field.of(e) = element.coefficients.rowwise() * unscaled.transpose();
-      out.error[e] = std::sqrt(correction_ * element.known_error()) * unscaled.maxCoeff();
+      out.error[e] = std::sqrt(share * element.known_error()) * unscaled.maxCoeff();
     }
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;

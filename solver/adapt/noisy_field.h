@@ -17,8 +17,9 @@ using FieldBound = std::function<double(const FieldPoint&)>;
 /// samples are dear: orders 0 to 2 by least squares through samples at places that are as good as
 /// random, which stay with the parts when an element is bisected. Elements begin with as many as
 /// `bound` says that they matter, and may be noisier where they are small: most of very many are,
-/// and what they are off hardly counts. All may be where light is uneven, once that is known, of
-/// very many elements from a few places beforehand: usual noise suits a tolerance of the mean.
+/// and what they are off hardly counts. Their parts may be no noisier than they: those gather where
+/// light is. All may be where light is uneven, once that is known, of very many elements from a few
+/// places beforehand: usual noise suits a tolerance of the mean.
 ///
 /// What an element may be off follows from what is left at its samples, less the noise, and from
 /// how many they are. Before it is believed, samples at new places are compared: the product of

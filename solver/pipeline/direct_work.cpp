@@ -8,7 +8,7 @@ namespace halfshade {
 namespace {
 
 /// For each unknown that there may be.
-constexpr double crowd_work_for_one = 60, rays_for_one = 150;
+constexpr double crowd_work_for_one = 60, rays_for_one = 200;
 
 }  // namespace
 

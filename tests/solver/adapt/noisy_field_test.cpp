@@ -133,6 +133,53 @@ TEST(NoisyField, AllowsSmallElementsMoreNoise) {
   EXPECT_LE(true_error(fit, waves), 1.15 * fit.report.relative_error);
 }
 
+/// Or light in small elements would never be as exact as the tolerance.
+TEST(NoisyField, AllowsPartsOfElementsNoMoreNoise) {
+  double first = 0, later = 0;
+  const NoisyFieldAt noisier = [&](std::span<const FieldPoint> points,
+                                   std::span<const double> slack, const Progress& progress) {
+    (first == 0 ? first : later) = std::max(later, *std::ranges::max_element(slack));
+    return noisy_field_of(step, 0.01)(points, {}, progress);
+  };
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.02;
+  PatchMesh mesh = unit_square(0.3);
+  const AdaptiveField fit = fit_noisy(mesh, noisier, one, options);
+  const auto [least, most] = std::ranges::minmax(fit.elements.area);
+  EXPECT_LT(least, 0.01 * most);
+  EXPECT_LT(later, 1.5 * first);
+}
+
+/// Of single elements only that is known which noise did not make.
+TEST(NoisyField, ElementsTogetherAreOffByWhatAllAre) {
+  PatchMesh mesh = unit_square(0.1);
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.05;
+  const AdaptiveField fit = fit_noisy(mesh, noisy_field_of(shadows, 0.05), one, options);
+  double error = 0, norm = 0;
+  for (int e = 0; e < fit.field.count(); ++e) {
+    error += fit.elements.area[e] * std::pow(fit.error[e], 2);
+    norm += fit.elements.area[e] * fit.field.of(e).matrix().squaredNorm();
+  }
+  EXPECT_NEAR(std::sqrt(error / norm), fit.report.relative_error, 1e-9 * fit.report.relative_error);
+}
+
+/// A few places with a spot that elements do not know of may say anything.
+TEST(NoisyField, LooksAtMorePlacesWhereFewSayTooLittle) {
+  const auto samples = [](double height) {
+    const Function f = [=](const Vec3& p) {
+      return 1 + height * std::exp(-2e4 * (p - Vec3(0.52, 0.43, 0)).squaredNorm());
+    };
+    PatchMesh mesh = unit_square(0.3);
+    AdaptiveFieldOptions options;
+    options.tolerance = 0.02;
+    options.samples_left = [] { return 0.; };
+    return fit_noisy(mesh, noisy_field_of(f, 0.01), one, options).report.samples;
+  };
+  EXPECT_LT(samples(0), 12000u);
+  EXPECT_GT(samples(20), 20000u);
+}
+
 /// A small surface and a large one, each evenly lit: noise may grow with the norm over the mean.
 TEST(NoisyField, AllowsMoreNoiseWhereAFewPlacesCarryTheNorm) {
   SoundScene scene = test::empty_sound_scene(2.);

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <span>
+#include <string>
 #include <string_view>
 
 namespace halfshade {
@@ -17,5 +19,13 @@ void write_atomically(const std::filesystem::path& target,
 
 /// The same for contents that are in memory; "-" is the standard output.
 void write_atomically(const std::filesystem::path& target, std::string_view bytes);
+
+struct FileBytes {
+  std::filesystem::path target;
+  std::string bytes;
+};
+
+/// The same for files that belong together: where one cannot be written, all stay as they were.
+void write_together(std::span<const FileBytes> files);
 
 }  // namespace halfshade

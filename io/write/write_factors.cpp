@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <iterator>
 #include <string>
 
@@ -128,8 +129,9 @@ void write_factors(const FactorMatrix& matrix, const Provenance& provenance, con
   if (!is_standard_stream(path)) require_format(path, factor_formats);
   const std::vector<fs::path> files = factor_files(path);
   if (files.size() == 1) return write_atomically(path, table_bytes(matrix, provenance));
-  write_atomically(files[1], names_bytes(matrix, provenance));
-  write_atomically(files[0], matrix_market_bytes(matrix, provenance));
+  const std::array<FileBytes, 2> both = {{{files[0], matrix_market_bytes(matrix, provenance)},
+                                          {files[1], names_bytes(matrix, provenance)}}};
+  write_together(both);
 }
 
 void write_report(const FactorMatrix& matrix, const RunInfo& run, const fs::path& path) {

@@ -1,10 +1,12 @@
 #include "io/files/atomic_file.h"
 
+#include "meshing/core/error.h"
 #include "tests/support/files.h"
 
 #include <gtest/gtest.h>
 
 #include <sys/stat.h>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -67,6 +69,25 @@ TEST(AtomicFile, AFailingWriterLeavesTheOldFileAndNothingElse) {
   EXPECT_THROW(write_atomically(target, fail), std::runtime_error);
   EXPECT_EQ(test::contents(target), "old");
   EXPECT_EQ(entries(folder.path()), 1U);
+}
+
+TEST(AtomicFile, FilesThatBelongTogetherAreAllReplacedOrNone) {
+  const test::TempDir folder;
+  const fs::path a = folder.write("a.mtx", "old a"), b = folder.write("b.csv", "old b");
+  const fs::path taken = folder.path() / "taken";
+  fs::create_directory(taken);
+  const auto write = [](const fs::path& first, const fs::path& second) {
+    const std::vector<FileBytes> both = {{first, "new a"}, {second, "new b"}};
+    write_together(both);
+  };
+  EXPECT_THROW(write(a, taken), Error);
+  EXPECT_THROW(write(taken, b), Error);
+  EXPECT_EQ(test::contents(a), "old a");
+  EXPECT_EQ(test::contents(b), "old b");
+  EXPECT_EQ(entries(folder.path()), 3U);
+  write(a, b);
+  EXPECT_EQ(test::contents(a), "new a");
+  EXPECT_EQ(test::contents(b), "new b");
 }
 
 TEST(AtomicFile, NewFilesGetTheUsualPermissions) {

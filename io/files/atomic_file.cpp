@@ -127,15 +127,10 @@ void write_atomically(const fs::path& target, std::string_view bytes) {
 void write_together(std::span<const FileBytes> files) {
   if (files.empty()) return;
   const auto& [target, bytes] = files.front();
-  const auto others = files.subspan(1);
-  if (is_standard_stream(target) || is_device(target)) {
-    write_together(others);
-    return write_atomically(target, bytes);
-  }
   // All are there under other names before the first gets its own.
   write_atomically(target, [&](const fs::path& path) {
     write_bytes(path, bytes, target);
-    write_together(others);
+    write_together(files.subspan(1));
   });
 }
 

@@ -25,7 +25,8 @@ struct FileBytes {
   std::string bytes;
 };
 
-/// The same for files that belong together: where one cannot be written, all stay as they were.
+/// The same for files that belong together, none of them the standard output: all are complete
+/// before one is in its place, so that where one cannot be written, all stay as they were.
 void write_together(std::span<const FileBytes> files);
 
 }  // namespace halfshade

@@ -17,11 +17,10 @@ constexpr double even_share = 0.5;
 FreshPlaces fresh_places(std::span<const NoisyElement> elements,
                          const AdaptiveFieldOptions& options, double expected, double count,
                          std::uint64_t draw) {
-  double counted_area = 0, reaches = 0;
-  for (const NoisyElement& element : elements) {
+  const double reaches = sum_of_reaches(elements);
+  double counted_area = 0;
+  for (const NoisyElement& element : elements)
     counted_area += counts(options, element.surface) ? element.area : 0;
-    reaches += element.area * element.reach;
-  }
   const double by_area = counted_area > 0 ? even_share / 2 * expected / counted_area : 0;
   const double by_reach = reaches > 0 ? even_share / 2 * expected / reaches : 0;
   const auto density = [&](const NoisyElement& element) {  // but for a factor

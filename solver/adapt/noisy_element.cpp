@@ -86,6 +86,12 @@ double known_error(std::span<const NoisyElement> elements) {
   return sum;
 }
 
+double sum_of_reaches(std::span<const NoisyElement> elements) {
+  double sum = 0;
+  for (const NoisyElement& element : elements) sum += element.area * element.reach;
+  return sum;
+}
+
 double slack_of(const NoisyElement& element, double mean_area) {
   return std::clamp(std::pow(mean_area / element.area, power_of_slack), 1., most_slack);
 }

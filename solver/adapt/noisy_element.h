@@ -39,8 +39,9 @@ struct NoisyElement {
   double known_error() const { return surely_left + by_chance + unseen; }
 };
 
-/// ∫ of that over all of them.
+/// ∫ of that, and of what light does not exceed, over all of them.
 double known_error(std::span<const NoisyElement> elements);
+double sum_of_reaches(std::span<const NoisyElement> elements);
 
 /// What slack an element has to begin with, and its parts keep: more where it is smaller than the
 /// mean.

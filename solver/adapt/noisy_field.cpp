@@ -58,7 +58,7 @@ class NoisyFit {
            const AdaptiveFieldOptions& options, const Progress& progress)
       : mesh_(mesh), field_(field), bound_(bound), options_(options), progress_(progress) {
     take_elements();
-    const double each = sum_of_reaches() / counted_.count;
+    const double each = sum_of_reaches(elements_) / counted_.count;
     const double mean_area = counted_.area / counted_.count;
     for (NoisyElement& element : elements_) {
       element.slack = slack_of(element, mean_area);
@@ -95,12 +95,6 @@ class NoisyFit {
     const std::vector<NoisyValue> values =
         sample(places.points, std::vector<double>(places.points.size(), most_peaks));
     if (values.size() == places.points.size()) peaks_ = peaks_of(places, values);
-  }
-
-  double sum_of_reaches() const {
-    double sum = 0;
-    for (const NoisyElement& element : elements_) sum += element.area * element.reach;
-    return sum;
   }
 
   /// Squares of errors. Noise may make square_error_ negative.
@@ -328,12 +322,14 @@ class NoisyFit {
     out.error.resize(static_cast<Eigen::Index>(elements_.size()));
     // Of each, only that is known which noise did not make; together they are off by all there is.
     const double known = known_error(elements_);
-    const double share = known > 0 ? corrected() / known : 0;
+    const auto square_error = [&](const NoisyElement& element) {
+      return known > 0 ? corrected() / known * element.known_error() : corrected() / counted_.area;
+    };
     const Rgb unscaled = scale_.value_or(Rgb::Ones()).inverse();
     for (int e = 0; e < out.field.count(); ++e) {
       const NoisyElement& element = elements_[at(e)];
       out.field.of(e) = element.coefficients.rowwise() * unscaled.transpose();
-      out.error[e] = std::sqrt(share * element.known_error()) * unscaled.maxCoeff();
+      out.error[e] = std::sqrt(square_error(element)) * unscaled.maxCoeff();
     }
     out.elements = std::move(table_);
     report_.unknowns = unknowns_;

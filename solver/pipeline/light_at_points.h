@@ -17,7 +17,7 @@ struct PointLight {
 /// The values of a result's elements at points on its surfaces, nothing computed anew: polynomials
 /// where there are some, else the means of the elements. Of several surfaces in one plane a point
 /// belongs to the one whose polygon it lies in. Throws Error(invalid_input) for a point that lies
-/// on no surface with its normal, up to a millionth of the surface's size.
+/// on no surface with its normal, see SurfaceFinder.
 std::vector<PointLight> light_at_points(const SolveResult& result,
                                         std::span<const SurfacePoint> points);
 

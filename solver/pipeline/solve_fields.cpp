@@ -174,6 +174,15 @@ double norm_of_error(const AdaptiveField& light) {
   return (areas.sqrt() * light.error).matrix().stableNorm();
 }
 
+/// ∫ |H_d|², to the root.
+double norm_of_light(const AdaptiveField& light) {
+  Eigen::ArrayXd of_elements(light.field.count());
+  for (int e = 0; e < light.field.count(); ++e)
+    of_elements[e] =
+        std::sqrt(light.elements.area[at(e)]) * light.field.of(e).matrix().stableNorm();
+  return of_elements.matrix().stableNorm();
+}
+
 /// Exact parts among few surfaces, if nothing else is asked for: noise of rays does not average out
 /// over the few elements that a goal takes.
 ReflectedVisibility visibility_for_goal(const SoundScene& scene, ReflectedVisibility asked) {
@@ -302,6 +311,7 @@ void solve_fields(const PreparedScene& prepared, const Plan& plan, const SolveOp
     const double tolerance = std::max(options.tolerance, of_direct);
     ReflectedOptions of_reflected =
         reflected_options(prepared.scene(), plan, options, tolerance, goal);
+    of_reflected.direct_norm = norm_of_light(direct.light);
     if (!goal && of_direct < options.tolerance)
       of_reflected.other_error = norm_of_error(direct.light);
     TotalField total = add_reflected_light(

@@ -3,6 +3,7 @@
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/core/planar.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace halfshade {
@@ -11,6 +12,11 @@ namespace {
 /// How far a point may be from a surface, as a share of the surface's size, and how far its normal
 /// may be turned from the surface's, in radians: what six digits of a table leave.
 constexpr double off_surface = 1e-6, turned = 1e-3;
+
+/// At least what digits of the scene's file leave: of small faces that is more.
+double reach_of(const Surface& surface) {
+  return std::max(off_surface * size_of(surface), tolerance_of(surface).planarity);
+}
 
 }  // namespace
 
@@ -23,7 +29,7 @@ Bounds outline_bounds(const Surface& surface) {
 SurfaceFinder::SurfaceFinder(const SoundScene& scene) : scene_(scene) {
   std::vector<Bounds> boxes;
   for (const Surface& surface : scene.surfaces)
-    boxes.push_back(outline_bounds(surface).grown(2 * off_surface * size_of(surface)));
+    boxes.push_back(outline_bounds(surface).grown(2 * reach_of(surface)));
   boxes_ = make_flat_tree(boxes);
 }
 
@@ -35,12 +41,12 @@ int SurfaceFinder::at_point(const SurfacePoint& point) const {
   visit_overlaps(boxes_, here, [&](int s) {
     const Surface& surface = scene_.surfaces[at(s)];
     if ((surface.frame.normal - point.normal).norm() > turned) return;
-    const double size = size_of(surface), height = surface.frame.height(point.position);
-    if (std::abs(height) > off_surface * size) return;
+    const double reach = reach_of(surface), height = surface.frame.height(point.position);
+    if (std::abs(height) > reach) return;
     const Vec2 q = surface.frame.to_plane(point.position);
     const double beside = is_inside(surface.rings, q) ? 0 : distance_to_rings(surface.rings, q);
     const double off = std::hypot(height, beside);
-    if (beside > off_surface * size) return;
+    if (beside > reach) return;
     if (nearest >= 0 && (off > least || (off == least && s > nearest))) return;
     nearest = s;
     least = off;

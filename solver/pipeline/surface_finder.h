@@ -14,7 +14,7 @@ namespace halfshade {
 Bounds outline_bounds(const Surface& surface);
 
 /// Finds the surfaces that points lie on, up to what rounding leaves of both: a millionth of the
-/// surface's size, and a thousandth of a radian between normals.
+/// surface's size or of its coordinates, and a thousandth of a radian between normals.
 class SurfaceFinder {
  public:
   /// The scene must outlive it. Cost: n log n.

@@ -50,10 +50,10 @@ ReflectionEstimate estimate_exactly(const ExactSight& sight, const ExactGather& 
         probe.square_error =
             probe.missing.square().sum() + (found.unsure * gather.brightest()).square().sum();
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
-        probe.square = (light.direct_at(root, position) + here + constant).square().sum();
+        probe.square = light.square_beside_known(light.direct_at(root, position), here + constant);
       },
       progress, "error of reflected light");
-  estimate.add(mesh, probes);
+  estimate.add(mesh, probes, light.direct_square.value_or(0));
   add_unsure(mesh, exchange, gather.brightest(), probes, estimate);
   return estimate;
 }

@@ -5,6 +5,7 @@
 #include "solver/reflected/reflected_light.h"
 #include "solver/reflected/reflecting_scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -16,11 +17,17 @@ struct FirstLight {
   PaintedElements painted;
   DirectIrradiance direct;  ///< H_d
   bool through_operator = false;
-  HotCells hot;  ///< of what leaves; none before they are looked for
+  std::optional<double> direct_square;  ///< ∫ |H_d|², if it is known better than points tell
+  HotCells hot;                         ///< of what leaves; none before they are looked for
 
   /// H_d at a point of a root; 0 if direct light is found like reflected light.
   Rgb direct_at(int root, const Vec3& position) const {
     return through_operator ? Rgb(Rgb::Zero()) : direct(surface[at(root)], position);
+  }
+
+  /// |H_d + G|², without |H_d|² where the integral of that is known.
+  double square_beside_known(const Rgb& h_d, const Rgb& g) const {
+    return direct_square ? ((2 * h_d + g) * g).sum() : (h_d + g).square().sum();
   }
 
   /// S at a point of a root.

@@ -14,7 +14,7 @@ struct ProbePlace {
   double share;                         ///< of the area that it stands for
   std::uint64_t seed;                   ///< for more random numbers
   double weight = 1;                    ///< of |error|²
-  double square_error = 0, square = 0;  ///< found there: |error|² and |H_d + G|²
+  double square_error = 0, square = 0;  ///< found there: |error|² and its square_beside_known
   Rgb missing = Rgb::Zero();            ///< what arrives and is not in the solution
   double reach = 1;                     ///< share of what leaves the place that arrives somewhere
 };

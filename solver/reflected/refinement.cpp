@@ -19,6 +19,14 @@ constexpr double gain = 0.5;
 constexpr double most_scale = 4;
 /// How much the coefficients of the highest degree count beside what was found at points.
 constexpr double share_of_tails = 0.75;
+/// Of the sum: the deviation of an estimate in which no few points say most.
+constexpr double usual_deviation = 0.1;
+
+/// ∫ |error|² without what a few points say, if that is most of it: it may be theirs alone, and the
+/// next estimate tells.
+double surely_off(const ReflectionEstimate& estimate) {
+  return estimate.sum - std::max(0., estimate.deviation - usual_deviation * estimate.sum);
+}
 
 /// ∫ |error|² of each, `all` in all, without noise of rays.
 std::vector<double> errors_of_elements(const RefinementInput& input, double all) {
@@ -86,7 +94,7 @@ std::vector<double> tails(const ReflectedMesh& mesh, const ElementField& field,
 RefinementPlan plan_refinement(const RefinementInput& input, double goal) {
   RefinementPlan plan;
   const double noise = summed(input.noise);
-  double left = input.estimate.sum - noise;
+  double left = surely_off(input.estimate) - noise;
   const std::vector<double> coarse = errors_of_elements(input, left);
   std::vector<int> order(coarse.size());
   std::iota(order.begin(), order.end(), 0);

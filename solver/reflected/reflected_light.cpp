@@ -24,11 +24,11 @@ void check(const ReflectedOptions& options) {
                 fmt::format("order {} must lie in [0, {}]", options.order, max_reflected_order));
   if (options.each_bounce && options.bounces < 0)
     throw Error(ErrorCode::contract, "reflected_light", "each_bounce takes a number of bounces");
-  if (!(options.tolerance > 0) || !(options.other_error >= 0) || !(options.gather_tolerance >= 0) ||
-      !(options.max_length >= 0) || options.max_rays < 32 || options.max_elements < 1 ||
-      options.max_rounds < 1)
+  if (!(options.tolerance > 0) || !(options.other_error >= 0) || !(options.direct_norm >= 0) ||
+      !(options.gather_tolerance >= 0) || !(options.max_length >= 0) || options.max_rays < 32 ||
+      options.max_elements < 1 || options.max_rounds < 1)
     throw Error(ErrorCode::contract, "reflected_light",
-                "the tolerance must be > 0, other errors, gather_tolerance and max_length ≥ 0, "
+                "the tolerance must be > 0, norms, gather_tolerance and max_length ≥ 0, "
                 "max_rays ≥ 32, and elements and rounds at least 1");
 }
 
@@ -222,6 +222,8 @@ OneWay solve_one_way(const SoundScene& scene, const DirectIrradiance& direct,
                                                        std::move(mesh));
   state->report.is_exact = is_exact;
   scale_light(*state);
+  if (options.direct_norm > 0 && !options.through_operator)
+    state->light.direct_square = std::pow(state->scale.minCoeff() * options.direct_norm, 2);
   state->report.through_operator = options.through_operator;
   if (is_exact && !nothing) {
     state->scene = std::make_unique<const SoundScene>(scene);

@@ -37,6 +37,7 @@ struct ReflectedOptions {
   /// L2 norm of what else is off, W/m² times √area, ≥ 0: if not 0, G may be off by what that leaves
   /// of `tolerance`, or a fifth of it where nothing is left. Not with `weight`.
   double other_error = 0;
+  double direct_norm = 0;       ///< L2 norm of direct irradiance, likewise; 0: found at points
   double gather_tolerance = 0;  ///< of what gather() finds by exact parts; 0: .1 `tolerance`
   double max_length = 0;        ///< of elements to begin with, scene units; 0: by the tolerance
   int max_elements = 20000;

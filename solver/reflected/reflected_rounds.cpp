@@ -32,7 +32,8 @@ int strata_for(double tolerance, int elements) {
 /// Where the solver amplifies by more, that is solved for.
 constexpr double comes_back = 1.2, much_comes_back = 4;
 
-/// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for.
+/// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for:
+/// only by rays, and only as long as each round helps much.
 constexpr double most_for_gaps = 2000;
 constexpr int points_of_projection = 20000;
 /// So many take hundreds of megabytes in each round that the next does not need.
@@ -298,7 +299,9 @@ class Rounds {
     report.end = ReflectedEnd::rounds;
     if (is_stagnant(rounds_)) return Next::end;
     // More elements do not show what so many rays do not find.
-    const bool cannot_show = unbalanced.elements == 0 || unbalanced.elements > most_for_gaps;
+    unbalanced_.resize(at(report.rounds), unbalanced.square);
+    const bool cannot_show = unbalanced.elements == 0 || (unbalanced.elements > most_for_gaps &&
+                                                          !(kept_rays_ && is_falling(unbalanced_)));
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.in_gaps > goal) report.end = ReflectedEnd::gaps;
     if (unbalanced.square > goal && cannot_show) return Next::end;
@@ -326,7 +329,7 @@ class Rounds {
     const bool could_be_surer = !is_coarse && surer_ < surest;
     // More points take less than what an outlier among a few may ask for.
     if (noise <= much_noise * goal && surer_ < sure && input.estimate.deviation > unsure * goal &&
-        input.estimate.sum - input.estimate.deviation < goal)
+        input.estimate.sum - 2 * input.estimate.deviation < goal)
       return Next::points;
     if (fits > 0 && is_hidden && can_pass && plan_pass(input, goal, unseen * of_elements, found))
       return Next::pass;
@@ -374,6 +377,7 @@ class Rounds {
   std::unique_ptr<RayExchange> kept_rays_;  ///< either these
   std::unique_ptr<ExactExchange> parts_;    ///< or exact parts
   std::vector<RoundError> rounds_;          ///< of exact parts
+  std::vector<double> unbalanced_;          ///< BalanceEstimate::square of each round
   int use_ = 0;
   int points_ = 0;  ///< of the estimate so far
   int surer_ = 1;   ///< times as many of them as usual

@@ -10,7 +10,8 @@
 
 namespace halfshade {
 
-void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes) {
+void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes,
+                             double known_square) {
   square_error.resize(at(mesh.count()), 0);
   chance.resize(at(mesh.count()), 0);
   std::array<Rgb, parts_of_probes> none;
@@ -20,6 +21,7 @@ void ReflectionEstimate::add(const ReflectedMesh& mesh, std::span<const ProbePla
   probed.resize(at(mesh.count()), 0);
   std::size_t part = 0;  // those of an element follow each other
   double variance = deviation * deviation;
+  square_total += known_square;
   for (const ProbePlace& probe : probes) {
     const double error = probe.share * probe.weight * probe.square_error;
     square_error[at(probe.element)] += error;
@@ -128,12 +130,11 @@ ReflectionEstimate estimate_error(const ReflectingScene& scene, const ReflectedS
         probe.square_error = (first * second).sum();
         probe.missing = (first + second) / 2;
         const Rgb constant = irradiance.constant.row(systems.of_element[at(e)]).transpose();
-        probe.square = (light.direct_at(mesh.root(e), mesh.position(e, place)) + here + constant)
-                           .square()
-                           .sum();
+        probe.square = light.square_beside_known(
+            light.direct_at(mesh.root(e), mesh.position(e, place)), here + constant);
       },
       progress, "error of reflected light");
-  estimate.add(mesh, probes);
+  estimate.add(mesh, probes, light.direct_square.value_or(0));
   for (const ProbePlace& probe : probes)
     estimate.rays += 2 * rays_of_hemisphere(light, options.strata[at(probe.element)]);
   return estimate;

@@ -33,8 +33,8 @@ struct ReflectionEstimate {
   std::size_t rays = 0;
   bool complete = true;
 
-  /// What was found at places.
-  void add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes);
+  /// What was found at places, and what is known of ∫ |H_d + G|² beside it.
+  void add(const ReflectedMesh& mesh, std::span<const ProbePlace> probes, double known_square);
 
   /// The mean of this and another of the same light at other points, weighted.
   void join(const ReflectionEstimate& other, double weight_of_other);

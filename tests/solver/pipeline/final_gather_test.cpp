@@ -45,7 +45,7 @@ double off(const SolveResult& result, std::span<const SurfacePoint> points,
 // Against a solution seven times as exact.
 TEST(FinalGather, IsMoreExactThanThePolynomials) {
   const PreparedScene prepared(test::cornell_box());
-  const SolveResult fine = solve(prepared, within(3e-3, FinalGather::off));
+  const SolveResult fine = solve(prepared, within(2e-3, FinalGather::off));
   test::Random random(11);
   std::vector<SurfacePoint> points;
   for (const auto& [surface, point] : test::spread_points(fine.elements, 1000, random))

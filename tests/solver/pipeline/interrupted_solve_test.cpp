@@ -95,7 +95,7 @@ SolveResult solve_one_round(const Scene& scene, ReflectedVisibility visibility, 
     if (is_first && is_estimated) stop.request_stop();
   };
   SolveOptions options;
-  options.tolerance = 0.003;
+  options.tolerance = 0.002;
   options.visibility = visibility;
   return solve(scene, options, {stop.get_token(), report});
 }

@@ -79,6 +79,20 @@ TEST(OnSurfaces, PointsThatRoundingPutsBehindTheirSurfaceAreMovedOntoIt) {
   for (const int none : {2, 3}) EXPECT_EQ(found[at(none)].surface, -1);
 }
 
+TEST(OnSurfaces, FacesAsSmallAsTheyAreHavePointsThatDigitsPutBehindThem) {
+  Scene scene = test::lit_cube({.5, .5, .5, .5, .5, .5});
+  test::add_polygon(scene, {{.2, .2, .5}, {.213, .2, .503}, {.21, .217, .508}}, 0);
+  const PreparedScene prepared(scene);
+  const Surface& small = prepared.scene().surfaces.back();
+  const Vec3 on = small.frame.to_space(small.rings.front()[0]) * 0.4 +
+                  small.frame.to_space(small.rings.front()[1]) * 0.3 +
+                  small.frame.to_space(small.rings.front()[2]) * 0.3;
+  const std::vector<SurfacePoint> points = {{on - 4e-7 * small.frame.normal, small.frame.normal}};
+  const FieldPoint found = on_surfaces(prepared, points).front();
+  EXPECT_EQ(found.surface, static_cast<int>(prepared.scene().surfaces.size()) - 1);
+  EXPECT_LT((found.point.position - on).norm(), 1e-12);
+}
+
 /// Points of the planes that faces had before each got corners of its own: direct light of a cube,
 /// and all light where it is closed and 1.
 TEST(OnSurfaces, LightIsAllThereWhereCornersDiffer) {

@@ -73,6 +73,15 @@ TEST(Refinement, WhatPointsSeldomFindStandsForElementsLikeIt) {
   EXPECT_NEAR(share_of_refined(1), 0.52, 0.02);
 }
 
+TEST(Refinement, WhatFewPointsSayOfAllRefinesNoMoreThanTheRest) {
+  // Fifteen of sixteen parts were found at one place.
+  CubeOff cube(8);
+  cube.estimate.deviation = 7.5;
+  EXPECT_EQ(std::ranges::max(cube.plan().times), 1);
+  cube.estimate.deviation = 0.8;
+  EXPECT_EQ(std::ranges::min(cube.plan().times), 2);
+}
+
 TEST(Refinement, EachBisectionDoublesTheParts) {
   const SoundScene scene = make_sound(test::room({1, 1, 1}, {}));
   ReflectedMesh mesh = make_reflected_mesh(PatchMesh(scene, {}).elements(), 0.2, 2, 100000);

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <string>
 #include <vector>
@@ -252,6 +253,24 @@ struct TracedPoint {
   Rgb direct;
   test::TracedLight traced;
 };
+
+TEST(ReflectedLight, IsComparedWithAllLightAlsoWhereHardlyAnyPointFindsTheBrightest) {
+  const SoundScene scene = make_sound(test::lit_cube({.5, .5, .5, .5, .5, .5}));
+  constexpr double bright = 1000, radius = 0.01, area = std::numbers::pi * radius * radius;
+  const DirectIrradiance spot = [&](int surface, const Vec3& p) {
+    const bool is_lit =
+        surface == 0 && (p - scene.surfaces[0].frame.to_space({0.4, 0.3})).norm() < radius;
+    return Rgb(Rgb::Constant(is_lit ? bright : 0));
+  };
+  const double direct_square = 3 * bright * bright * area;
+  for (const ReflectedVisibility v : both) {
+    ReflectedOptions options = within(0.05, v);
+    options.direct_norm = std::sqrt(direct_square);
+    const ReflectedReport report = reflected_light(scene, spot, options).report();
+    // Of G² and 2 G H_d there is a thousandth of it.
+    EXPECT_NEAR(6 * report.mean_square_total / direct_square, 1, 0.005);
+  }
+}
 
 /// Within the claimed error and the noise of random walks.
 void expect_near(const ReflectedLight& light, std::span<const TracedPoint> points,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace halfshade {
@@ -26,6 +27,13 @@ TEST(Stagnation, IsToldByEightTimesTheElements) {
   EXPECT_TRUE(is_stagnant(rounds));
   rounds.back().error = 0.02;
   EXPECT_FALSE(is_stagnant(rounds));
+}
+
+TEST(Stagnation, WhatIsNotKnownFallsIfARoundLeavesHalf) {
+  const std::vector<double> unknown = {8, 4, 3, 1};
+  const std::vector<bool> expected = {true, true, true, false, true};
+  for (std::size_t n = 0; n <= unknown.size(); ++n)
+    EXPECT_EQ(is_falling(std::span(unknown).first(n)), expected[n]) << n;
 }
 
 }  // namespace

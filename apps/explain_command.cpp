@@ -9,17 +9,31 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace halfshade {
 namespace {
 
-void print_scene(const Explanation& explanation, std::FILE* out) {
+/// The first of each kind, unless all are asked for: a modelled figure is joined in hundreds of
+/// places.
+void print_some_repairs(const SoundScene& scene, bool all, std::FILE* out) {
+  constexpr std::size_t most = 5;
+  std::map<Repair::Kind, std::size_t> count;
+  for (const Repair& repair : scene.repairs)
+    if (++count[repair.kind] <= most || all)
+      fmt::print(out, "repair       {}\n", sentence(repair, scene));
+  for (const auto& [kind, n] : count)
+    if (n > most && !all)
+      fmt::print(out, "repairs      {} more like these ({}); --verbose lists them\n", n - most,
+                 name_of(kind));
+}
+
+void print_scene(const Explanation& explanation, bool all_repairs, std::FILE* out) {
   const SoundScene& scene = explanation.scene;
   fmt::print(out, "surfaces     {} of {} faces, {} group{}, {} material{}\n", scene.surfaces.size(),
              scene.face_lines.size(), scene.groups.size(), scene.groups.size() == 1 ? "" : "s",
              scene.materials.size(), scene.materials.size() == 1 ? "" : "s");
-  for (const Repair& repair : scene.repairs)
-    fmt::print(out, "repair       {}\n", sentence(repair, scene));
+  print_some_repairs(scene, all_repairs, out);
   std::size_t unlit = 0;
   for (const SpacePart& part : explanation.parts) {
     if (!part.lit) ++unlit;
@@ -48,7 +62,8 @@ void print_stages(const Explanation& explanation, std::FILE* out) {
     if (stage.left_out_because.empty() && stage.amount > 0)
       line += fmt::format(": {:.3g} {}", stage.amount, stage.what);
     if (stage.left_out_because.empty() && stage.seconds > 0)
-      line += fmt::format(", {:.2g} s or more", stage.seconds);
+      line += stage.seconds < 10 ? fmt::format(", {:.2g} s or more", stage.seconds)
+                                 : fmt::format(", {:.0f} s or more", stage.seconds);
     fmt::print(out, "{}\n", line);
   }
 }
@@ -74,7 +89,7 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
   if (!context.common.json.empty())
     write_explanation(explanation, run_info(context, code, {}), context.common.json);
   if (!context.common.quiet) {
-    print_scene(explanation, context.summary);
+    print_scene(explanation, context.common.verbose, context.summary);
     print_stages(explanation, context.summary);
   }
   return code;

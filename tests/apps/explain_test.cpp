@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace halfshade {
@@ -50,6 +52,31 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
   EXPECT_TRUE(has(forced.out, "runs         second and third channel"));
   EXPECT_EQ(test::run_halfshade({"explain", s1, "--force", "nonsense"}, folder.path()).exit_code,
             2);
+}
+
+TEST(Explain, ListsNoMoreThanAFewRepairsUnlessAsked) {
+  const test::TempDir folder;
+  std::ofstream(folder.path() / "s.mtl") << "newmtl lamp\nKe 1 1 1\n";
+  std::ofstream scene(folder.path() / "s.obj");
+  scene << "mtllib s.mtl\nusemtl lamp\n";
+  constexpr int squares = 8;  // of two triangles each
+  for (int k = 0; k < squares; ++k)
+    scene << "v 0 0 " << k << "\nv 1 0 " << k << "\nv 1 1 " << k << "\nv 0 1 " << k
+          << "\nf -4 -3 -2\nf -4 -2 -1\n";
+  scene.close();
+  const auto joined = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command = {"explain", "s.obj"};
+    command.insert(command.end(), options.begin(), options.end());
+    std::istringstream lines(test::run_halfshade(command, folder.path()).out);
+    int told = 0, summed = 0;
+    for (std::string line; std::getline(lines, line);) {
+      if (has(line, "were joined")) ++told;
+      if (has(line, "3 more like these (coplanar_merged)")) ++summed;
+    }
+    return std::pair(told, summed);
+  };
+  EXPECT_EQ(joined({}), std::pair(squares - 3, 1));
+  EXPECT_EQ(joined({"--verbose"}), std::pair(squares, 0));
 }
 
 TEST(Explain, SpeaksOfBacksOnlyWhereLightCanReachThem) {

@@ -19,8 +19,8 @@ struct FreshPlaces {
 
 /// About `count` of them: half are drawn where the error is thought to be, whose square is
 /// `expected` in all, and half elsewhere: by area, where elements count, and by the square of what
-/// light may be there, which bounds what one place can add. They go on from
-/// the samples of each element; `draw` decides which have one more or less.
+/// light may be there, which bounds what one place can add. They go on from the samples of each
+/// element; `draw` decides which have one more or less.
 FreshPlaces fresh_places(std::span<const NoisyElement> elements,
                          const AdaptiveFieldOptions& options, double expected, double count,
                          std::uint64_t draw);

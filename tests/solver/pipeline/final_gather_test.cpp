@@ -42,7 +42,7 @@ double off(const SolveResult& result, std::span<const SurfacePoint> points,
   return sum / static_cast<double>(points.size());
 }
 
-// Against a solution seven times as exact.
+// Against a solution ten times as exact.
 TEST(FinalGather, IsMoreExactThanThePolynomials) {
   const PreparedScene prepared(test::cornell_box());
   const SolveResult fine = solve(prepared, within(2e-3, FinalGather::off));

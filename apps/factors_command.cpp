@@ -35,13 +35,16 @@ void print_doubts(const SceneFile& file, const FactorMatrix& matrix, FactorUnit 
     if (!note.empty()) complain("note: {}\n", note);
 }
 
-void print_summary(const FactorMatrix& matrix, const Context& context) {
+void print_summary(const FactorMatrix& matrix, FactorMethod asked, const Context& context) {
   const FactorReport& report = matrix.report;
   std::FILE* out = context.summary;
   print_repairs(matrix.scene, context);
   fmt::print(out, "surfaces     {}\n", matrix.names.size());
   if (report.rays > 0)
-    fmt::print(out, "rays         {}\n", report.rays);
+    fmt::print(out, "rays         {}{}\n", report.rays,
+               asked == FactorMethod::automatic
+                   ? ", a fraction of the work that exact pairs are (--method exact)"
+                   : "");
   else if (report.clear_pairs + report.partial_pairs > 0)
     fmt::print(out, "pairs        {} clear, {} with something between\n", report.clear_pairs,
                report.partial_pairs);
@@ -57,6 +60,7 @@ void print_summary(const FactorMatrix& matrix, const Context& context) {
 /// What to do about rows that are not exact enough, or what tells that they are not.
 const char* remedy(const FactorReport& report, double tolerance) {
   if (report.pairs_at_limit > 0) return ", and allow more with --max-points";
+  if (report.method == FactorMethod::rays) return ", and ask for more with --rays";
   return report.row_sum_error_max > tolerance ? ": sums of rows tell it" : "";
 }
 
@@ -93,7 +97,7 @@ ExitCode run(const FactorsCommand& command, const Context& context) {
     write_report(matrix, run_info(context, code, outputs), context.common.json);
   print_doubts(file, matrix, command.options.unit, context);
   if (!context.common.quiet) {
-    print_summary(matrix, context);
+    print_summary(matrix, command.options.method, context);
     print_outputs(context, outputs);
   }
   if (!sentence.empty()) complain("{}\n", sentence);

@@ -27,17 +27,18 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
       },
       "What has a row");
   add_number(app, "--tolerance", options.tolerance, {1e-12, 0.5},
-             "Error allowed in a form factor, absolute, with --method exact")
+             "Error allowed in a form factor, absolute")
       ->capture_default_str()
       ->excludes(from);
   add_choice(
-      app, "--method", {"exact", "rays", "hemicube"},
+      app, "--method", {"auto", "exact", "rays", "hemicube"},
       [&options](std::size_t k) { options.method = static_cast<FactorMethod>(k); },
-      "Closed forms and exactly visible parts, counted rays, or item buffers")
+      "Closed forms and exactly visible parts, counted rays, or item buffers; by default exact,\n"
+      "unless that is a lot of work and rays reach the tolerance with a fraction of it")
       ->excludes(from);
   add_whole(app, "--rays", options.rays, {1, 1000000000},
-            "Rays of each row, with --method rays; pixels of each row with hemicube")
-      ->capture_default_str()
+            "Rays of each row, with --method rays (default: as many as the tolerance takes);\n"
+            "pixels of each row, with hemicube (default: 10000)")
       ->excludes(from);
   add_even(
       app, "--hemicube", options.hemicube_pixels, {2, 4096},
@@ -59,11 +60,14 @@ void add_factors(CLI::App& program, FactorsCommand& command, CommonOptions& comm
     const auto note = [&](const char* name, const char* why) {
       note_idle(app, {{name}}, why, common.notes);
     };
-    if (options.method == FactorMethod::exact) note("--rays", "is for --method rays or hemicube");
-    if (options.method != FactorMethod::hemicube) note("--hemicube", "is for --method hemicube");
-    if (options.method == FactorMethod::exact) return;
-    note("--max-points", "is for --method exact");
-    note("--tolerance", "is for --method exact; --rays says how much others do");
+    const bool is_by_rays = options.method == FactorMethod::rays,
+               is_by_cubes = options.method == FactorMethod::hemicube;
+    if (!is_by_rays && !is_by_cubes) note("--rays", "is for --method rays or hemicube");
+    if (!is_by_cubes) note("--hemicube", "is for --method hemicube");
+    if (is_by_rays || is_by_cubes) note("--max-points", "is for --method exact");
+    if (is_by_cubes)
+      note("--tolerance", "is for --method exact or rays; --rays says how much hemicubes do");
+    if (is_by_rays && options.rays > 0) note("--tolerance", "has no part in a number of --rays");
   });
   add_materials(app, command.materials, "Materials file, as for solve");
   add_orientation(app, common.orientation);

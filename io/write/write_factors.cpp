@@ -139,6 +139,7 @@ void write_report(const FactorMatrix& matrix, const RunInfo& run, const fs::path
   detail::Json json = detail::head_json(run);
   json["unit"] = matrix.unit;
   json["surfaces"] = matrix.names.size();
+  json["method"] = name_of(report.method);
   json["clear_pairs"] = report.clear_pairs;
   json["partial_pairs"] = report.partial_pairs;
   json["points"] = report.points;

@@ -14,17 +14,26 @@
 namespace halfshade {
 
 enum class FactorMethod {
-  exact,    ///< closed forms and exactly visible parts
-  rays,     ///< counted rays
-  hemicube  ///< item buffers at points, as radiosity began
+  automatic,  ///< exact, unless that is a lot of work and rays take a fraction of it
+  exact,      ///< closed forms and exactly visible parts
+  rays,       ///< counted rays
+  hemicube    ///< item buffers at points, as radiosity began
 };
+
+/// "auto", "exact", "rays" or "hemicube".
+const char* name_of(FactorMethod method);
+
+/// Rays of a row, unless FactorOptions::rays asks for more: a minute or so.
+inline constexpr int most_rays = 100'000'000;
 
 struct FactorOptions {
   FactorUnit unit = FactorUnit::group;
-  FactorMethod method = FactorMethod::exact;
+  FactorMethod method = FactorMethod::automatic;
   double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
   int max_points = 300000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
-  int rays = 10000;  ///< of each row but with FactorMethod::exact, ≥ 1; pixels count as rays
+  /// Of each row, whatever the tolerance is; pixels of hemicubes count as rays. 0: as many as the
+  /// tolerance takes, up to most_rays; of pixels 10,000.
+  int rays = 0;
   int hemicube_pixels = 64;  ///< along an edge, FactorMethod::hemicube, even and ≥ 2
   double sparse_below = 0;   ///< entries that cannot reach this are left out, ≥ 0
   bool enforce = false;      ///< scale A F symmetrically until rows, with space, sum to one; what
@@ -33,9 +42,10 @@ struct FactorOptions {
 
 /// How a matrix came about.
 struct FactorReport {
-  std::size_t clear_pairs = 0;    ///< of surfaces that nothing comes between
-  std::size_t partial_pairs = 0;  ///< that something may come between
-  std::size_t points = 0;         ///< at which exactly visible parts were found
+  FactorMethod method = FactorMethod::exact;  ///< that it was found by, never automatic
+  std::size_t clear_pairs = 0;                ///< of surfaces that nothing comes between
+  std::size_t partial_pairs = 0;              ///< that something may come between
+  std::size_t points = 0;                     ///< at which exactly visible parts were found
   std::size_t pairs_at_limit =
       0;  ///< that took FactorOptions::max_points, and are not exact enough
   std::size_t rays = 0;

@@ -131,7 +131,7 @@ FactorMatrix finished_matrix(const FactorScene& scene, RowExchange exchange, dou
   exchange.mutual = exchange.mutual.cwiseMax(0);
   exchange.space = exchange.space.max(0);
   const RowSums sums(scene, exchange);
-  if (exchange.report.is_complete && options.method == FactorMethod::exact)
+  if (exchange.report.is_complete && exchange.report.method == FactorMethod::exact)
     sharpen_errors(sums, exchange);
   FactorMatrix result = matrix_of(scene, exchange);
   if (!result.report.is_complete) return result;

@@ -11,6 +11,8 @@
 namespace halfshade {
 namespace {
 
+/// Pixels of a row if none are asked for.
+constexpr int pixels_of_row = 10000;
 /// Fewer hemicubes of a surface tell nothing of how much they differ.
 constexpr double fewest_cubes = 4;
 /// Standard errors that count as a bound.
@@ -66,17 +68,19 @@ RowExchange hemicube_exchange(const FactorScene& scene, const ReflectingScene& r
                               const FactorOptions& options, const Progress& progress) {
   const Hemicube cube = make_hemicube(options.hemicube_pixels);
   const auto pixels = static_cast<double>(cube.factors.size());
+  const int rays = options.rays > 0 ? options.rays : pixels_of_row;
   const std::vector<std::vector<int>> roots = roots_of_surfaces(reflecting, scene.row.size());
   const int rows = scene.rows();
   std::vector<CubeMeans> of_surface(scene.row.size(), CubeMeans(rows + 2));
   const auto look = [&](std::size_t s) {
     if (scene.row[s] < 0) return;
     const double share = area(scene.sound.surfaces[s]) / scene.areas[at(scene.row[s])];
-    const double cubes = std::max(fewest_cubes, std::ceil(share * options.rays / pixels));
+    const double cubes = std::max(fewest_cubes, std::ceil(share * rays / pixels));
     of_surface[s] = see_by_cubes(scene, reflecting, cube, {reflecting, roots[s], s},
                                  static_cast<std::size_t>(cubes));
   };
   RowExchange exchange(rows);
+  exchange.report.method = FactorMethod::hemicube;
   exchange.report.is_complete = parallel_for(of_surface.size(), look, progress, "hemicubes");
   if (!exchange.report.is_complete) return exchange;
   std::vector<CubeMeans> of_row(at(rows), CubeMeans(rows + 2));

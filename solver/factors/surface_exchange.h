@@ -3,6 +3,9 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/mutual_sight.h"
 
+#include <cstddef>
+#include <optional>
+
 namespace halfshade {
 
 /// Mutual areas of all surfaces of a scene, summed into rows.
@@ -29,10 +32,19 @@ struct RowExchange {
 RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
                            const FactorOptions& options, const Progress& progress);
 
-/// By rays, of equal form factor each, in strata; both directions of a pair are weighed by
-/// their rays. Errors are three standard errors, of counts as if rays were independent.
+/// By rays from rows, of equal form factor each: places and directions are points of scrambled
+/// sequences, sixteen for each row, which go on until what they differ by is within
+/// options.tolerance, or as far as options.rays says. Both directions of a pair are weighed by how
+/// exact their rows are. Errors are four standard errors.
 RowExchange sampled_exchange(const FactorScene& scene, const ReflectingScene& reflecting,
                              const FactorOptions& options, const Progress& progress);
+
+/// The same to options.tolerance, or nothing if it takes more than so many rays in all: told after
+/// few of them where it takes far more.
+std::optional<RowExchange> sampled_exchange_within(std::size_t rays, const FactorScene& scene,
+                                                   const ReflectingScene& reflecting,
+                                                   const FactorOptions& options,
+                                                   const Progress& progress);
 
 /// By hemicubes of options.hemicube_pixels at places spread over the surfaces, at least four each;
 /// both directions of a pair are weighed by their areas. Errors are three standard errors of what

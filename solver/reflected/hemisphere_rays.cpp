@@ -50,23 +50,30 @@ std::vector<int> shuffled(int count, std::uint64_t seed) {
 /// Of numbers in [0, 1), one of which rounding may make 1.
 int cell_of(double x) { return std::min(static_cast<int>(side * x), side - 1); }
 
-/// Adds the rays, and the places of their cells.
-void add_rays(const RayHemisphere& hemisphere, std::vector<HalfLine>& rays,
-              std::vector<int>& look) {
+/// Rays that go together, with the places of the cells that they go through.
+struct RayBundle {
+  std::vector<HalfLine> rays;
+  std::vector<int> look;
+
+  /// `frame` stands where the ray starts, `u` and `v` are its point of the square.
+  void add(const PlaneFrame& frame, double u, double v) {
+    const Vec2 d = on_disc(u, v);
+    const double height = std::sqrt(std::max(0., 1 - d.squaredNorm()));
+    rays.push_back({frame.origin, d.x() * frame.e1 + d.y() * frame.e2 + height * frame.normal});
+    look.push_back(place_of_cell[at(cell_of(u) + side * cell_of(v))]);
+  }
+};
+
+void add_rays(const RayHemisphere& hemisphere, RayBundle& bundle) {
   const auto& [from, strata, seed] = hemisphere;
   const PlaneFrame frame = make_frame(from.position, from.normal);
   const std::vector<int> across = shuffled(strata, mix_bits(seed ^ 0x2545f491)),
                          along = shuffled(strata, mix_bits(seed ^ 0x6c62272e));
   std::uint64_t number = 0;
   for (int i = 0; i < strata; ++i)
-    for (int j = 0; j < strata; ++j, number += 2) {
-      const double u = (i + (across[at(j)] + random_number(seed, number)) / strata) / strata;
-      const double v = (j + (along[at(i)] + random_number(seed, number + 1)) / strata) / strata;
-      const Vec2 d = on_disc(u, v);
-      const double height = std::sqrt(std::max(0., 1 - d.squaredNorm()));
-      rays.push_back({from.position, d.x() * frame.e1 + d.y() * frame.e2 + height * frame.normal});
-      look.push_back(place_of_cell[at(cell_of(u) + side * cell_of(v))]);
-    }
+    for (int j = 0; j < strata; ++j, number += 2)
+      bundle.add(frame, (i + (across[at(j)] + random_number(seed, number)) / strata) / strata,
+                 (j + (along[at(i)] + random_number(seed, number + 1)) / strata) / strata);
 }
 
 /// The place of each of some numbers below side² when they are sorted; equal ones keep their order.
@@ -76,6 +83,19 @@ void sort_by_counting(std::span<const int> numbers, std::vector<int>& order) {
   std::partial_sum(next.begin(), next.end(), next.begin());
   order.clear();
   for (const int n : numbers) order.push_back(next[at(n)]++);
+}
+
+/// What the rays meet first, those together that look the same way.
+std::vector<Hit> first_hits(const ReflectingScene& scene, const RayBundle& bundle) {
+  std::vector<int> order;
+  sort_by_counting(bundle.look, order);
+  std::vector<HalfLine> in_order(bundle.rays.size());
+  std::vector<Hit> sorted(bundle.rays.size()), hits;
+  for (std::size_t k = 0; k < order.size(); ++k) in_order[at(order[k])] = bundle.rays[k];
+  scene.visibility.first_hits(in_order, Sides::both, sorted);
+  hits.reserve(sorted.size());
+  for (const int place : order) hits.push_back(sorted[at(place)]);
+  return hits;
 }
 
 /// Whether a ray has come to a front: where it met the back of one that another lies back to back
@@ -88,26 +108,26 @@ bool is_at_front(const ReflectingScene& scene, const HalfLine& ray, Hit& hit) {
   return front.has_value();
 }
 
+/// Where a ray ends; at triangle −1 if light that arrives there does not come from a front.
+RayEnd end_of(const ReflectingScene& scene, const RayOrigin& from, const HalfLine& ray, Hit hit) {
+  if (hit.triangle < 0 || !is_at_front(scene, ray, hit) ||
+      (from.cell >= 0 && scene.cells.before(hit.triangle) != from.cell))
+    return {-1, 0, 0};
+  return {hit.triangle, static_cast<float>(hit.weights[1]), static_cast<float>(hit.weights[2])};
+}
+
 /// Some of the hemispheres, at once.
 void trace(const ReflectingScene& scene, std::span<const RayHemisphere> hemispheres,
            TracedHemispheres& traced) {
-  std::vector<HalfLine> rays;
-  std::vector<int> look, order;
-  for (const RayHemisphere& hemisphere : hemispheres) add_rays(hemisphere, rays, look);
-  sort_by_counting(look, order);
-  std::vector<HalfLine> in_order(rays.size());
-  std::vector<Hit> hits(rays.size());
-  for (std::size_t k = 0; k < rays.size(); ++k) in_order[at(order[k])] = rays[k];
-  scene.visibility.first_hits(in_order, Sides::both, hits);
+  RayBundle bundle;
+  for (const RayHemisphere& hemisphere : hemispheres) add_rays(hemisphere, bundle);
+  const std::vector<Hit> hits = first_hits(scene, bundle);
   std::size_t k = 0;
   for (const auto& [from, strata, seed] : hemispheres) {
     const std::size_t before = traced.ends.size();
     for (const std::size_t end = k + at(strata * strata); k < end; ++k) {
-      Hit& hit = hits[at(order[k])];
-      if (hit.triangle < 0 || !is_at_front(scene, rays[k], hit)) continue;
-      if (from.cell >= 0 && scene.cells.before(hit.triangle) != from.cell) continue;
-      traced.ends.push_back(
-          {hit.triangle, static_cast<float>(hit.weights[1]), static_cast<float>(hit.weights[2])});
+      const RayEnd found = end_of(scene, from, bundle.rays[k], hits[k]);
+      if (found.triangle >= 0) traced.ends.push_back(found);
     }
     const int found = static_cast<int>(traced.ends.size() - before);
     traced.of_each.push_back({static_cast<int>(before), static_cast<int>(traced.ends.size()),
@@ -129,6 +149,19 @@ TracedHemispheres trace_hemispheres(const ReflectingScene& scene,
     trace(scene, hemispheres.subspan(first, last - first), traced);
   }
   return traced;
+}
+
+std::vector<RayEnd> trace_rays(const ReflectingScene& scene, std::span<const RayOrigin> from,
+                               std::span<const Vec2> on_square) {
+  RayBundle bundle;
+  for (std::size_t k = 0; k < from.size(); ++k)
+    bundle.add(make_frame(from[k].position, from[k].normal), on_square[k].x(), on_square[k].y());
+  const std::vector<Hit> hits = first_hits(scene, bundle);
+  std::vector<RayEnd> ends;
+  ends.reserve(from.size());
+  for (std::size_t k = 0; k < from.size(); ++k)
+    ends.push_back(end_of(scene, from[k], bundle.rays[k], hits[k]));
+  return ends;
 }
 
 }  // namespace halfshade

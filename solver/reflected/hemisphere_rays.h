@@ -58,4 +58,10 @@ struct TracedHemispheres {
 TracedHemispheres trace_hemispheres(const ReflectingScene& scene,
                                     std::span<const RayHemisphere> hemispheres);
 
+/// One ray from each of some places, in the direction that its point of the unit square stands for
+/// as those of hemispheres do. Where no front is met, or one of another cell, the end's triangle is
+/// −1. Spans must be equally long; a few thousand rays from one surface go well together.
+std::vector<RayEnd> trace_rays(const ReflectingScene& scene, std::span<const RayOrigin> from,
+                               std::span<const Vec2> on_square);
+
 }  // namespace halfshade

@@ -94,6 +94,7 @@ struct Last {
 void print_exact(const std::string& name, const Scene& scene, double tolerance) {
   FactorOptions options;
   options.unit = FactorUnit::face;
+  options.method = FactorMethod::exact;
   options.tolerance = tolerance;
   const Run exact = run(scene, options);
   const FactorReport& report = exact.matrix.report;
@@ -107,6 +108,7 @@ void print_exact(const std::string& name, const Scene& scene, double tolerance) 
 void print(const std::string& name, const Scene& scene, double tolerance, Last& last) {
   FactorOptions options;
   options.unit = FactorUnit::face;
+  options.method = FactorMethod::exact;
   options.tolerance = tolerance;
   const Run exact = run(scene, options);
   options.method = FactorMethod::rays;

@@ -34,10 +34,14 @@ void print_scene(const Explanation& explanation, bool all_repairs, std::FILE* ou
              scene.face_lines.size(), scene.groups.size(), scene.groups.size() == 1 ? "" : "s",
              scene.materials.size(), scene.materials.size() == 1 ? "" : "s");
   print_some_repairs(scene, all_repairs, out);
+  // Of a scene that nothing lights, all parts are of interest, and of others those that are lit.
+  const auto& parts = explanation.parts;
+  const bool any_lit =
+      std::any_of(parts.begin(), parts.end(), [](const SpacePart& part) { return part.lit; });
   std::size_t unlit = 0;
-  for (const SpacePart& part : explanation.parts) {
-    if (!part.lit) ++unlit;
-    if (!part.lit) continue;
+  for (const SpacePart& part : parts) {
+    if (any_lit && !part.lit) ++unlit;
+    if (any_lit && !part.lit) continue;
     constexpr std::size_t most_names = 6;
     const std::size_t shown = std::min(most_names, part.groups.size());
     fmt::print(out, "part         {}: {}{}{}\n", part.closed ? "closed" : "open",
@@ -81,7 +85,8 @@ ExitCode run(const ExplainCommand& command, const Context& context) {
                            contacts_warning(options.max_elements)};
   Explanation explanation = use_prepared(
       file.scene, limit, context.progress,
-      [&](const PreparedScene& prepared) { return explain(prepared, options, context.progress); });
+      [&](const PreparedScene& prepared) { return explain(prepared, options, context.progress); },
+      Emitters::optional);
   context.progress_ends();
   const ExitCode code = context.progress.stopped() ? exit_interrupted : exit_done;
   print_warnings(file, explanation.warnings, context);

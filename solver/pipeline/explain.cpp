@@ -154,6 +154,14 @@ Explanation explain(const PreparedScene& prepared, const SolveOptions& given,
   explanation.scene = prepared.scene();
   explanation.unit = prepared.unit();
   explanation.warnings = prepared.warnings();
+  if (!has_emitter(prepared.scene())) {
+    explanation.parts = find_parts(prepared.scene(), progress);
+    explanation.stages = {{"all light",
+                           "no face emits any; give a material an exitance (Ke in an MTL file, or "
+                           "'exitance' or 'temperature' in a materials file)",
+                           "", 0, "", 0}};
+    return explanation;
+  }
   std::vector<StageReport> reports;
   Stages stages(reports);
   explanation.plan = make_plan(prepared, options, progress, stages);

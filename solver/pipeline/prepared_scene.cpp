@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <mutex>
 
 namespace halfshade {
@@ -19,17 +20,21 @@ struct PreparedScene::Indices {
   std::unique_ptr<const VisibilityIndex> visibility;
 };
 
+bool has_emitter(const SoundScene& scene) {
+  return std::any_of(scene.surfaces.begin(), scene.surfaces.end(), [&](const Surface& surface) {
+    return (scene.materials[at(surface.material)].exitance > 0).any();
+  });
+}
+
 namespace {
 
 /// Light beyond these exitances, in W/m², would over- or underflow on its way.
 constexpr double weakest = 1e-200, strongest = 1e200;
 
-/// Something that emits must be left of the scene, and as much as doubles can follow.
-void require_light(const Scene& scene, const SoundScene& sound) {
-  bool emits = false;
+/// What emits must do so as doubles can follow.
+void require_exitances(const Scene& scene, const SoundScene& sound) {
   for (const Surface& surface : sound.surfaces)
     for (const double exitance : sound.materials[at(surface.material)].exitance) {
-      emits = emits || exitance > 0;
       if (exitance > strongest || (exitance > 0 && exitance < weakest))
         throw Error(
             ErrorCode::invalid_input, scene.source,
@@ -37,7 +42,11 @@ void require_light(const Scene& scene, const SoundScene& sound) {
                         "{} and {}, so give the exitances in another unit",
                         sound.materials[at(surface.material)].name, exitance, weakest, strongest));
     }
-  if (emits) return;
+}
+
+/// Something that emits must be left of the scene.
+void require_light(const Scene& scene, const SoundScene& sound) {
+  if (has_emitter(sound)) return;
   require_emitter(scene);
   for (const Repair& repair : sound.repairs)
     for (const int face : repair.faces)
@@ -52,7 +61,7 @@ void require_light(const Scene& scene, const SoundScene& sound) {
 }  // namespace
 
 PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
-                             const RepairOptions& options)
+                             const RepairOptions& options, Emitters emitters)
     : cameras_(scene.cameras), unit_(scene.unit), indices_(std::make_unique<Indices>()) {
   validate(scene);
   std::vector<StageReport> reports;
@@ -62,7 +71,8 @@ PreparedScene::PreparedScene(const Scene& scene, const Progress& progress,
     return scene_.surfaces.size();
   });
   repair_ = reports.front();
-  require_light(scene, scene_);
+  require_exitances(scene, scene_);
+  if (emitters == Emitters::required) require_light(scene, scene_);
   warnings_ = repair_warnings(scene, scene_);
 }
 

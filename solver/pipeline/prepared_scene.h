@@ -20,14 +20,18 @@ class DirectLightIndex;
 class OpaqueScene;
 class VisibilityIndex;
 
+/// Whether something in a scene has to emit.
+enum class Emitters { required, optional };
+
 /// A scene made sound, and what is built on it once, when it is first asked for. All calls may run
 /// concurrently.
 class PreparedScene {
  public:
   /// Throws Error(invalid_input) unless the scene is valid and has an emitter that the repair
-  /// leaves, of an exitance between 1e-200 and 1e200 W/m²; see validate and make_sound.
+  /// leaves, where one is required, and all of an exitance between 1e-200 and 1e200 W/m²; see
+  /// validate and make_sound.
   explicit PreparedScene(const Scene& scene, const Progress& progress = {},
-                         const RepairOptions& options = {});
+                         const RepairOptions& options = {}, Emitters emitters = Emitters::required);
   /// Of a scene that is sound already.
   explicit PreparedScene(SoundScene scene);
   ~PreparedScene();
@@ -58,6 +62,9 @@ class PreparedScene {
   std::unique_ptr<Indices> indices_;
 };
 
+/// Whether any surface of a scene emits.
+bool has_emitter(const SoundScene& scene);
+
 /// How many elements contact lines may take, and what is said if they take more.
 struct ContactLimit {
   double most_elements = HUGE_VAL;
@@ -68,17 +75,18 @@ struct ContactLimit {
 /// `use` or the repair throws Error(too_large), once more with a scene without them: what nobody
 /// modelled, but a scanner or a random generator made, cuts through itself everywhere.
 template <class Use>
-auto use_prepared(const Scene& scene, const ContactLimit& limit, const Progress& progress,
-                  Use use) {
+auto use_prepared(const Scene& scene, const ContactLimit& limit, const Progress& progress, Use use,
+                  Emitters emitters = Emitters::required) {
   // Each piece is a side of two elements, and each element has three.
   const double most_contacts = 1.5 * limit.most_elements;
   try {
-    return use(PreparedScene(
-        scene, progress, {.most_contacts = most_contacts, .most_surfaces = limit.most_elements}));
+    return use(PreparedScene(scene, progress,
+                             {.most_contacts = most_contacts, .most_surfaces = limit.most_elements},
+                             emitters));
   } catch (const Error& error) {
     if (error.code() != ErrorCode::too_large) throw;
   }
-  PreparedScene prepared(scene, progress, {.contacts = false});
+  PreparedScene prepared(scene, progress, {.contacts = false}, emitters);
   if (!limit.warning.sentence.empty()) prepared.warn_first(limit.warning);
   return use(std::move(prepared));
 }

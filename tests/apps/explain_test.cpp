@@ -54,6 +54,36 @@ TEST(Explain, SaysWhatRunsAndWhatDoesNot) {
             2);
 }
 
+TEST(Explain, TakesAModelWithoutLight) {
+  const test::TempDir folder;
+  const fs::path file = folder.path() / "s.stl";
+  std::ofstream(file) << "solid shell\n"
+                         "facet normal 0 0 -1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\n"
+                         "vertex 1 0 0\nendloop\nendfacet\n"
+                         "facet normal 0 -1 0\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+                         "vertex 0 0 1\nendloop\nendfacet\n"
+                         "facet normal -1 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 1\n"
+                         "vertex 0 1 0\nendloop\nendfacet\n"
+                         "facet normal 1 1 1\nouter loop\nvertex 1 0 0\nvertex 0 1 0\n"
+                         "vertex 0 0 1\nendloop\nendfacet\nendsolid shell\n";
+  const auto explained = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> command = {"explain", "s.stl", "--json", "p.json"};
+    command.insert(command.end(), options.begin(), options.end());
+    const test::Outcome outcome = test::run_halfshade(command, folder.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const std::string outwards = explained({}), inwards = explained({"--flip"});
+  EXPECT_TRUE(has(outwards, "part         open: shell")) << outwards;
+  EXPECT_TRUE(has(inwards, "part         closed: shell")) << inwards;
+  EXPECT_TRUE(has(outwards, "left out     all light: no face emits any")) << outwards;
+  nlohmann::json report;
+  std::ifstream(folder.path() / "p.json") >> report;
+  EXPECT_TRUE(report["sources"].empty());
+  EXPECT_EQ(report["stages"].size(), 1u);
+  EXPECT_EQ(test::run_halfshade({"solve", "s.stl", "-o", "s.vtu"}, folder.path()).exit_code, 3);
+}
+
 TEST(Explain, ListsNoMoreThanAFewRepairsUnlessAsked) {
   const test::TempDir folder;
   std::ofstream(folder.path() / "s.mtl") << "newmtl lamp\nKe 1 1 1\n";

@@ -31,9 +31,11 @@ class ObjReader {
       line_ = lines.line();
       statement(lines.text());
     }
+    const bool may_be_cut = bytes.back() != '\n' && bytes.back() != '\r';
+    if (may_be_cut && line_of_edge_ == line_) too_few_vertices(draft_.scene.faces.size());
     check_references();
     collect_places();
-    if (bytes.back() != '\n' && bytes.back() != '\r')
+    if (may_be_cut)
       draft_.warnings.push_back(
           fmt::format("{}: the last line does not end with a line break; if the file was cut "
                       "short, faces are missing",
@@ -88,10 +90,7 @@ class ObjReader {
   }
 
   void face() {
-    if (words_.size() < 4)
-      fail(file_, line_,
-           fmt::format("face {} has {} vertices; a polygon needs at least 3",
-                       draft_.scene.faces.size() + 1, words_.size() - 1));
+    if (words_.size() < 3) too_few_vertices(draft_.scene.faces.size() + 1);
     if (group_ < 0) group_ = group_id(draft_, group_name_);
     if (material_ < 0) material_ = material_id(draft_, default_name);
     Face face;
@@ -104,7 +103,19 @@ class ObjReader {
       face.vertices.push_back(corner(words_[i]));
       place_of_corner_.back().push_back(place_index(words_[i]));
     }
+    // An edge that a modeller left behind: there and back, as a face without area.
+    if (face.vertices.size() == 2) {
+      line_of_edge_ = line_;
+      face.vertices.push_back(face.vertices.front());
+      place_of_corner_.back().push_back(place_of_corner_.back().front());
+    }
     draft_.scene.faces.push_back(std::move(face));
+  }
+
+  [[noreturn]] void too_few_vertices(std::size_t face) const {
+    fail(file_, line_,
+         fmt::format("face {} has {} vertices; a polygon needs at least 3", face,
+                     words_.size() - 1));
   }
 
   /// The vertex, counted from 0, of "v", "v/vt", "v//vn" or "v/vt/vn". Positive indices may point
@@ -216,6 +227,7 @@ class ObjReader {
                            static_cast<long long>(v) + 1, count));
   }
 
+  int line_of_edge_ = -1;  ///< of the last face with two vertices
   path file_;
   SceneDraft draft_;
   Words words_;

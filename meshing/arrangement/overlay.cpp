@@ -1,5 +1,6 @@
 #include "meshing/arrangement/overlay.h"
 
+#include "meshing/core/error.h"
 #include "meshing/core/planar.h"
 
 #include <algorithm>
@@ -209,22 +210,47 @@ std::vector<int> crossed_loops(const Overlay& overlay, double width) {
   return result;
 }
 
-Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops,
-                const SnapRadii& snap) {
+namespace {
+
+/// The sides of loops, and which loop each is of.
+struct Sides {
   std::vector<Link> segments;
   std::vector<int> loop_of;
+};
+
+Sides sides_of(std::span<const std::vector<int>> loops) {
+  Sides sides;
   for (std::size_t l = 0; l < loops.size(); ++l)
     for (std::size_t k = 0; k < loops[l].size(); ++k) {
-      segments.push_back({loops[l][k], loops[l][(k + 1) % loops[l].size()]});
-      loop_of.push_back(static_cast<int>(l));
+      sides.segments.push_back({loops[l][k], loops[l][(k + 1) % loops[l].size()]});
+      sides.loop_of.push_back(static_cast<int>(l));
     }
-  Arrangement arrangement = arrange(std::move(points), segments, snap);
-  const BoundaryLinks boundary = boundary_links(arrangement, loop_of);
+  return sides;
+}
+
+Overlay overlay_of(std::vector<Vec2> points, const Sides& sides, const SnapRadii& snap) {
+  Arrangement arrangement = arrange(std::move(points), sides.segments, snap);
+  const BoundaryLinks boundary = boundary_links(arrangement, sides.loop_of);
   Overlay result;
   result.hull = constrained_delaunay(arrangement.points, boundary.links);
   result.points = std::move(arrangement.points);
   flood(result, boundary);
   return result;
+}
+
+}  // namespace
+
+Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops,
+                const SnapRadii& snap) {
+  const Sides sides = sides_of(loops);
+  try {
+    return overlay_of(points, sides, snap);
+  } catch (const Error&) {
+    // Two sides whose ends nearly are the same, farther apart than points snap, are led through
+    // each other's ends, turn back there and are themselves again: they cross in the end.
+    if (!(snap.points < snap.links)) throw;
+    return overlay_of(std::move(points), sides, {snap.links, snap.links});
+  }
 }
 
 std::vector<OverlayRegion> regions(const Overlay& overlay, std::span<const int> labels) {

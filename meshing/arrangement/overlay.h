@@ -19,7 +19,8 @@ struct Overlay {
   std::vector<std::vector<std::pair<int, int>>> winding;
 };
 
-/// Lays loops of points over each other; `snap` as in arrange(). Deterministic.
+/// Lays loops of points over each other; `snap` as in arrange(), but where sides would cross all
+/// the same points become one within the radius of links. Deterministic.
 Overlay overlay(std::vector<Vec2> points, std::span<const std::vector<int>> loops,
                 const SnapRadii& snap);
 

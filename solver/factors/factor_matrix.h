@@ -87,9 +87,10 @@ struct FactorMatrix {
 };
 
 /// Computes each pair of surfaces once: nothing for those that cannot see each other, closed forms
-/// where nothing is in between, else cubature of exact point factors; see factors.md. No emitter is
-/// needed. Throws as make_factor_scene does, and Error(too_large) if the matrix would not fit into
-/// memory or exact pairs would take more than a day. If stopped, what comes back is not complete.
+/// where nothing is in between, else cubature of exact point factors; or rows by rays; see
+/// factors.md. No emitter is needed. Throws as make_factor_scene does, and Error(too_large) if the
+/// matrix would not fit into memory or, with FactorMethod::exact, take more than a day. If stopped,
+/// what comes back is not complete.
 /// The same for any number of threads. Cost: n²/2 shafts for n surfaces.
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
                                 const Progress& progress = {});

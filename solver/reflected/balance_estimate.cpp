@@ -117,28 +117,48 @@ bool is_grey(const ReflectedSystem& system) {
   return true;
 }
 
-/// What comes of each part of the points, beside what they found itself.
+/// What comes of what points find missing, beside that itself; `missing(e, c)` of an element in a
+/// channel.
+template <class Missing>
+ElementField comes_of(const Missing& missing, const ReflectedSystem& system,
+                      const ElementField& irradiance, const ReflectionEstimate& estimate,
+                      const std::vector<UnsureLoss>& unsure) {
+  const ReflectedMesh& mesh = system.mesh;
+  ElementField source = zero_field(mesh);
+  for (int e = 0; e < mesh.count(); ++e)
+    if (const double reach = estimate.reach[at(e)]; reach > 0)
+      for (int c = 0; c < 3; ++c)
+        source.of(e)(0, c) = missing(e, c) * estimate.probed[at(e)] / (reach * mesh.area(e));
+  ElementField all = missing_light(system, source);
+  balance_change(system, irradiance, unsure, all);
+  all.coefficients -= source.coefficients;
+  return all;
+}
+
+/// The same of all points together, or of each part of them.
 std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
                                           const ElementField& irradiance,
                                           const ReflectionEstimate& estimate,
-                                          const std::vector<UnsureLoss>& unsure) {
-  const ReflectedMesh& mesh = system.mesh;
-  const std::size_t at_once = is_grey(system) ? 3 : 1;
+                                          const std::vector<UnsureLoss>& unsure, PointParts which) {
+  const auto come_of = [&](const auto& missing) {
+    return comes_of(missing, system, irradiance, estimate, unsure);
+  };
+  if (which == PointParts::one)
+    return {come_of([&](int e, int c) {
+      double mean = 0;
+      for (const Rgb& part : estimate.missing[at(e)]) mean += part[c] / parts_of_probes;
+      return mean;
+    })};
+  const bool is_one_a_channel = is_grey(system);
+  const std::size_t at_once = is_one_a_channel ? 3 : 1;
   static_assert(parts_of_probes % 3 == 0);
   std::vector<ElementField> parts;
   for (std::size_t p = 0; p < parts_of_probes; p += at_once) {
-    ElementField source = zero_field(mesh);
-    for (int e = 0; e < mesh.count(); ++e)
-      if (const double reach = estimate.reach[at(e)]; reach > 0)
-        for (int c = 0; c < 3; ++c)
-          source.of(e)(0, c) = estimate.missing[at(e)][at_once == 3 ? p + at(c) : p][c] *
-                               estimate.probed[at(e)] / (reach * mesh.area(e));
-    ElementField all = missing_light(system, source);
-    balance_change(system, irradiance, unsure, all);
-    all.coefficients -= source.coefficients;
+    const ElementField all = come_of(
+        [&](int e, int c) { return estimate.missing[at(e)][is_one_a_channel ? p + at(c) : p][c]; });
     for (std::size_t k = 0; k < at_once; ++k) {
       parts.push_back(all);
-      if (at_once == 3)
+      if (is_one_a_channel)
         for (int c = 0; c < 3; ++c)
           parts.back().coefficients.col(c) = all.coefficients.col(static_cast<Eigen::Index>(k));
     }
@@ -150,18 +170,18 @@ std::vector<ElementField> reflected_parts(const ReflectedSystem& system,
 
 ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
                          const ReflectionEstimate& estimate, const std::vector<UnsureLoss>& unsure,
-                         const std::vector<double>& weight) {
+                         const std::vector<double>& weight, PointParts which) {
   const ReflectedMesh& mesh = system.mesh;
   const std::vector<ElementField> parts =
-      reflected_parts(system, irradiance.rest, estimate, unsure);
+      reflected_parts(system, irradiance.rest, estimate, unsure, which);
   const ElementField there = irradiance.whole(mesh, system.systems);
-  constexpr double n = parts_of_probes;
+  const auto n = static_cast<double>(parts.size());
   ReflectedOn on;
   for (int e = 0; e < mesh.count(); ++e) {
     Rgb mean = Rgb::Zero(), variance = Rgb::Zero();
     for (const ElementField& part : parts) mean += part.of(e).row(0).transpose() / n;
     for (const ElementField& part : parts)
-      variance += (part.of(e).row(0).transpose() - mean).square() / (n * (n - 1));
+      if (n > 1) variance += (part.of(e).row(0).transpose() - mean).square() / (n * (n - 1));
     const Rgb all = there.of(e).row(0).transpose();
     const double share = mesh.area(e) * weight[at(e)];
     on.square += share * at_most(mean, all).square().sum();

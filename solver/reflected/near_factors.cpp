@@ -142,21 +142,18 @@ std::vector<UnsureLoss> UnsureLosses::find(const ReflectedSystem& system,
       [&](std::size_t i) {
         const int e = static_cast<int>(i);
         if ((light.mean_rho(mesh, e) == 0).all()) return;
-        UnsureLoss& loss = unsure[i] = search(e);
+        const std::size_t t = at(mesh.triangle[i]);
+        KeptLoss& kept = of_triangle_[t];
+        if (kept.order != mesh.order[t]) kept = {mesh.order[t], search(e), {}};
+        UnsureLoss& loss = unsure[i] = kept.in_gaps;
         const BackShadow* const known = exchange.shadow(e);
-        add_shadow(known ? *known : shadow(mesh, e), known ? known->unsure : 1,
+        if (!known && !kept.shadow) kept.shadow = backs_.shadow(mesh, e);
+        add_shadow(known ? *known : *kept.shadow, known ? known->unsure : 1,
                    std::sqrt(mesh.area(e)), loss);
         loss.factor += exchange.unsure_loss(e);
       },
       progress, "error of reflected light");
   return unsure;
-}
-
-const BackShadow& UnsureLosses::shadow(const ReflectedMesh& mesh, int element) {
-  const std::size_t t = at(mesh.triangle[at(element)]);
-  KeptShadow& kept = of_triangle_[t];
-  if (kept.order != mesh.order[t]) kept = {mesh.order[t], backs_.shadow(mesh, element)};
-  return kept.shadow;
 }
 
 }  // namespace halfshade

@@ -6,6 +6,7 @@
 #include "solver/reflected/reflected_system.h"
 #include "solver/reflected/reflecting_scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace halfshade {
@@ -21,20 +22,20 @@ class UnsureLosses {
   /// The scene must outlive it.
   explicit UnsureLosses(const ReflectingScene& scene) : scene_(scene), backs_(scene) {}
 
-  /// Element → its loss. What backs hide of elements that stay from round to round is found once.
-  /// If stopped, the rest is zero.
+  /// Element → its loss. What gaps and backs before them take from elements that stay from round to
+  /// round is found once. If stopped, the rest is zero.
   std::vector<UnsureLoss> find(const ReflectedSystem& system, const Progress& progress);
 
  private:
-  struct KeptShadow {
+  struct KeptLoss {
     int order = -1;  ///< of the element; −1: none yet
-    BackShadow shadow;
+    UnsureLoss in_gaps;
+    std::optional<BackShadow> shadow;
   };
-  const BackShadow& shadow(const ReflectedMesh& mesh, int element);
 
   const ReflectingScene& scene_;
   NearBacks backs_;
-  std::vector<KeptShadow> of_triangle_;
+  std::vector<KeptLoss> of_triangle_;
 };
 
 }  // namespace halfshade

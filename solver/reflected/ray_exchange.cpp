@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 namespace halfshade {
@@ -20,6 +21,21 @@ constexpr std::array<int, 2> uses_of_kept = {0, most_uses - 1};
 /// less than twice as much of it as the same number everywhere.
 constexpr int many_elements = 20000, fewest_kept_strata = 3;
 constexpr double power_of_rays = 1 / (1 + noise_exponent);
+
+/// Of an element in a gap; with a quarter light was still amplified by up to 35 where it may be
+/// by 5.
+constexpr double share_of_width = 0.5;
+/// Light that goes to and fro in a gap between polynomials falls by 1.3 times the reflectance with
+/// each bounce, or grows. Below this one it falls soon enough, and polynomials of what comes in at
+/// the border take fewer elements than constants do.
+constexpr double amplified_reflectance = 0.65;
+
+/// Of a triangle.
+double shortest_height(const std::array<Vec3, 3>& p) {
+  const double longest = std::sqrt(std::max(
+      {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
+  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / longest;
+}
 
 /// Of the mean area, if elements are so many that it matters; else 0.
 double area_of_all_rays(const ReflectedMesh& mesh) {
@@ -100,6 +116,38 @@ bool RayExchange::update(const ReflectedMesh& mesh, const Progress& progress) {
       settle(mesh.forest, of_triangle_[at(mesh.triangle[e])]->halves.traced);
     });
   return complete;
+}
+
+bool RayExchange::is_in_gap(const ReflectedMesh& mesh, int element) const {
+  const int t = mesh.triangle[at(element)];
+  const double reach = share_of_width * shortest_height(mesh.forest.corners(t));
+  const auto& places = element_nodes_of(mesh.order[at(t)]).places;
+  const TracedHemispheres& traced = of_triangle_[at(t)]->halves.traced;
+  const Rgb rho = light_.rho[at(mesh.root(element))];
+  constexpr double least = amplified_reflectance * amplified_reflectance;
+  std::size_t near = 0;
+  for (std::size_t h = 0; h < traced.of_each.size(); ++h) {
+    const Vec3 from = mesh.position(element, places[h / 2]);
+    for (const RayEnd& end : traced.ends_of(h)) {
+      const Vec3 to = position(mesh.forest.corners(end.triangle), end.place());
+      const Rgb both = rho * light_.rho[at(mesh.forest.root(end.triangle))];
+      near += (to - from).squaredNorm() < reach * reach && both.maxCoeff() > least ? 1 : 0;
+    }
+  }
+  return 2 * near > traced.ends.size();
+}
+
+bool RayExchange::lower_orders_in_gaps(ReflectedMesh& mesh, const Progress& progress) {
+  if (!update(mesh, progress)) return false;
+  std::vector<std::uint8_t> lowers(at(mesh.count()), 0);
+  parallel_for(lowers.size(), [&](std::size_t e) {
+    lowers[e] = !mesh.stays_constant[at(mesh.triangle[e])] && is_in_gap(mesh, static_cast<int>(e));
+  });
+  std::vector<int> elements;
+  for (std::size_t e = 0; e < lowers.size(); ++e)
+    if (lowers[e]) elements.push_back(static_cast<int>(e));
+  make_constant(mesh, elements);
+  return update(mesh, progress);
 }
 
 bool RayExchange::find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,

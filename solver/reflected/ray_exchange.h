@@ -37,6 +37,12 @@ class RayExchange : public IrradianceOperator {
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
   bool stopped() const override { return stop_.stop_requested(); }
+  /// Makes elements constant that face others within half of their own width, as shelves do that
+  /// all but lie on each other, where both reflect much. What polynomials on either side of such a
+  /// gap make of each other at the nodes may be more than it was: light that goes to and fro grew
+  /// with each bounce, or hardly fell. False if stopped.
+  bool lower_orders_in_gaps(ReflectedMesh& mesh, const Progress& progress);
+
   bool find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,
                    const Progress& progress) override;
   double unsure_loss(int element) const override { return losses_.unsure[at(element)]; }
@@ -58,6 +64,8 @@ class RayExchange : public IrradianceOperator {
   std::vector<double> rays_of_nodes(const ReflectedMesh& mesh) const;
 
  private:
+  bool is_in_gap(const ReflectedMesh& mesh, int element) const;
+
   const ReflectingScene& scene_;
   const FirstLight& light_;
   int strata_;

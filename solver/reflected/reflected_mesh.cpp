@@ -63,6 +63,7 @@ void split(ReflectedMesh& mesh, int triangle, int times) {
   if (times == 0) return;
   mesh.forest.bisect(triangle);
   mesh.order.resize(at(mesh.forest.count()), mesh.order[at(triangle)]);
+  mesh.stays_constant.resize(at(mesh.forest.count()), false);
   const int half = mesh.forest.first_half(triangle);
   split(mesh, half, times - 1);
   split(mesh, half + 1, times - 1);
@@ -105,6 +106,7 @@ ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int 
     const int allowed = share > share_of_linear ? max_reflected_order : share > share_of_constant;
     mesh.order.push_back(std::min(order, allowed));
   }
+  mesh.stays_constant.resize(mesh.order.size(), false);
   number_elements(mesh);
   return mesh;
 }
@@ -112,12 +114,20 @@ ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int 
 void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<int>& times) {
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const int t = mesh.triangle[at(wanted[i])];
-    if (mesh.order[at(t)] < mesh.highest_order)
+    if (mesh.order[at(t)] < mesh.highest_order && !mesh.stays_constant[at(t)])
       mesh.order[at(t)] = mesh.highest_order;
     else
       split(mesh, t, times[i]);
   }
   number_elements(mesh);
+}
+
+void make_constant(ReflectedMesh& mesh, std::span<const int> elements) {
+  for (const int e : elements) {
+    const std::size_t t = at(mesh.triangle[at(e)]);
+    mesh.order[t] = 0;
+    mesh.stays_constant[t] = true;
+  }
 }
 
 ReflectedMesh bisected(ReflectedMesh mesh, int times) {

@@ -20,7 +20,8 @@ struct ReflectedMesh {
   TriangleForest forest;
   HugeRoots huge;
   int highest_order = 0;
-  std::vector<int> order;  ///< triangle → order of its polynomial
+  std::vector<int> order;            ///< triangle → order of its polynomial
+  std::vector<bool> stays_constant;  ///< triangle → its order is not raised
   /// Element → leaf: root by root, half by half, so that those which follow each other are close
   /// and the memory that rays from them read is the same.
   std::vector<int> triangle;
@@ -46,6 +47,9 @@ ReflectedMesh make_reflected_mesh(const ElementTable& roots, double length, int 
 /// Raises the order of elements where that is the next thing to do, else bisects them and their
 /// parts, each as many times as `times` says. One entry of it a wanted element.
 void refine(ReflectedMesh& mesh, std::span<const int> wanted, const std::vector<int>& times);
+
+/// Makes elements constant, and keeps them so; their parts may be more.
+void make_constant(ReflectedMesh& mesh, std::span<const int> elements);
 
 /// Every element bisected that many times, and its parts as well.
 ReflectedMesh bisected(ReflectedMesh mesh, int times);

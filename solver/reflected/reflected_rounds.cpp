@@ -106,6 +106,7 @@ class Rounds {
   bool run_once() {
     ReflectedReport& report = state_.report;
     report.end = ReflectedEnd::interrupted;
+    if (kept_rays_ && !kept_rays_->lower_orders_in_gaps(mesh_, progress_)) return false;
     direct_.update(mesh_, state_.light);
     state_.light.painted.update(mesh_, state_.light.rho);
     IrradianceOperator& kept = parts_ ? static_cast<IrradianceOperator&>(*parts_) : *kept_rays_;
@@ -282,9 +283,12 @@ class Rounds {
     const BalanceEstimate unbalanced =
         estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
                          found.weight, report.amplification, negligible * goal);
+    // While there is more to do anyway, about how much is reflected on is enough.
+    const bool is_last_doubt = square <= goal && unbalanced.square <= goal;
     const ReflectedOn reflected =
         report.amplification >= much_comes_back
-            ? reflected_on(system, irradiance, estimate, found.unsure, found.weight)
+            ? reflected_on(system, irradiance, estimate, found.unsure, found.weight,
+                           is_last_doubt ? PointParts::all : PointParts::one)
             : ReflectedOn{};
     if (progress_.stopped()) return Next::end;
     const double on = reflected.at_most();
@@ -305,7 +309,7 @@ class Rounds {
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.in_gaps > goal) report.end = ReflectedEnd::gaps;
     if (unbalanced.square > goal && cannot_show) return Next::end;
-    const bool is_reflected_on = on > goal && square <= goal && unbalanced.square <= goal;
+    const bool is_reflected_on = on > goal && is_last_doubt;
     if (is_reflected_on && reflected.is_unsure() && surer_ < surest) return Next::points;
     // What is reflected on shrinks as what is off does, elements or noise.
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},

@@ -53,6 +53,13 @@ TEST(ReadObj, KeepsPolygonsTheirOrderAndTheirLines) {
   EXPECT_EQ(scene.faces[1].line, 9);
 }
 
+TEST(ReadObj, TakesEdgesForFacesWithoutArea) {
+  const Scene scene = read_obj(square + "f 1 2\nf 1 2 3 4\n").scene;
+  ASSERT_EQ(scene.faces.size(), 2u);
+  EXPECT_EQ(scene.faces[0].vertices, (std::vector<int>{0, 1, 0}));
+  EXPECT_NO_THROW(validate(scene));
+}
+
 TEST(ReadObj, RoundsCoordinatesToTheNearestDouble) {
   const Scene scene =
       read_obj(

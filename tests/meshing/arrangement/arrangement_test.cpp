@@ -215,5 +215,25 @@ TEST(Arrange, PointsNearerThanLinksSnapDoNotMakeChainsGrowWithoutEnd) {
   }
 }
 
+/// Two quadrilaterals side by side, along sides whose ends are a thousandth of the links' radius
+/// apart: each was led through the ends of the other one, turned back there and was itself again.
+/// They crossed in the end, which no triangulation takes.
+TEST(Overlay, TakesSidesThatLeadThroughEachOthersEnds) {
+  const std::vector<Vec2> points = {{-4.398938, -75.646759}, {-4.398937, -74.032715},
+                                    {2.483863, -74.032715},  {2.483863, -75.646759},
+                                    {-5.561995, -79.301674}, {-5.561996, -70.3778},
+                                    {-4.398938, -74.032715}, {-4.398937, -75.646759}};
+  const std::vector<std::vector<int>> loops = {{0, 3, 2, 1}, {4, 7, 6, 5}};
+  const Overlay result = overlay(points, loops, {5e-7, 5e-4});
+  double area = 0;
+  for (std::size_t t = 0; t < result.hull.triangles.size(); ++t) {
+    if (result.winding[t].empty()) continue;
+    EXPECT_EQ(result.winding[t].size(), 1u) << "no place is in both";
+    EXPECT_EQ(result.winding[t].front().second, 1);
+    area += twice_area(result.points, result.hull.triangles[t]) / 2;
+  }
+  EXPECT_NEAR(area, (twice_area(points, loops[0]) + twice_area(points, loops[1])) / 2, 1e-5);
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -35,6 +35,62 @@ struct Room {
   ReflectedMesh mesh;
 };
 
+/// By how much light that goes to and fro falls with each bounce in the end, or grows.
+double factor_of_bounces(const RayExchange& exchange, const ReflectedMesh& mesh,
+                         const FirstLight& light) {
+  const auto norm = [&](const ElementField& field) {
+    double square = 0;
+    for (int e = 0; e < mesh.count(); ++e) square += mesh.area(e) * field.of(e).square().sum();
+    return std::sqrt(square);
+  };
+  ElementField field = zero_field(mesh);
+  for (int e = 0; e < mesh.count(); ++e)
+    for (int k = 0; k < field.of(e).rows(); ++k) field.of(e).row(k) = std::cos(7 * e + 3 * k + 1);
+  constexpr int bounces = 200, last = 50;
+  double before = 0;
+  for (int k = 0; k < bounces; ++k) {
+    if (k == bounces - last) before = norm(field);
+    field = exchange.apply(mesh, reflected_part(mesh, light, field));
+  }
+  return std::pow(norm(field) / before, 1. / last);
+}
+
+TEST(RayExchange, LightFallsWithEachBounceInAGap) {
+  constexpr double rho = 0.8, gap = 1e-3;
+  Scene scene;
+  const int white = test::add_material(scene, rho, 0);
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, white);
+  test::add_polygon(scene, {{-.2, .9, gap}, {.8, 1.2, gap}, {1.2, .2, gap}, {.1, -.3, gap}}, white);
+  const SoundScene sound = make_sound(scene);
+  const ReflectingScene reflecting = make_reflecting_scene(sound);
+  const FirstLight light = first_light(
+      sound, reflecting.roots, [](int, const Vec3&) { return Rgb(Rgb::Zero()); }, false);
+  ReflectedMesh mesh = make_reflected_mesh(reflecting.roots, 0.3, 2, 100000);
+  RayExchange exchange(reflecting, light, strata);
+  ASSERT_TRUE(exchange.update(mesh, {}));
+  ASSERT_GT(mesh.count(), 20);
+  EXPECT_GT(factor_of_bounces(exchange, mesh, light), 1) << "it grows, for this test to tell";
+  ASSERT_TRUE(exchange.lower_orders_in_gaps(mesh, {}));
+  EXPECT_LE(factor_of_bounces(exchange, mesh, light), rho + 1e-3);
+  // They stay constant, and their parts may be more once the gap is not narrow for them.
+  std::vector<int> all;
+  for (int e = 0; e < mesh.count(); ++e)
+    if (mesh.stays_constant[at(mesh.triangle[at(e)])]) all.push_back(e);
+  ASSERT_GT(all.size(), 10u);
+  const int before = mesh.count();
+  refine(mesh, all, std::vector<int>(all.size(), 1));
+  EXPECT_EQ(mesh.count(), before + static_cast<int>(all.size()));
+}
+
+TEST(RayExchange, LeavesTheOrdersOfARoom) {
+  Room room(0.3);
+  room.mesh = make_reflected_mesh(room.reflecting.roots, 0.3, 2, 100000);
+  const std::vector<int> before = room.mesh.order;
+  RayExchange exchange(room.reflecting, room.light, strata);
+  ASSERT_TRUE(exchange.lower_orders_in_gaps(room.mesh, {}));
+  EXPECT_EQ(room.mesh.order, before);
+}
+
 TEST(RayExchange, TakesFewerRaysFromSmallElementsAmongVeryMany) {
   Room room(0.05);
   const int large = room.mesh.count();

@@ -39,8 +39,8 @@ struct Explanation {
   std::vector<SpacePart> parts;  ///< those that fronts look into
 };
 
-/// Of a scene without an emitter, too: then no stage runs. Cost: that of make_plan, and of a mesh of
-/// about 2000 elements.
+/// Of a scene without an emitter, too: then no stage runs. Cost: that of make_plan, and of a mesh
+/// of about 2000 elements.
 Explanation explain(const PreparedScene& prepared, const SolveOptions& options,
                     const Progress& progress = {});
 

@@ -32,9 +32,8 @@ constexpr double amplified_reflectance = 0.65;
 
 /// Of a triangle.
 double shortest_height(const std::array<Vec3, 3>& p) {
-  const double longest = std::sqrt(std::max(
-      {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()}));
-  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / longest;
+  const std::size_t k = at(longest_edge(p));
+  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / (p[(k + 1) % 3] - p[k]).norm();
 }
 
 /// Of the mean area, if elements are so many that it matters; else 0.
@@ -147,7 +146,7 @@ bool RayExchange::lower_orders_in_gaps(ReflectedMesh& mesh, const Progress& prog
   for (std::size_t e = 0; e < lowers.size(); ++e)
     if (lowers[e]) elements.push_back(static_cast<int>(e));
   make_constant(mesh, elements);
-  return update(mesh, progress);
+  return true;
 }
 
 bool RayExchange::find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,

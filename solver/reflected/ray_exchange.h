@@ -37,10 +37,11 @@ class RayExchange : public IrradianceOperator {
   ElementField apply(const ReflectedMesh& mesh, const ElementField& leaving) const override;
   std::vector<int> seen_from(const ReflectedMesh& mesh, int element) const override;
   bool stopped() const override { return stop_.stop_requested(); }
-  /// Makes elements constant that face others within half of their own width, as shelves do that
-  /// all but lie on each other, where both reflect much. What polynomials on either side of such a
-  /// gap make of each other at the nodes may be more than it was: light that goes to and fro grew
-  /// with each bounce, or hardly fell. False if stopped.
+  /// Updates, and makes elements constant that face others within half of their own width, as
+  /// shelves do that all but lie on each other, where both reflect much. What polynomials on either
+  /// side of such a gap make of each other at the nodes may be more than it was: light that goes to
+  /// and fro grew with each bounce, or hardly fell. Those are to be updated again. False if
+  /// stopped.
   bool lower_orders_in_gaps(ReflectedMesh& mesh, const Progress& progress);
 
   bool find_losses(const ReflectedMesh& mesh, const LightSystems& systems, double enough,

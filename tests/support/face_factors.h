@@ -2,6 +2,8 @@
 
 #include "solver/factors/factor_matrix.h"
 
+#include <gtest/gtest.h>
+
 namespace halfshade::test {
 
 /// Between the faces of a scene, exactly.
@@ -11,6 +13,17 @@ inline FactorMatrix face_factors(const Scene& scene, double tolerance) {
   options.method = FactorMethod::exact;
   options.tolerance = tolerance;
   return form_factor_matrix(scene, options);
+}
+
+/// Two matrices of the same rows are as near to each other as both claim.
+inline void expect_within_errors(const FactorMatrix& a, const FactorMatrix& b) {
+  for (Eigen::Index i = 0; i < a.area.size(); ++i) {
+    const double error = a.error[i] + b.error[i];
+    EXPECT_NEAR(a.space[i], b.space[i], error);
+    EXPECT_NEAR(a.backs[i], b.backs[i], error);
+    for (Eigen::Index j = 0; j < a.area.size(); ++j)
+      EXPECT_NEAR(a.factors(i, j), b.factors(i, j), error);
+  }
 }
 
 }  // namespace halfshade::test

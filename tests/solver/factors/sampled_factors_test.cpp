@@ -2,6 +2,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/row_rays.h"
 #include "solver/factors/surface_exchange.h"
+#include "tests/support/face_factors.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_maker.h"
 #include "tests/support/scenes.h"
@@ -57,11 +58,7 @@ TEST(SampledFactors, GoOnUntilTheTolerance) {
     EXPECT_LT(static_cast<double>(sampled.report.rays),
               std::max(2e5, 50. * static_cast<double>(before)));
     before = sampled.report.rays;
-    for (Eigen::Index i = 0; i < exact.area.size(); ++i) {
-      EXPECT_NEAR(sampled.space[i], exact.space[i], sampled.error[i] + exact.error[i]);
-      for (Eigen::Index j = 0; j < exact.area.size(); ++j)
-        EXPECT_NEAR(sampled.factors(i, j), exact.factors(i, j), sampled.error[i] + exact.error[i]);
-    }
+    test::expect_within_errors(sampled, exact);
   }
 }
 

@@ -54,6 +54,7 @@ bool matters(const Scene& scene, const Repair& repair) {
     case Repair::Kind::degenerate_dropped:
       return area_of(scene, face) > noticeable * std::pow(size_of(scene, face), 2);
     case Repair::Kind::duplicate_dropped:
+    case Repair::Kind::crossed_split:
     case Repair::Kind::gap_shut:
       return true;
     case Repair::Kind::non_planar_triangulated:

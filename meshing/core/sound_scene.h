@@ -36,6 +36,7 @@ struct Repair {
     degenerate_dropped,       ///< no area; size: the width below which that is so
     duplicate_dropped,        ///< the first face has the same corners as the second
     non_planar_triangulated,  ///< size: how far corners are off the plane
+    crossed_split,            ///< its boundary crosses itself: triangles took its place
     coplanar_merged,          ///< neighbours joined into one surface
     overlap_removed,  ///< coplanar faces of different materials covered each other: the first keeps
                       ///< the common part; size: its area

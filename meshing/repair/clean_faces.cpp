@@ -1,12 +1,10 @@
 #include "meshing/repair/clean_faces.h"
 
 #include "meshing/arrangement/overlay.h"
-#include "meshing/core/error.h"
 #include "meshing/core/plane_frame.h"
 #include "meshing/core/tolerance.h"
+#include "meshing/repair/crossed_faces.h"
 #include "meshing/repair/written_digits.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,12 +45,6 @@ std::vector<int> clean_loop(const Face& face, const WeldedVertices& vertices, do
   return loop;
 }
 
-std::vector<Vec3> corners(const WeldedVertices& vertices, const std::vector<int>& loop) {
-  std::vector<Vec3> result;
-  for (const int p : loop) result.push_back(vertices.points[at(p)]);
-  return result;
-}
-
 LocalScale scale_of_face(const Scene& scene, int face, const WeldedVertices& vertices) {
   const int point = vertices.of_vertex[at(scene.faces[at(face)].vertices.front())];
   const std::vector<Vec3> corners = face_corners(scene, face);
@@ -69,24 +61,12 @@ double perimeter(const std::vector<Vec3>& polygon) {
   return sum;
 }
 
-// Greatest distance of a corner from the line through the first one and the one farthest from it.
-double width_of(const std::vector<Vec3>& polygon) {
-  Vec3 chord = Vec3::Zero();
-  for (const Vec3& p : polygon)
-    if ((p - polygon[0]).norm() > chord.norm()) chord = p - polygon[0];
-  double width = 0;
-  for (const Vec3& p : polygon) width = std::max(width, (p - polygon[0]).cross(chord).norm());
-  return chord.norm() > 0 ? width / chord.norm() : 0;
+bool is_wide(const std::vector<Vec3>& polygon, const LocalTolerance& tolerance) {
+  return polygon.size() >= 3 && width_of(polygon) > tolerance.length;
 }
 
-// True if the face has an area worth keeping; throws if its parts cancel.
-bool has_area(const Scene& scene, int face, const std::vector<Vec3>& polygon,
-              const LocalTolerance& tolerance) {
-  if (polygon.size() < 3 || width_of(polygon) <= tolerance.length) return false;
-  const double area = area_vector(polygon).norm();
-  if (area > 0.5 * tolerance.length * perimeter(polygon)) return true;
-  if (polygon.size() == 3) return false;
-  reject_crossed_face(scene, face);
+bool has_area(const std::vector<Vec3>& polygon, const LocalTolerance& tolerance) {
+  return area_vector(polygon).norm() > 0.5 * tolerance.length * perimeter(polygon);
 }
 
 bool emits(const Scene& scene, int face) {
@@ -116,42 +96,23 @@ std::vector<FacePiece> without_duplicates(const Scene& scene, std::vector<FacePi
   return kept;
 }
 
-// A face off its plane by more than the tolerance, as triangles over its projection.
-std::vector<FacePiece> triangles_of(const Scene& scene, const FacePiece& piece,
-                                    const PlaneFrame& frame, WeldedVertices& vertices,
-                                    const LocalTolerance& tolerance) {
-  std::vector<Vec2> flat;
-  std::vector<int> ids = piece.loop, local(piece.loop.size());
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    flat.push_back(frame.to_plane(vertices.points[at(ids[k])]));
-    local[k] = static_cast<int>(k);
-  }
-  const Overlay result =
-      overlay(std::move(flat), std::span(&local, 1), {tolerance.length, tolerance.length});
-  if (!crossed_loops(result, tolerance.length).empty()) reject_crossed_face(scene, piece.face);
-  for (std::size_t k = ids.size(); k < result.points.size(); ++k) {
-    ids.push_back(static_cast<int>(vertices.points.size()));
-    vertices.points.push_back(frame.to_space(result.points[k]));
-  }
-  std::vector<FacePiece> triangles;
-  for (std::size_t t = 0; t < result.winding.size(); ++t) {
-    if (result.winding[t].empty()) continue;
-    const auto& [a, b, c] = result.hull.triangles[t];
-    FacePiece triangle{piece.face, {ids[at(a)], ids[at(b)], ids[at(c)]}, piece.scale};
-    triangle.scale.size = scale_of(corners(vertices, triangle.loop)).size;
-    if (width_of(corners(vertices, triangle.loop)) > tolerance.length)
-      triangles.push_back(std::move(triangle));
-  }
-  return triangles;
+// What a face is made of once it is planar.
+std::vector<FacePiece> planar_pieces(FacePiece&& face, WeldedVertices& vertices,
+                                     std::vector<Repair>& repairs) {
+  const std::vector<Vec3> polygon = corners_of(vertices, face.loop);
+  const LocalTolerance tolerance = tolerance_of(face.scale);
+  if (!has_area(polygon, tolerance)) return split_crossed_face(face, vertices, repairs);
+  const PlaneFrame frame = fit_plane(polygon);
+  const double deviation = deviation_from(frame, polygon);
+  if (polygon.size() == 3 || deviation <= tolerance.planarity) return {std::move(face)};
+  const Overlay layout = laid_out(face, frame, vertices, tolerance);
+  if (!crossed_loops(layout, tolerance.length).empty())
+    return split_crossed_face(face, vertices, repairs);
+  repairs.push_back({Repair::Kind::non_planar_triangulated, {face.face}, deviation});
+  return triangles_of(face, layout, frame, vertices, tolerance);
 }
 
 }  // namespace
-
-void reject_crossed_face(const Scene& scene, int face) {
-  throw Error(ErrorCode::invalid_input, scene.source,
-              fmt::format("the boundary of {} crosses itself, so that it has no sound interior",
-                          face_label(scene, face)));
-}
 
 std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
                                    std::vector<Repair>& repairs) {
@@ -160,27 +121,18 @@ std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
     const LocalScale scale = scale_of_face(scene, f, vertices);
     const LocalTolerance tolerance = tolerance_of(scale);
     std::vector<int> loop = clean_loop(scene.faces[at(f)], vertices, tolerance.length);
-    if (has_area(scene, f, corners(vertices, loop), tolerance))
+    const std::vector<Vec3> polygon = corners_of(vertices, loop);
+    // The parts of a wide polygon with more than three corners may cancel.
+    if (is_wide(polygon, tolerance) && (polygon.size() > 3 || has_area(polygon, tolerance)))
       faces.push_back({f, std::move(loop), scale});
     else
       repairs.push_back({Repair::Kind::degenerate_dropped, {f}, tolerance.length});
   }
   faces = without_duplicates(scene, std::move(faces), repairs);
   std::vector<FacePiece> pieces;
-  for (FacePiece& face : faces) {
-    const std::vector<Vec3> polygon = corners(vertices, face.loop);
-    const LocalTolerance tolerance = tolerance_of(face.scale);
-    const PlaneFrame frame = fit_plane(polygon);
-    double deviation = 0;
-    for (const Vec3& p : polygon) deviation = std::max(deviation, std::abs(frame.height(p)));
-    if (face.loop.size() == 3 || deviation <= tolerance.planarity) {
-      pieces.push_back(std::move(face));
-      continue;
-    }
-    for (FacePiece& t : triangles_of(scene, face, frame, vertices, tolerance))
-      pieces.push_back(std::move(t));
-    repairs.push_back({Repair::Kind::non_planar_triangulated, {face.face}, deviation});
-  }
+  for (FacePiece& face : faces)
+    for (FacePiece& piece : planar_pieces(std::move(face), vertices, repairs))
+      pieces.push_back(std::move(piece));
   return pieces;
 }
 

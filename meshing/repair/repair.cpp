@@ -7,6 +7,7 @@
 #include "meshing/repair/clean_faces.h"
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
+#include "meshing/repair/crossed_faces.h"
 #include "meshing/repair/planes.h"
 #include "meshing/repair/shut_gaps.h"
 
@@ -106,8 +107,15 @@ void report_lost(const PlaneSides& sides, const std::vector<SurfaceDraft>& draft
               {Repair::Kind::degenerate_dropped, {face.face}, tolerance_of(face.scale).planarity});
 }
 
-std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
-                                      std::vector<Vec3>& points, std::vector<Repair>& repairs) {
+/// The surfaces that pieces make, unless some faces cross themselves.
+struct Drafts {
+  std::vector<SurfaceDraft> drafts;
+  std::vector<Repair> repairs;
+  std::vector<int> crossed;  ///< input faces, sorted
+};
+
+Drafts make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
+                   std::vector<Vec3>& points, std::vector<Repair> repairs) {
   std::vector<std::vector<int>> loops;
   std::vector<LocalScale> scales;
   std::vector<bool> two_sided;
@@ -120,26 +128,48 @@ std::vector<SurfaceDraft> make_drafts(const Scene& scene, const std::vector<Face
   report_shut_gaps(scene, pieces, classes, repairs);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
+  std::set<int> crossed;
   for (std::size_t plane = 0; plane < sides.size(); ++plane)
     for (std::size_t side = 0; side < 2; ++side) {
       if (sides[plane][side].empty()) continue;
       const PlaneFrame& front = classes.frames[plane];
       CoplanarResult result =
           resolve_coplanar(points, side == 0 ? front : turned(front), sides[plane][side]);
-      if (!result.crossed.empty()) reject_crossed_face(scene, result.crossed.front());
+      crossed.insert(result.crossed.begin(), result.crossed.end());
       for (const CoveredPair& pair : result.covered) report_overlap(pair, repairs);
       for (SurfaceDraft& draft : result.drafts) {
         draft.plane = static_cast<int>(plane);
         drafts.push_back(std::move(draft));
       }
     }
+  if (!crossed.empty()) return {{}, {}, {crossed.begin(), crossed.end()}};
   // In the order of the file, which is what a user expects to find.
   std::stable_sort(drafts.begin(), drafts.end(), [](const auto& a, const auto& b) {
     return std::tuple(a.faces.front(), a.back) < std::tuple(b.faces.front(), b.back);
   });
   for (const SurfaceDraft& draft : drafts) report_merge(draft, repairs);
   report_lost(sides, drafts, repairs);
-  return drafts;
+  return {std::move(drafts), std::move(repairs), {}};
+}
+
+/// The surfaces of a scene. That a planar face crosses itself is found out where those of its plane
+/// are laid over each other: it is split then, and they are laid over each other once more.
+std::vector<SurfaceDraft> drafts_of(const Scene& scene, WeldedVertices& vertices,
+                                    std::vector<Repair>& repairs) {
+  std::vector<FacePiece> pieces = clean_faces(scene, vertices, repairs);
+  const std::size_t points = vertices.points.size();
+  Drafts made = make_drafts(scene, pieces, vertices.points, repairs);
+  if (!made.crossed.empty()) {
+    vertices.points.resize(points);
+    pieces = with_crossed_faces_split(std::move(pieces), made.crossed, vertices, repairs);
+    made = make_drafts(scene, pieces, vertices.points, repairs);
+  }
+  if (!made.crossed.empty())
+    throw Error(ErrorCode::invalid_input, scene.source,
+                fmt::format("the boundary of {} crosses itself, so that it has no sound interior",
+                            face_label(scene, made.crossed.front())));
+  repairs = std::move(made.repairs);
+  return std::move(made.drafts);
 }
 
 Surface finish(SurfaceDraft&& draft, const std::vector<Vec3>& points) {
@@ -174,8 +204,7 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
   for (const Face& face : scene.faces) sound.face_lines.push_back(face.line);
   sound.diagonal = diagonal(scene);
   WeldedVertices vertices = weld(scene);
-  const std::vector<FacePiece> pieces = clean_faces(scene, vertices, sound.repairs);
-  std::vector<SurfaceDraft> drafts = make_drafts(scene, pieces, vertices.points, sound.repairs);
+  std::vector<SurfaceDraft> drafts = drafts_of(scene, vertices, sound.repairs);
   if (static_cast<double>(drafts.size()) > options.most_surfaces)
     throw Error(ErrorCode::too_large, {},
                 fmt::format("there are {} surfaces, and {} are allowed", drafts.size(),

@@ -17,7 +17,7 @@ struct RepairOptions {
 /// dropped (of
 ///   two coincident faces that look opposite ways both stay);
 /// * polygons off their plane by more than the tolerance are triangulated, so that each piece is
-/// planar;
+/// planar, and those that cross themselves are split;
 /// * coplanar neighbours of one material and group that look the same way are merged into polygons
 /// with
 ///   holes; where coplanar faces of different materials that look the same way cover each other, an
@@ -25,9 +25,8 @@ struct RepairOptions {
 /// * edges of other surfaces that lie inside a surface become its contact lines, and so do the
 /// lines along which others cut through it;
 /// * two-sided faces become two surfaces.
-/// Throws Error(invalid_input) if nothing with an area is left, or if a polygon crosses itself so
-/// that it has no sound interior; Error(too_large) if surfaces cut through each other along more
-/// lines than can be followed, or than allowed. Deterministic.
+/// Throws Error(invalid_input) if nothing with an area is left; Error(too_large) if surfaces cut
+/// through each other along more lines than can be followed, or than allowed. Deterministic.
 SoundScene make_sound(const Scene& scene, const RepairOptions& options = {});
 
 /// The same, but surfaces stand in an order of their own: to the last bit the same for any order of

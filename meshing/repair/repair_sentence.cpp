@@ -36,6 +36,11 @@ std::string sentence(const Repair& repair, const SoundScene& scene) {
     case Repair::Kind::non_planar_triangulated:
       return fmt::format("{} is off its plane by {:.3g} and was triangulated", face(0),
                          repair.size);
+    case Repair::Kind::crossed_split:
+      return fmt::format(
+          "the boundary of {} crosses itself, so that it was split; its parts look to the side "
+          "from which their corners run counter-clockwise",
+          face(0));
     case Repair::Kind::coplanar_merged:
       return fmt::format("{} lie in one plane and were joined", labels(scene, repair.faces));
     case Repair::Kind::overlap_removed:
@@ -60,6 +65,8 @@ const char* name_of(Repair::Kind kind) {
       return "duplicate_dropped";
     case Repair::Kind::non_planar_triangulated:
       return "non_planar_triangulated";
+    case Repair::Kind::crossed_split:
+      return "crossed_split";
     case Repair::Kind::coplanar_merged:
       return "coplanar_merged";
     case Repair::Kind::overlap_removed:

@@ -40,6 +40,8 @@ bool matters(const Scene& scene, const Repair& repair) {
   switch (repair.kind) {
     case Repair::Kind::coplanar_merged:
       return false;
+    case Repair::Kind::crossed_split:
+      return true;
     case Repair::Kind::degenerate_dropped: {
       const int face = repair.faces.front();
       const LocalScale scale = scale_of(face_corners(scene, face));

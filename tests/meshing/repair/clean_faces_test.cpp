@@ -70,20 +70,6 @@ TEST(MakeSound, AHoleCutInByABridgeBecomesAHole) {
   EXPECT_DOUBLE_EQ(total_area(sound), 8);
 }
 
-TEST(MakeSound, FacesThatCrossThemselvesAreNamed) {
-  const std::vector<std::vector<Vec3>> crossed = {
-      {{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}},                // bow tie, areas cancel
-      {{0, 0, 0}, {2, 2, 0}, {2, 0, 0}, {0, 1, 0}},                // bow tie, areas differ
-      {{0, 3, 0}, {2, -3, 0}, {-3, 1, 0}, {3, 1, 0}, {-2, -3, 0}}  // pentagram
-  };
-  for (const auto& polygon : crossed)
-    test::expect_error(
-        [&] {
-          make_sound(scene_of({{rectangle(5, 5, 6, 6, 1), 0}, {polygon, 0}}));
-        },
-        ErrorCode::invalid_input, {"test.obj", "face 2", "crosses itself"});
-}
-
 TEST(MakeSound, NothingWithAnAreaIsAnError) {
   test::expect_error(
       [] {

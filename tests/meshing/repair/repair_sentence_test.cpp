@@ -23,6 +23,9 @@ TEST(RepairSentence, NamesFacesAndValues) {
             "face 3 (line 12) has the same corners as face 1 (line 10) and was dropped");
   EXPECT_EQ(sentence({Kind::non_planar_triangulated, {0}, 0.0032}, scene),
             "face 1 (line 10) is off its plane by 0.0032 and was triangulated");
+  EXPECT_EQ(sentence({Kind::crossed_split, {0}}, scene),
+            "the boundary of face 1 (line 10) crosses itself, so that it was split; its parts look "
+            "to the side from which their corners run counter-clockwise");
   EXPECT_EQ(sentence({Kind::overlap_removed, {1, 0}, 12.5}, scene),
             "face 2 (line 11) and face 1 (line 10) lie in one plane and cover each other over an "
             "area of 12.5, which face 2 (line 11) keeps");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -253,7 +254,9 @@ MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
     result.error = result.value * options.tolerance;
     return result;
   }
-  return ContourIntegral(inner, options, distance, stop).integrate(outer);
+  // Any unit will do; that of two which coincide must not be 0.
+  const double unit = std::max(distance, DBL_EPSILON * outer_ball.radius);
+  return ContourIntegral(inner, options, unit, stop).integrate(outer);
 }
 
 double form_factor(std::span<const Vec3> p, std::span<const Vec3> q,

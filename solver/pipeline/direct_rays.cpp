@@ -18,7 +18,8 @@ namespace {
 constexpr std::size_t many_surfaces = 100;
 constexpr double loose = 0.01;
 constexpr int tried_places = 100;
-constexpr int tried_surfaces = 100;
+/// Looks from a few small surfaces may take most of the time.
+constexpr int tried_surfaces = 1000;
 /// Of the places: so many with light tell its mean, or rather less, which is on the safe side.
 constexpr double enough_lit = 3;
 /// In rays: exact looks that take more than this are not worth trying more of; about a second.
@@ -27,8 +28,12 @@ constexpr double most_to_tell = 5e6;
 constexpr double most_in_the_dark = 2e7;
 constexpr std::size_t places_at_once = 10;
 constexpr std::size_t first_places = 2;  ///< each may take seconds
-/// Looks that a surface takes, at least; and rays in an hour.
-constexpr double looks_of_surface = 6, rays_of_hour = 3600 * most_to_tell;
+/// Looks that a surface takes, at least. In nets and railings most are small and close to each
+/// other, and looks from there take a thousand times as long as from a wall.
+constexpr double looks_of_surface = 6;
+/// Looks that are taken where light varies, about.
+constexpr double looks_where_it_varies = 1e4;
+constexpr double rays_of_hour = 3600 * most_to_tell;  ///< about
 /// Of the tolerance: standard deviation of a value, relative to the mean irradiance.
 constexpr double deviation_for_tolerance = 1.5;
 /// A place may take so much of what an exact look takes: rays do with about as many places. Where
@@ -101,10 +106,37 @@ void require_light(const SoundScene& scene, const ExactWork& work, std::size_t p
                           scene.surfaces.size(), hours, places));
 }
 
-double rays_in_all(const RayLight& light, std::span<const SurfacePoint> points) {
-  double sum = 0;
-  for (const SurfacePoint& point : points) sum += light.cost(point);
-  return sum;
+/// Places of one kind, and what exact looks take at some of them.
+struct TriedPlaces {
+  std::vector<SurfacePoint> points;
+  ExactWork exact = {};
+
+  double exact_rays() const { return exact.rays() / static_cast<double>(points.size()); }
+  double rays(const RayLight& light) const {
+    double sum = 0;
+    for (const SurfacePoint& point : points) sum += light.cost(point);
+    return sum / static_cast<double>(points.size());
+  }
+  /// For each emitter that is looked at.
+  double exact_rays_of_look() const {
+    return exact.effort.looks > 0 ? exact.rays() / static_cast<double>(exact.effort.looks) : 0;
+  }
+};
+
+/// At how many places of both kinds light is looked for, about.
+struct ExpectedLooks {
+  double by_area = 0, by_surface = 0;
+
+  double sum(double of_area, double of_surface) const {
+    return by_area * of_area + by_surface * of_surface;
+  }
+};
+
+/// Elements gather where light varies, on the largest surfaces or on all the small ones: both count
+/// the same.
+ExpectedLooks expected_looks(std::size_t surfaces) {
+  return {looks_where_it_varies,
+          looks_where_it_varies + looks_of_surface * static_cast<double>(surfaces)};
 }
 
 }  // namespace
@@ -117,24 +149,23 @@ RayLightOptions direct_rays(const PreparedScene& prepared, const SolveOptions& o
       options.force.discontinuities || options.force.exact_direct_light || options.order >= 0 ||
       options.tolerance < loose || scene.surfaces.size() < many_surfaces)
     return {};
-  // Elements gather where light varies, on the largest surface or on all the small ones: rays have
-  // to be better for both.
   const std::vector<int> ids = lit_surfaces(scene, unnoticed_of_tolerance * options.tolerance);
-  std::vector<SurfacePoint> by_area = mixed(spread_places(scene, ids, tried_places).points);
-  std::vector<SurfacePoint> by_surface = mixed(places_of_surfaces(scene, ids, tried_surfaces));
-  const ExactWork exact = look_exactly(prepared.direct_light(), by_area, progress);
-  if (progress.stopped() || by_area.empty()) return {};
-  const double irradiance = mean_where_lit(prepared, exact, progress);
-  if (!(irradiance > 0)) require_light(scene, exact, by_area.size());
-  const ExactWork exact_on_each = look_exactly(prepared.direct_light(), by_surface, progress);
+  TriedPlaces by_area{mixed(spread_places(scene, ids, tried_places).points)};
+  TriedPlaces by_surface{mixed(places_of_surfaces(scene, ids, tried_surfaces))};
+  by_area.exact = look_exactly(prepared.direct_light(), by_area.points, progress);
+  if (progress.stopped() || by_area.points.empty()) return {};
+  const double irradiance = mean_where_lit(prepared, by_area.exact, progress);
+  if (!(irradiance > 0)) require_light(scene, by_area.exact, by_area.points.size());
+  by_surface.exact = look_exactly(prepared.direct_light(), by_surface.points, progress);
   // Places that lie before no emitter take nothing.
-  if (!(irradiance > 0) || exact.effort.looks == 0 || progress.stopped()) return {};
+  if (!(irradiance > 0) || by_area.exact.effort.looks == 0 || progress.stopped()) return {};
   RayLightOptions rays;
   rays.deviation = deviation_for_tolerance * options.tolerance * irradiance;
-  rays.most_rays = std::max(exact.rays() / static_cast<double>(exact.effort.looks), 1.);
+  rays.most_rays = std::max({by_area.exact_rays_of_look(), by_surface.exact_rays_of_look(), 1.});
+  const ExpectedLooks looks = expected_looks(ids.size());
   const RayLight light(scene, prepared.direct_light(), prepared.visibility(), rays);
-  const bool are_better = rays_in_all(light, by_area) < as_quick * exact.rays() &&
-                          rays_in_all(light, by_surface) < as_quick * exact_on_each.rays();
+  const bool are_better = looks.sum(by_area.rays(light), by_surface.rays(light)) <
+                          as_quick * looks.sum(by_area.exact_rays(), by_surface.exact_rays());
   return are_better ? rays : RayLightOptions{};
 }
 

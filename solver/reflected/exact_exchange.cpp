@@ -63,7 +63,7 @@ void ExactExchange::make_rows(const RowMaker& maker, const ReflectedMesh& mesh, 
     rows.push_back(row);
   }
   BackShadow& shadow = shadows_[at(element)];
-  shadow = backs_.shadow(mesh, element);
+  shadow = backs_.shadow(mesh, element, looks_to_put_right);
   if (shadow.share != 0) return;
   Eigen::VectorXd seen(static_cast<Eigen::Index>(rows.size()));
   for (std::size_t k = 0; k < rows.size(); ++k) seen[static_cast<Eigen::Index>(k)] = rows[k].sum;

@@ -204,6 +204,10 @@ GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A,
   GmresResult result;
   const auto is_stopped = [&] { return stopped && stopped(); };
   result.x = ChannelArray::Zero(right_side.rows(), 3);
+  if (!right_side.allFinite()) {
+    result.residual = HUGE_VAL;
+    return result;
+  }
   const ChannelArray scale = balancing_scales(groups, right_side);
   const ChannelArray b = scaled(groups, scale, right_side);
   const ChannelArray size = dots(groups, b, b).sqrt();

@@ -18,9 +18,6 @@ constexpr double least_height = 1e-9;  // of an element's size
 /// it long, or have this share of the area of all, or what changes in them has that share: less
 /// than that hardly counts, the less as it may be too much or too little.
 constexpr double share_of_distance = 0.93, least_part = 1e-7, least_change = 1e-6;
-/// Past many backs at once fewer parts are looked at, of which so many backs hide something in all:
-/// those in which most changes first. What is left then counts as missed.
-constexpr std::size_t most_looks = 100000;
 /// Narrower elements are a thousand times as long as wide, as where corners of two surfaces differ
 /// by rounding: too little to integrate over.
 constexpr double narrow = 1e-3;
@@ -72,14 +69,14 @@ struct ElementPart {
 class ShadowIntegrals {
  public:
   ShadowIntegrals(const std::array<Vec3, 3>& corners, const Vec3& normal, int order,
-                  const std::vector<NearBack>& backs)
+                  const std::vector<NearBack>& backs, double most_looks)
       : corners_(corners), normal_(normal), order_(order), backs_(backs) {
     const ElementNodes& nodes = element_nodes_of(order);
     at_nodes.resize(static_cast<Eigen::Index>(nodes.places.size()));
     for (std::size_t n = 0; n < nodes.places.size(); ++n)
       at_nodes[static_cast<Eigen::Index>(n)] = seen_past(position(corners_, nodes.places[n]));
     polynomial_ = nodes.fit * at_nodes;
-    cut();
+    cut(most_looks / static_cast<double>(backs.size()));
     Eigen::VectorXd basis(basis_size(order_));
     for (const ElementPart& part : parts_) add(part, basis);
   }
@@ -114,12 +111,12 @@ class ShadowIntegrals {
   }
 
   /// In two again and again, at longest edges.
-  void cut() {
+  void cut(double most_parts) {
     const auto changes_less = [](const ElementPart& a, const ElementPart& b) {
       return a.change() < b.change();
     };
     parts_ = {part_of({TrianglePlace(0, 0), TrianglePlace(1, 0), TrianglePlace(0, 1)}, 1)};
-    while (parts_.front().changing > 0 && parts_.size() * backs_.size() < most_looks) {
+    while (parts_.front().changing > 0 && static_cast<double>(parts_.size()) < most_parts) {
       std::ranges::pop_heap(parts_, changes_less);
       const ElementPart part = parts_.back();
       parts_.pop_back();
@@ -203,7 +200,7 @@ NearBacks::Near NearBacks::near(const ReflectedMesh& mesh, int element) const {
   return result;
 }
 
-BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
+BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element, double most_looks) const {
   BackShadow shadow;
   const Near found = near(mesh, element);
   if (found.backs.empty()) return shadow;
@@ -216,7 +213,7 @@ BackShadow NearBacks::shadow(const ReflectedMesh& mesh, int element) const {
   }
   const int order = mesh.order[at(mesh.triangle[at(element)])];
   const ShadowIntegrals integrals(corners, scene_.roots.normal[at(mesh.root(element))], order,
-                                  found.backs);
+                                  found.backs, most_looks);
   const Eigen::VectorXd& past = integrals.at_nodes;
   const Eigen::RowVectorXd weights = element_nodes_of(order).fit.row(0);
   if (!(integrals.all > 0)) return shadow;

@@ -12,6 +12,9 @@ namespace halfshade {
 /// Where surfaces reflect more than this, what gets lost is looked for.
 inline constexpr double bright = 0.9;
 
+/// As many looks as are worth it where what backs hide is put right.
+inline constexpr double looks_to_put_right = 1e5;
+
 /// What an element's nodes miss of how backs close before it, or slits along its edges, darken it.
 struct BackShadow {
   /// Adds what is missing to the mean, such that what of it gets out is right: a share of what
@@ -38,8 +41,10 @@ class NearBacks {
   /// With what an element sees of backs in closed form, as if all else that arrives were even and
   /// nothing came between: ω = 1 − F of what leaves a place gets out, and as much arrives there.
   /// Nodes take π for ω, so that ∫ ω (ω − π) too little gets out. Of splinters all counts as
-  /// missed, and past very many backs what might be in parts that are left too large.
-  BackShadow shadow(const ReflectedMesh& mesh, int element) const;
+  /// missed, and past very many backs what might be in parts that are left too large: the element
+  /// is cut into parts, those first in which most changes, until so many backs hide something of
+  /// `most_looks` of them in all.
+  BackShadow shadow(const ReflectedMesh& mesh, int element, double most_looks) const;
 
  private:
   struct Near {

@@ -22,9 +22,11 @@ class UnsureLosses {
   /// The scene must outlive it.
   explicit UnsureLosses(const ReflectingScene& scene) : scene_(scene), backs_(scene) {}
 
-  /// Element → its loss. What gaps and backs before them take from elements that stay from round to
-  /// round is found once. If stopped, the rest is zero.
-  std::vector<UnsureLoss> find(const ReflectedSystem& system, const Progress& progress);
+  /// Element → its loss, as well as suits a relative error of light. What gaps and backs before
+  /// them take from elements that stay from round to round is found once. If stopped, the rest is
+  /// zero.
+  std::vector<UnsureLoss> find(const ReflectedSystem& system, double tolerance,
+                               const Progress& progress);
 
  private:
   struct KeptLoss {

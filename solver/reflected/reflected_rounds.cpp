@@ -121,7 +121,7 @@ class Rounds {
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
     if (!kept.find_losses(mesh_, systems, loss_share * options_.tolerance, progress_)) return false;
-    found.unsure = losses_.find(system, progress_);
+    found.unsure = losses_.find(system, options_.tolerance, progress_);
     solve(system, found);
     if (is_amplified()) return false;
     ++report.rounds;

@@ -200,6 +200,17 @@ TEST(FormFactor, TouchingTrianglesStayRightWhenRoundingMovesThemApart) {
   }
 }
 
+TEST(FormFactor, SplintersThatCoincideExchangeNothing) {
+  // The two sides of a needle; rounding puts corners of each before the plane of the other.
+  const Polygon front = {{0x1.7d3b9567caa47p+0, 0x1.7cea3d97b7774p+0, 0x1.194699d3dd8c2p-3},
+                         {0x1.7e151b8ab10e8p+0, 0x1.7d619e08edaf5p+0, 0x1.1946ec9202a28p-3},
+                         {0x1.7d3b9a913abefp+0, 0x1.7cea3bd20b4b5p+0, 0x1.19468df3287aap-3}};
+  const Polygon back = {front[2], front[0], front[1]};
+  const double factor = form_factor(front, reversed(back));
+  EXPECT_GE(factor, 0);
+  EXPECT_LE(factor, 1);
+}
+
 TEST(FormFactor, CubeFacesAddUpToOneAndScaleAndRotationDoNotMatter) {
   for (const double size : {1e-6, 1., 1e6}) {
     const Eigen::Matrix3d R = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();

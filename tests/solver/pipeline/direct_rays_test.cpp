@@ -41,6 +41,30 @@ TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
             0);
 }
 
+/// A net of crossing bars as thick as their gaps are wide, which hangs in a large room: from nearly
+/// everywhere little lies before the lamp, and from each bar very many others.
+Scene net_in_a_room() {
+  test::SceneMaker maker;
+  maker.down({-1, -1}, {1, 1}, 4, test::white_light);
+  maker.up({-3, -3}, {3, 3}, 0);
+  constexpr int bars = 40;
+  constexpr double pitch = 0.02, thick = pitch / 2, length = bars * pitch;
+  for (int layer = 0; layer < 6; ++layer)
+    for (int k = 0; k < bars; ++k) {
+      const double from = pitch * k, to = from + thick, z = 1 + pitch * layer;
+      if (layer % 2 == 0)
+        maker.up({from, 0}, {to, length}, z);
+      else
+        maker.up({0, from}, {length, to}, z);
+    }
+  return maker.scene;
+}
+
+// By area there is nothing to gain.
+TEST(DirectRays, AreForNetsInLargeRooms) {
+  EXPECT_GT(direct_rays(PreparedScene(net_in_a_room()), test::directly(0.05)).deviation, 0);
+}
+
 /// Triangles through each other, of which the first shines.
 Scene soup(std::uint64_t seed) {
   test::Random random(seed);

@@ -123,5 +123,15 @@ TEST(LockstepGmres, EndsAfterTheStepInWhichItIsStopped) {
   EXPECT_GT(result.x.abs().maxCoeff(), 0);
 }
 
+TEST(LockstepGmres, DoesNotSolveForWhatIsNoNumber) {
+  ChannelArray b = ChannelArray::Ones(4, 3);
+  b(2, 1) = std::nan("");
+  const GmresResult result = gmres([](const ChannelArray& x) { return x; }, b,
+                                   {{0, 0, 0, 0}, Eigen::ArrayXd::Ones(4), 1}, 1e-6, 50);
+  EXPECT_EQ(result.residual, HUGE_VAL);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_TRUE((result.x == 0).all());
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -29,12 +29,14 @@ ReflectingScene plate_below_a_ceiling(double gap, double reach, bool is_turned =
 }
 
 /// The ceiling in two triangles, and their shadows.
-std::vector<BackShadow> shadows(const ReflectingScene& scene, int order) {
+std::vector<BackShadow> shadows(const ReflectingScene& scene, int order,
+                                double most_looks = looks_to_put_right) {
   const ReflectedMesh mesh = make_reflected_mesh(scene.roots, 100, order, 1000);
   const NearBacks backs(scene);
   std::vector<BackShadow> result;
   for (int e = 0; e < mesh.count(); ++e)
-    if (scene.roots.triangle(mesh.root(e))[0].z() == 0) result.push_back(backs.shadow(mesh, e));
+    if (scene.roots.triangle(mesh.root(e))[0].z() == 0)
+      result.push_back(backs.shadow(mesh, e, most_looks));
   return result;
 }
 
@@ -90,6 +92,19 @@ TEST(NearBacks, WhatIsNotLookedAtPastManyCountsAsMissed) {
   EXPECT_EQ(bright, 1);
 }
 
+TEST(NearBacks, FewLooksNeverTellThatLessIsMissed) {
+  const ReflectingScene scene = plate_below_a_ceiling(0.01, 0);
+  const std::vector<BackShadow> all = shadows(scene, 0);
+  for (const double looks : {100., 300., 1000., 3000.}) {
+    const std::vector<BackShadow> found = shadows(scene, 0, looks);
+    for (std::size_t e = 0; e < all.size(); ++e) {
+      EXPECT_GE(std::abs(found[e].share), 0.99 * std::abs(all[e].share)) << looks;
+      if (looks < 3000) continue;
+      EXPECT_LE(std::abs(found[e].share), 2 * std::abs(all[e].share));
+    }
+  }
+}
+
 TEST(NearBacks, NodesMissLessWhereElementsAreSmall) {
   const ReflectingScene scene = plate_below_a_ceiling(0.03, 0);
   const NearBacks backs(scene);
@@ -98,7 +113,7 @@ TEST(NearBacks, NodesMissLessWhereElementsAreSmall) {
     double sum = 0;
     for (int e = 0; e < mesh.count(); ++e)
       if (mesh.forest.corners(mesh.triangle[at(e)])[0].z() == 0)
-        sum += mesh.area(e) * std::abs(backs.shadow(mesh, e).share);
+        sum += mesh.area(e) * std::abs(backs.shadow(mesh, e, looks_to_put_right).share);
     return sum;
   };
   const double coarse = missed(1), fine = missed(0.12);

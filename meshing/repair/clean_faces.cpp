@@ -73,15 +73,23 @@ bool emits(const Scene& scene, int face) {
   return (scene.materials[at(scene.faces[at(face)].material)].exitance > 0).any();
 }
 
+std::vector<int> from_least(std::vector<int> loop) {
+  std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+  return loop;
+}
+
+std::vector<int> reversed(std::vector<int> loop) {
+  std::reverse(loop.begin(), loop.end());
+  return loop;
+}
+
 // Of faces with the same corners in the same order one stays: an emitter if there is one.
 std::vector<FacePiece> without_duplicates(const Scene& scene, std::vector<FacePiece> faces,
                                           std::vector<Repair>& repairs) {
   std::map<std::vector<int>, std::size_t> first;
   std::vector<bool> drop(faces.size(), false);
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    std::vector<int> key = faces[i].loop;
-    std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-    const auto [entry, is_new] = first.emplace(std::move(key), i);
+    const auto [entry, is_new] = first.emplace(from_least(faces[i].loop), i);
     if (is_new) continue;
     std::size_t dropped = i, kept = entry->second;
     if (emits(scene, faces[dropped].face) && !emits(scene, faces[kept].face))
@@ -112,6 +120,46 @@ std::vector<FacePiece> planar_pieces(FacePiece&& face, WeldedVertices& vertices,
   return triangles_of(face, layout, frame, vertices, tolerance);
 }
 
+/// Makes faces planar. A sheet that has a front and a back between the same corners is cut along
+/// the same lines on both sides: along others each might lie before the other and hide its light.
+class PlanarPieces {
+ public:
+  PlanarPieces(WeldedVertices& vertices, std::vector<Repair>& repairs)
+      : vertices_(vertices), repairs_(repairs) {}
+
+  std::vector<FacePiece> of(FacePiece&& face) {
+    const int id = face.face;
+    if (const auto front = cut_.find(from_least(reversed(face.loop))); front != cut_.end())
+      return back_of(front->second, id);
+    std::vector<int> loop = from_least(face.loop);
+    const std::size_t repairs = repairs_.size();
+    std::vector<FacePiece> pieces = planar_pieces(std::move(face), vertices_, repairs_);
+    if (repairs_.size() > repairs) cut_[std::move(loop)] = {pieces, repairs_.back()};
+    return pieces;
+  }
+
+ private:
+  struct Cut {
+    std::vector<FacePiece> pieces;
+    Repair repair;
+  };
+
+  std::vector<FacePiece> back_of(const Cut& front, int face) {
+    repairs_.push_back(front.repair);
+    repairs_.back().faces = {face};
+    std::vector<FacePiece> pieces = front.pieces;
+    for (FacePiece& piece : pieces) {
+      piece.face = face;
+      piece.loop = reversed(std::move(piece.loop));
+    }
+    return pieces;
+  }
+
+  WeldedVertices& vertices_;
+  std::vector<Repair>& repairs_;
+  std::map<std::vector<int>, Cut> cut_;  ///< by their corners
+};
+
 }  // namespace
 
 std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
@@ -130,9 +178,9 @@ std::vector<FacePiece> clean_faces(const Scene& scene, WeldedVertices& vertices,
   }
   faces = without_duplicates(scene, std::move(faces), repairs);
   std::vector<FacePiece> pieces;
+  PlanarPieces planar(vertices, repairs);
   for (FacePiece& face : faces)
-    for (FacePiece& piece : planar_pieces(std::move(face), vertices, repairs))
-      pieces.push_back(std::move(piece));
+    for (FacePiece& piece : planar.of(std::move(face))) pieces.push_back(std::move(piece));
   return pieces;
 }
 

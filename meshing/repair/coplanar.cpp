@@ -47,8 +47,9 @@ class Resolver {
       }
     }
     make_overlay();
+    // Of a triangle that snapping turned over nothing is left.
     for (const int loop : crossed_loops(overlay_, snap_.links))
-      result_.crossed.push_back(faces_[at(loop)].face);
+      if (faces_[at(loop)].loop.size() > 3) result_.crossed.push_back(faces_[at(loop)].face);
     if (!result_.crossed.empty()) return std::move(result_);
     const std::vector<int> winner = winners();
     std::vector<int> labels;

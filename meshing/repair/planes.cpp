@@ -281,6 +281,19 @@ PlaneFrame plane_of(const std::vector<Polygon>& polygons, const std::vector<std:
   return is_exact ? first : common_plane(polygons, members);
 }
 
+/// The first polygon between the same points, for each. What is modelled with a front and a back
+/// has both between the same corners: they are in one plane, however little of it the digits tell.
+std::vector<std::size_t> first_between_same_points(std::span<const std::vector<int>> loops) {
+  std::map<std::vector<int>, std::size_t> first;
+  std::vector<std::size_t> result;
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    std::vector<int> points = loops[i];
+    std::sort(points.begin(), points.end());
+    result.push_back(first.emplace(std::move(points), i).first->second);
+  }
+  return result;
+}
+
 }  // namespace
 
 PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,
@@ -299,8 +312,10 @@ PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return polygons[a].area > polygons[b].area;
   });
+  const std::vector<std::size_t> first = first_between_same_points(loops);
   PlaneGrower grower(polygons);
-  for (const std::size_t i : order) grower.release(i);
+  for (const std::size_t i : order)
+    if (first[i] == i) grower.release(i);
   // First by extrapolation, so that the small pieces of a tessellated wall come together; the
   // polygons that the common plane of those leaves out find planes of their own.
   for (const bool extrapolate : {true, false}) {
@@ -321,6 +336,7 @@ PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::
     }
     for (const std::size_t m : left) grower.release(m);
   }
+  for (std::size_t i = 0; i < first.size(); ++i) result.of_polygon[i] = result.of_polygon[first[i]];
   return result;
 }
 

@@ -18,8 +18,9 @@ struct PlaneClasses {
 /// they are near each other, directly or through others, and look the same way, to within what the
 /// rounding of a file can have moved their corners (see tolerance_of); if they look opposite ways,
 /// only if the digits that were written cannot tell their planes apart, for light passes through
-/// the narrowest gap. What looks the other way between two, as the back of a thin sheet does, keeps
-/// them apart. A two-sided polygon looks both ways, whichever way round its corners go.
+/// the narrowest gap. Those between the same points, as front and back of a sheet, always do. What
+/// looks the other way between two, as the back of a thin sheet does, keeps them apart. A two-sided
+/// polygon looks both ways, whichever way round its corners go.
 /// Deterministic; each polygon is compared with those near it only.
 /// `scales` has one entry a loop, and so has `two_sided` unless it is empty: none is.
 PlaneClasses classify_planes(std::span<const Vec3> points, std::span<const std::vector<int>> loops,

@@ -157,17 +157,15 @@ Drafts make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
 std::vector<SurfaceDraft> drafts_of(const Scene& scene, WeldedVertices& vertices,
                                     std::vector<Repair>& repairs) {
   std::vector<FacePiece> pieces = clean_faces(scene, vertices, repairs);
-  const std::size_t points = vertices.points.size();
+  std::size_t points = vertices.points.size();
   Drafts made = make_drafts(scene, pieces, vertices.points, repairs);
-  if (!made.crossed.empty()) {
+  // Others may come to cross themselves as corners snap to those of parts.
+  while (!made.crossed.empty()) {
     vertices.points.resize(points);
     pieces = with_crossed_faces_split(std::move(pieces), made.crossed, vertices, repairs);
+    points = vertices.points.size();
     made = make_drafts(scene, pieces, vertices.points, repairs);
   }
-  if (!made.crossed.empty())
-    throw Error(ErrorCode::invalid_input, scene.source,
-                fmt::format("the boundary of {} crosses itself, so that it has no sound interior",
-                            face_label(scene, made.crossed.front())));
   repairs = std::move(made.repairs);
   return std::move(made.drafts);
 }
@@ -228,13 +226,7 @@ SoundScene make_sound(const Scene& scene, const RepairOptions& options) {
 
 SoundScene make_sound_in_any_order(const Scene& scene, const RepairOptions& options) {
   const OrderedScene ordered = in_canonical_order(scene);
-  SoundScene sound;
-  try {
-    sound = make_sound(ordered.scene, options);
-  } catch (const Error& error) {
-    if (error.code() == ErrorCode::too_large) throw;
-    return make_sound(scene, options);  // throws again, and names faces as the file does
-  }
+  SoundScene sound = make_sound(ordered.scene, options);
   const auto rename = [&](std::vector<int>& faces) {
     for (int& face : faces) face = ordered.face[at(face)];
   };

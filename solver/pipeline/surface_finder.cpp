@@ -9,13 +9,16 @@
 namespace halfshade {
 namespace {
 
-/// How far a point may be from a surface, as a share of the surface's size, and how far its normal
-/// may be turned from the surface's, in radians: what six digits of a table leave.
+/// How far a point is from a surface, as a share of the surface's size, and how far its normal is
+/// turned from the surface's, in radians, by what six digits of a table leave.
 constexpr double off_surface = 1e-6, turned = 1e-3;
+/// Elements are turned by more where corners of small faces lie off their plane.
+constexpr double most_turned = 0.05;
 
-/// At least what digits of the scene's file leave: of small faces that is more.
+/// At least what digits of the scene's file leave: of small faces that is more. A corner that two
+/// surfaces share may be off the plane of either by that.
 double reach_of(const Surface& surface) {
-  return std::max(off_surface * size_of(surface), tolerance_of(surface).planarity);
+  return std::max(off_surface * size_of(surface), 2 * tolerance_of(surface).planarity);
 }
 
 }  // namespace
@@ -40,13 +43,14 @@ int SurfaceFinder::at_point(const SurfacePoint& point) const {
   double least = 0;
   visit_overlaps(boxes_, here, [&](int s) {
     const Surface& surface = scene_.surfaces[at(s)];
-    if ((surface.frame.normal - point.normal).norm() > turned) return;
+    const double turn = (surface.frame.normal - point.normal).norm();
+    if (turn > most_turned) return;
     const double reach = reach_of(surface), height = surface.frame.height(point.position);
     if (std::abs(height) > reach) return;
     const Vec2 q = surface.frame.to_plane(point.position);
     const double beside = is_inside(surface.rings, q) ? 0 : distance_to_rings(surface.rings, q);
-    const double off = std::hypot(height, beside);
     if (beside > reach) return;
+    const double off = std::hypot(height, beside) + reach * turn / turned;
     if (nearest >= 0 && (off > least || (off == least && s > nearest))) return;
     nearest = s;
     least = off;

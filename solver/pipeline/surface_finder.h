@@ -14,14 +14,15 @@ namespace halfshade {
 Bounds outline_bounds(const Surface& surface);
 
 /// Finds the surfaces that points lie on, up to what rounding leaves of both: a millionth of the
-/// surface's size or of its coordinates, and a thousandth of a radian between normals.
+/// surface's size or of its coordinates. Normals may be turned as those of elements are between
+/// corners that lie off the surface, by a twentieth of a radian.
 class SurfaceFinder {
  public:
   /// The scene must outlive it. Cost: n log n.
   explicit SurfaceFinder(const SoundScene& scene);
 
-  /// The nearest; −1 if the point lies on none. Of several surfaces in one plane a point belongs to
-  /// the one whose polygon it lies in.
+  /// The nearest, with a normal like the point's; −1 if the point lies on none. Of several surfaces
+  /// in one plane a point belongs to the one whose polygon it lies in.
   int at_point(const SurfacePoint& point) const;
 
  private:

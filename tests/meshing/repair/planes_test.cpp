@@ -1,11 +1,16 @@
 #include "meshing/repair/planes.h"
 
+#include "meshing/repair/repair.h"
 #include "meshing/repair/weld.h"
+#include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -161,6 +166,41 @@ TEST(ClassifyPlanes, DoNotDependOnWhatIsElsewhere) {
     const PlaneClasses classes = sheets.classes();
     EXPECT_EQ(classes.frames.size(), 3u) << far;
   }
+}
+
+/// A seat, nearly flat, of quadrangles with a front and a back each, as modelled with six digits.
+Scene seat_with_fronts_and_backs() {
+  constexpr int across = 12;
+  constexpr double width = 0.04;
+  test::Random random(5);
+  std::vector<std::vector<double>> height(across + 1, std::vector<double>(across + 1));
+  for (auto& row : height)
+    for (double& z : row) z = 0.911360 + 1e-6 * random.integer(0, 8);
+  Scene scene;
+  test::add_material(scene, 0.5, 0);
+  const auto corner = [&](int i, int j) {
+    return Vec3(1.4 + width * i, 1.3 + width * j, height[at(i)][at(j)]);
+  };
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j) {
+      std::vector<Vec3> quad = {corner(i, j), corner(i + 1, j), corner(i + 1, j + 1),
+                                corner(i, j + 1)};
+      test::add_polygon(scene, quad, 0);
+      std::reverse(quad.begin(), quad.end());
+      test::add_polygon(scene, quad, 0);
+    }
+  return scene;
+}
+
+// In two planes each might lie before the other, and hide all light from it.
+TEST(ClassifyPlanes, OfAFrontAndABackBetweenTheSameCornersAreOne) {
+  const Scene scene = seat_with_fronts_and_backs();
+  const SoundScene sound = make_sound(scene);
+  std::vector<std::set<int>> planes(scene.faces.size());
+  for (const Surface& surface : sound.surfaces)
+    for (const int face : surface.faces) planes[at(face)].insert(surface.plane);
+  for (std::size_t front = 0; front < planes.size(); front += 2)
+    EXPECT_EQ(planes[front], planes[front + 1]) << front;
 }
 
 }  // namespace

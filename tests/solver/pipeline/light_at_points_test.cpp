@@ -93,6 +93,29 @@ TEST(OnSurfaces, FacesAsSmallAsTheyAreHavePointsThatDigitsPutBehindThem) {
   EXPECT_LT((found.point.position - on).norm(), 1e-12);
 }
 
+// Corners that lie off their plane turn small elements, and what is made of them has their normals.
+TEST(OnSurfaces, NormalsOfElementsMayBeTurned) {
+  Scene scene;
+  const int grey = test::add_material(scene, 0.5, 1);
+  // A flat roof, whose ridge is at x = 1.
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0.02}, {1, 1, 0.02}, {0, 1, 0}}, grey);
+  test::add_polygon(scene, {{1, 0, 0.02}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0.02}}, grey);
+  const PreparedScene prepared(scene);
+  const SoundScene& sound = prepared.scene();
+  const auto turned = [](const Vec3& normal, double by) {
+    return Vec3((normal + by * Vec3::UnitY()).normalized());
+  };
+  const Vec3 left = sound.surfaces[0].frame.normal, right = sound.surfaces[1].frame.normal;
+  const std::vector<SurfacePoint> points = {{{0.5, 0.5, 0.01}, turned(left, 0.003)},
+                                            {{1.5, 0.5, 0.01}, turned(right, 0.003)},
+                                            {{1, 0.5, 0.02}, turned(left, 0.001)},
+                                            {{1, 0.5, 0.02}, turned(right, 0.001)},
+                                            {{0.5, 0.5, 0.01}, turned(left, 0.2)}};
+  const std::vector<FieldPoint> found = on_surfaces(prepared, points);
+  for (const int k : {0, 1, 2, 3}) EXPECT_EQ(found[at(k)].surface, k % 2) << k;
+  EXPECT_EQ(found[4].surface, -1);
+}
+
 /// Points of the planes that faces had before each got corners of its own: direct light of a cube,
 /// and all light where it is closed and 1.
 TEST(OnSurfaces, LightIsAllThereWhereCornersDiffer) {

@@ -8,6 +8,9 @@
 namespace halfshade {
 namespace {
 
+// Triangles between so many corners in space take a tenth of a second.
+constexpr std::size_t most_in_space = 200;
+
 // The plane of the largest triangle at the first corner. The area vector of a face that crosses
 // itself tells none: what its parts look like cancels.
 PlaneFrame plane_of_largest_triangle(const std::vector<Vec3>& polygon) {
@@ -41,7 +44,7 @@ std::vector<FacePiece> split_crossed_face(const FacePiece& face, WeldedVertices&
   const PlaneFrame frame = plane_of_largest_triangle(polygon);
   const double deviation = deviation_from(frame, polygon);
   std::vector<FacePiece> triangles =
-      deviation <= tolerance.planarity
+      deviation <= tolerance.planarity || polygon.size() > most_in_space
           ? triangles_of(face, laid_out(face, frame, vertices, tolerance), frame, vertices,
                          tolerance)
           : triangles_in_space(face, polygon, vertices, tolerance);

@@ -153,5 +153,19 @@ TEST(CrossedFaces, RandomTwistedOnesBoundTheirTriangles) {
   }
 }
 
+TEST(CrossedFaces, TwistedOnesOfVeryManyCornersAreTakenAsWell) {
+  // Twice round a ring that rises and falls.
+  std::vector<Vec3> ring;
+  constexpr int corners = 3000;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 4 * std::numbers::pi * k / corners, radius = 1 + 0.2 * std::cos(angle / 2);
+    ring.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
+                      0.01 * std::sin(7 * angle));
+  }
+  const SoundScene sound = sound_face(ring);
+  EXPECT_GT(total_area(sound), 3);
+  EXPECT_LT(total_area(sound), 5);
+}
+
 }  // namespace
 }  // namespace halfshade

@@ -256,7 +256,9 @@ MutualArea mutual_area(std::span<const Vec3> p, std::span<const Vec3> q,
   }
   // Any unit will do; that of two which coincide must not be 0.
   const double unit = std::max(distance, DBL_EPSILON * outer_ball.radius);
-  return ContourIntegral(inner, options, unit, stop).integrate(outer);
+  MutualArea result = ContourIntegral(inner, options, unit, stop).integrate(outer);
+  result.value = std::max(result.value, 0.);
+  return result;
 }
 
 double form_factor(std::span<const Vec3> p, std::span<const Vec3> q,

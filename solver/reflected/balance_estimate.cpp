@@ -61,6 +61,10 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
     heaviest = std::max(heaviest, weight[at(e)]);
   }
   estimate.square *= heaviest * std::pow(surely * amplification, 2);
+  if (!std::isfinite(estimate.square)) {
+    estimate.square = HUGE_VAL;
+    return estimate;
+  }
   const ElementField there = irradiance.whole(mesh, systems);
   estimate.in_gaps = lost_in_gaps(system, there, weight);
   if (estimate.square <= negligible) {

@@ -22,7 +22,8 @@ struct BalanceEstimate {
 /// put in where it gets lost, unless that is sure to matter less than `negligible`, by what
 /// `amplification` a residual may have; as light gets lost, less is there to get lost. Of the
 /// constant that a closed system holds as much comes in as gets out, but what its gaps may lose.
-/// `unsure` is that of each element, `weight` how much the square of its error counts.
+/// Infinite where a loss is no number. `unsure` is that of each element, `weight` how much the
+/// square of its error counts.
 BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementField& first_leaving,
                                  const SplitIrradiance& irradiance,
                                  const std::vector<UnsureLoss>& unsure,

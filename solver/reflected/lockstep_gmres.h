@@ -27,7 +27,8 @@ struct GmresResult {
 /// Solves A x = b by restarted GMRES (Saad and Schultz 1986), where A does not connect groups nor
 /// columns. All systems step together, so that A is applied once for all, but each has a Krylov
 /// space of its own, and so its own accuracy. Stops when every residual is `tolerance` of its b, or
-/// after the step in which `stopped` became true.
+/// after the step in which `stopped` became true. If b holds what is no finite number, x is 0 and
+/// the residual infinite.
 GmresResult gmres(const std::function<ChannelArray(const ChannelArray&)>& A, const ChannelArray& b,
                   const RowGroups& groups, double tolerance, int max_iterations,
                   const std::function<bool()>& stopped = {});

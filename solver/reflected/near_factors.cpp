@@ -26,7 +26,7 @@ constexpr double long_gaps = 24, hardly_absorbed = 0.25, grow_within = 1.5;
 constexpr double lost_at_most = 4, hardly_lost = 1e-5;
 
 /// Looks at backs before an element, times the tolerance and the share that it absorbs: what is
-/// left then is an upper bound, and hardly adds to the error. At 5 % those of a chair that reflects
+/// left then counts as missed, and hardly adds to the error. At 5 % those of a chair that reflects
 /// .9 take 1 s of CPU time, and all that NearBacks would look at 50.
 constexpr double looks_at_backs = 5, fewest_looks = 300;
 

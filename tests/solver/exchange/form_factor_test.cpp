@@ -200,15 +200,15 @@ TEST(FormFactor, TouchingTrianglesStayRightWhenRoundingMovesThemApart) {
   }
 }
 
-TEST(FormFactor, SplintersThatCoincideExchangeNothing) {
-  // The two sides of a needle; rounding puts corners of each before the plane of the other.
-  const Polygon front = {{0x1.7d3b9567caa47p+0, 0x1.7cea3d97b7774p+0, 0x1.194699d3dd8c2p-3},
-                         {0x1.7e151b8ab10e8p+0, 0x1.7d619e08edaf5p+0, 0x1.1946ec9202a28p-3},
-                         {0x1.7d3b9a913abefp+0, 0x1.7cea3bd20b4b5p+0, 0x1.19468df3287aap-3}};
-  const Polygon back = {front[2], front[0], front[1]};
-  const double factor = form_factor(front, reversed(back));
-  EXPECT_GE(factor, 0);
-  EXPECT_LE(factor, 1);
+// Of needles rounding may put corners before the plane of what coincides with them, whether that
+// looks the same way or not.
+TEST(FormFactor, NeedlesThatCoincideExchangeNothing) {
+  const Polygon needle = {{0x1.7d3b9567caa47p+0, 0x1.7cea3d97b7774p+0, 0x1.194699d3dd8c2p-3},
+                          {0x1.7e151b8ab10e8p+0, 0x1.7d619e08edaf5p+0, 0x1.1946ec9202a28p-3},
+                          {0x1.7d3b9a913abefp+0, 0x1.7cea3bd20b4b5p+0, 0x1.19468df3287aap-3}};
+  const Polygon same = {needle[2], needle[0], needle[1]};
+  for (const Polygon& other : {same, reversed(same)})
+    EXPECT_NEAR(form_factor(needle, other), 0, 1e-6);
 }
 
 TEST(FormFactor, CubeFacesAddUpToOneAndScaleAndRotationDoNotMatter) {

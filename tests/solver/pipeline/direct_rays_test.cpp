@@ -41,8 +41,8 @@ TEST(DirectRays, AreForManyThingsAndLooseTolerances) {
             0);
 }
 
-/// A net of crossing bars as thick as their gaps are wide, which hangs in a large room: from nearly
-/// everywhere little lies before the lamp, and from each bar very many others.
+/// A net of crossing bars as thick as their gaps are wide, which hangs in a large room: a look from
+/// the floor below takes long past all of them, and one from a bar does not.
 Scene net_in_a_room() {
   test::SceneMaker maker;
   maker.down({-1, -1}, {1, 1}, 4, test::white_light);
@@ -60,7 +60,7 @@ Scene net_in_a_room() {
   return maker.scene;
 }
 
-// By area there is nothing to gain.
+// On the bars rays take more than twice as long as exact looks: too little to matter.
 TEST(DirectRays, AreForNetsInLargeRooms) {
   EXPECT_GT(direct_rays(PreparedScene(net_in_a_room()), test::directly(0.05)).deviation, 0);
 }

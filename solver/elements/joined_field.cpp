@@ -58,6 +58,20 @@ int edge_to(const ElementTable& elements, int element, int neighbour) {
   return static_cast<int>(std::find(all.begin(), all.end(), neighbour) - all.begin());
 }
 
+/// Of the height of a triangle: one so much less high beside it has no say in what it looks like.
+/// Such strips come from the digits of coordinates more often than not, by which one facet of a
+/// chair reaches behind the next, and what is true of them is not seen.
+constexpr double no_say = 0.01;
+
+/// Area over longest side, but for a factor.
+double height(const ElementTable& elements, int element) {
+  const auto& [a, b, c] = elements.corners[at(element)];
+  const Vec3 ab = elements.points[at(b)] - elements.points[at(a)],
+             ac = elements.points[at(c)] - elements.points[at(a)];
+  const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
+  return longest > 0 ? ab.cross(ac).norm() / longest : 0;
+}
+
 /// Where borders turn back by more than so much (its sine), something stands at the corner.
 constexpr double turns_back = 0.1;
 
@@ -102,7 +116,11 @@ class Joining {
         (error / (largest > 0 ? largest : 1)).max(rounding).min(1).eval();
     weight_ = (relative / rounding).square().inverse();
     least_change_ = (share_of_error * relative + rounding) * largest;
+    highest_.assign(elements.points.size(), 0);
     for (int e = 0; e < field.count(); ++e) {
+      height_.push_back(height(elements, e));
+      for (const int point : elements.corners[at(e)])
+        highest_[at(point)] = std::max(highest_[at(point)], height_.back());
       int order = std::max(field.order[at(e)], 1);
       for (const int n : elements.neighbours[at(e)])
         if (n >= 0) order = std::max(order, field.order[at(n)]);
@@ -140,6 +158,7 @@ class Joining {
     for (int e = 0; e < field_.count(); ++e)
       for (int k = 0; k < 3; ++k) {
         const int point = elements_.corners[at(e)][at(k)];
+        if (height_[at(e)] < no_say * highest_[at(point)]) continue;
         sum.row(point) += weight_[e] * at_corner(e, k).transpose();
         weight[point] += weight_[e];
       }
@@ -183,15 +202,25 @@ class Joining {
   ChannelArray change_along(int element, int order, int k) const {
     const int n = elements_.neighbours[at(element)][at(k)];
     if (n < 0) return ChannelArray::Zero(order + 1, 3);
-    const double share = weight_[n] / (weight_[element] + weight_[n]);
+    const double share = share_of(n, element);
     return share * (along(n, order, edge_to(elements_, n, element)).colwise().reverse() -
                     along(element, order, k));
+  }
+
+  /// Of what is said of their common edge: what comes from `element`.
+  double share_of(int element, int neighbour) const {
+    const double here = height_[at(element)], there = height_[at(neighbour)];
+    if (here < no_say * there) return 0;
+    if (there < no_say * here) return 1;
+    return weight_[element] / (weight_[element] + weight_[neighbour]);
   }
 
   const ElementTable& elements_;
   const ElementField& field_;
   std::vector<bool> has_many_;   ///< values, see without_single_value
   Eigen::ArrayXd weight_;        ///< of what each element says
+  std::vector<double> height_;   ///< of each, see no_say
+  std::vector<double> highest_;  ///< of those round each point
   Eigen::ArrayXd least_change_;  ///< of each that is worth making
   std::vector<int> order_;
   EdgeBasis basis_;

@@ -20,9 +20,9 @@ ElementTable connected(std::span<const std::array<Vec3, 3>> triangles, std::span
 /// at their ends and at corners of what stands on a surface, where light has no single value. What
 /// two elements say of their common edge is averaged, weighted by the inverse squares of `error`,
 /// the root mean square of what each is off (so that an exact one keeps its light; infinite where
-/// nobody knows); values at inner nodes stay (after Oswald 1993). Orders rise to those of
-/// neighbours that have more to say. Elements on which nothing changes by a thousandth of their
-/// error stay as they are.
+/// nobody knows); strips less than a hundredth as high as what is beside them follow it. Values at
+/// inner nodes stay (after Oswald 1993). Orders rise to those of neighbours that have more to say.
+/// Elements on which nothing changes by a thousandth of their error stay as they are.
 ///
 /// Of `elements`, only points, corners and neighbours are read. Throws Error(contract) if there are
 /// not as many elements, polynomials and errors.

@@ -150,6 +150,21 @@ TEST(JoinedField, AnExactElementKeepsItsLight) {
   EXPECT_LT(step(field, four, 3, 0, o, east), 1e-12);
 }
 
+TEST(JoinedField, StripsTooNarrowToBeSeenFollowTheirNeighbours) {
+  // Two strips along a lit facet, in the dark, one of them only at its corner, as exact as darkness
+  // is.
+  const Vec3 below(1, -1e-5, 0), corner(0, -1e-5, 0);
+  const std::vector<Triangle> three = {{o, east, north}, {east, o, below}, {corner, below, o}};
+  const ElementTable elements = table_of(three, {{-1, 0, 0}, {-1, -1, 0}, {0, -1, 0}});
+  ElementField field = zero_field({0, 0, 0});
+  field.of(0) = 3;
+  join(elements, Eigen::Array3d(0.1, 0, 0), field);
+  for (const Vec3& p : {o, Vec3(0.3, 0, 0), east, north})
+    EXPECT_NEAR(value_in_space(field, three[0], 0, p)[1], 3, 1e-12);
+  EXPECT_NEAR(value_in_space(field, three[1], 1, east)[1], 3, 1e-9);
+  EXPECT_NEAR(value_in_space(field, three[2], 2, o)[1], 3, 1e-9);
+}
+
 TEST(JoinedField, NothingBleedsAcrossLinesWhereLightJumps) {
   // From east over the origin to west.
   const ElementTable elements = table_of(four, orders_of_four({true, false, true, false}));

@@ -42,7 +42,7 @@ struct ReflectedOptions {
   double max_length = 0;        ///< of elements to begin with, scene units; 0: by the tolerance
   int max_elements = 20000;
   int max_rays = 4096;       ///< from a node of mean size, ≥ 32
-  int max_rounds = 8;        ///< of solving, estimating and refining; 1: no refinement
+  int max_rounds = 24;       ///< of solving, estimating and refining; 1: no refinement
   int bounces = -1;          ///< −1: all; n ≥ 0: light that arrives after at most n reflections
   bool each_bounce = false;  ///< keep the light of each; `bounces` must not be −1
   /// Direct light is not given but found like reflected light: what leaves first is the exitance,

@@ -33,7 +33,7 @@ int strata_for(double tolerance, int elements) {
 constexpr double comes_back = 1.2, much_comes_back = 4;
 
 /// Elements that may be added to see how light gets out of narrow gaps. More are slow to solve for:
-/// only by rays, and only as long as each round helps much.
+/// only by rays, and only as long as rounds help much.
 constexpr double most_for_gaps = 2000;
 constexpr int points_of_projection = 20000;
 /// So many take hundreds of megabytes in each round that the next does not need.
@@ -284,7 +284,8 @@ class Rounds {
         estimate_balance(system, direct_.leaving(mesh_, state_.light), irradiance, found.unsure,
                          found.weight, report.amplification, negligible * goal);
     // While there is more to do anyway, about how much is reflected on is enough.
-    const bool is_last_doubt = square <= goal && unbalanced.square <= goal;
+    const double allowed = allowed_square(options_, state_.scale, all);
+    const bool is_last_doubt = std::pow(comes_back, 2) * square + unbalanced.square <= allowed;
     const ReflectedOn reflected =
         report.amplification >= much_comes_back
             ? reflected_on(system, irradiance, estimate, found.unsure, found.weight,
@@ -297,8 +298,7 @@ class Rounds {
     report.noise = share(summed(found.noise_left));
     report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
     report.end = ReflectedEnd::accurate;
-    if (std::pow(report.error, 2) * all <= allowed_square(options_, state_.scale, all))
-      return Next::end;
+    if (std::pow(report.error, 2) * all <= allowed) return Next::end;
     if (parts_) rounds_.push_back({mesh_.count(), report.error});
     report.end = ReflectedEnd::rounds;
     if (is_stagnant(rounds_)) return Next::end;
@@ -329,7 +329,7 @@ class Rounds {
     const double noise = summed(found.noise_left);
     const double of_elements = std::max(input.estimate.sum - noise, 0.);
     const bool is_hidden = noise > std::max(hides * of_elements, share_of_noise * goal);
-    const bool can_pass = kept_rays_ && found.passes < most_passes && noise > 0;
+    const bool can_pass = kept_rays_ && found.passes < most_passes && noise > least_noise * goal;
     const bool could_be_surer = !is_coarse && surer_ < surest;
     // More points take less than what an outlier among a few may ask for.
     if (noise <= much_noise * goal && surer_ < sure && input.estimate.deviation > unsure * goal &&

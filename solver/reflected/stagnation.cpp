@@ -16,8 +16,10 @@ bool is_stagnant(std::span<const RoundError> rounds) {
 }
 
 bool is_falling(std::span<const double> unknown) {
-  const std::size_t n = unknown.size();
-  return n < 2 || 2 * unknown[n - 1] <= unknown[n - 2];
+  constexpr std::size_t some = 3;
+  if (unknown.size() <= some) return true;
+  const auto before = unknown.last(some + 1).first(some);
+  return 2 * unknown.back() <= std::ranges::max(before);
 }
 
 }  // namespace halfshade

@@ -16,8 +16,8 @@ struct RoundError {
 /// each other, so that what they see is anything.
 bool is_stagnant(std::span<const RoundError> rounds);
 
-/// Whether what is not known, of each round so far, is at most half of what it was one round ago.
-/// Nothing is known of that after the first.
+/// Whether what is not known, of each round so far, is at most half of what it was in one of the
+/// last three. Nothing is known of that before there are as many.
 bool is_falling(std::span<const double> unknown);
 
 }  // namespace halfshade

@@ -56,17 +56,14 @@ TEST(LossBalance, SlitsLetOutWhatWalksSay) {
 TEST(LossBalance, RaysFindSlitsToo) {
   struct Case {
     double gap, rho, tolerance, irradiance, deviation;
-    bool is_met;
   };
-  for (const auto& [gap, rho, tolerance, irradiance, deviation, is_met] :
-       {Case{0.03, 0.99, 0.03, 5.919, 0.005, true},
-        {0.01, 0.999, 0.05, 24.08, 0.04, true},
-        {1e-3, 0.9999, 0.03, 241, 1, false}}) {
+  for (const auto& [gap, rho, tolerance, irradiance, deviation] :
+       {Case{0.03, 0.99, 0.03, 5.919, 0.005},
+        {0.01, 0.999, 0.05, 24.08, 0.04},
+        {1e-3, 0.9999, 0.03, 241, 1}}) {
     const ReflectedLight light = light_in_box(gap, rho, tolerance, ReflectedVisibility::sampled);
     const double mean = mean_irradiance(light);
-    EXPECT_EQ(light.report().error <= tolerance, is_met) << gap << ", " << rho;
-    // Not known only because nothing is.
-    EXPECT_LE(light.report().error, 2 * tolerance) << gap << ", " << rho;
+    EXPECT_LE(light.report().error, tolerance) << gap << ", " << rho;
     EXPECT_LE(std::abs(mean - irradiance), 2 * deviation + light.report().error * irradiance)
         << gap << ", " << rho;
   }

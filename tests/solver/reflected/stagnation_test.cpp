@@ -29,9 +29,9 @@ TEST(Stagnation, IsToldByEightTimesTheElements) {
   EXPECT_FALSE(is_stagnant(rounds));
 }
 
-TEST(Stagnation, WhatIsNotKnownFallsIfARoundLeavesHalf) {
-  const std::vector<double> unknown = {8, 4, 3, 1};
-  const std::vector<bool> expected = {true, true, true, false, true};
+TEST(Stagnation, WhatIsNotKnownFallsIfThreeRoundsLeaveHalf) {
+  const std::vector<double> unknown = {8, 9, 6, 5, 4, 3.1, 2};
+  const std::vector<bool> expected = {true, true, true, true, false, true, false, true};
   for (std::size_t n = 0; n <= unknown.size(); ++n)
     EXPECT_EQ(is_falling(std::span(unknown).first(n)), expected[n]) << n;
 }

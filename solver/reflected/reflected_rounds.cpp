@@ -10,6 +10,7 @@
 #include "solver/reflected/ray_passes.h"
 #include "solver/reflected/refinement.h"
 #include "solver/reflected/stagnation.h"
+#include "solver/reflected/unstable_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,7 @@ constexpr double unsure = 0.1, much_noise = 0.6;
 constexpr double hides = 2.5, unseen = 0.6;
 
 /// As many points that noise of the rays from each may be this share of the goal in their mean.
-constexpr double noise_of_estimate = 0.1, fewest_in_mean = 25;
+constexpr double noise_of_estimate = 0.1;
 
 class Rounds {
  public:
@@ -118,6 +119,7 @@ class Rounds {
     LightSystems systems = find_systems(state_.reflecting, state_.light, mesh_, kept);
     systems.power = power_put_in(mesh_, state_.light, direct_, systems);
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
+    if (kept_rays_ && all_bounces() && make_stable(system, mesh_)) return !progress_.stopped();
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
     if (!kept.find_losses(mesh_, systems, loss_share * options_.tolerance, progress_)) return false;
@@ -230,10 +232,7 @@ class Rounds {
         rough_square(system, found.irradiance, options_.through_operator ? nullptr : &direct_);
     const double goal = goal_square(norm_square(options_, state_.scale, all));
     const double allowed = noise_of_estimate * goal * std::sqrt(points);
-    const double share = allowed > 0 ? summed(found.noise_kept) / allowed : 0;
-    const double rays =
-        std::max(kept_rays_->most_rays() * std::pow(share, 1 / noise_exponent), fewest_in_mean);
-    return share_probe_rays(mesh_, found.noise_kept, shares, rays);
+    return share_probe_rays(mesh_, found.noise_kept, shares, kept_rays_->most_rays(), allowed);
   }
 
   /// Looks at points, more of them if there were some already. False if stopped.
@@ -285,7 +284,8 @@ class Rounds {
                          found.weight, report.amplification, negligible * goal);
     // While there is more to do anyway, about how much is reflected on is enough.
     const double allowed = allowed_square(options_, state_.scale, all);
-    const bool is_last_doubt = std::pow(comes_back, 2) * square + unbalanced.square <= allowed;
+    const double off = std::pow(comes_back, 2) * square;
+    const bool is_last_doubt = off + unbalanced.square <= allowed;
     const ReflectedOn reflected =
         report.amplification >= much_comes_back
             ? reflected_on(system, irradiance, estimate, found.unsure, found.weight,
@@ -293,8 +293,8 @@ class Rounds {
             : ReflectedOn{};
     if (progress_.stopped()) return Next::end;
     const double on = reflected.at_most();
-    report.error = std::hypot(comes_back * share(square), share(unbalanced.square + on),
-                              report.residual * report.amplification);
+    report.error =
+        std::hypot(share(off + unbalanced.square + on), report.residual * report.amplification);
     report.noise = share(summed(found.noise_left));
     report.mean_square_total = estimate.square_total / system.systems.area.sum() / (scale * scale);
     report.end = ReflectedEnd::accurate;
@@ -309,11 +309,11 @@ class Rounds {
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.in_gaps > goal) report.end = ReflectedEnd::gaps;
     if (unbalanced.square > goal && cannot_show) return Next::end;
-    const bool is_reflected_on = on > goal && is_last_doubt;
-    if (is_reflected_on && reflected.is_unsure() && surer_ < surest) return Next::points;
+    if (is_last_doubt && reflected.is_unsure() && surer_ < surest) return Next::points;
     // What is reflected on shrinks as what is off does, elements or noise.
+    const double share_left = (allowed - unbalanced.square) / (off + on);
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
-                  is_reflected_on ? square * goal / on : goal, found);
+                  is_last_doubt ? share_left * square : goal, found);
   }
 
   Next decide(const RefinementInput& input, double goal, const Found& found) {

@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
+#include "solver/reflected/field_noise.h"
 
 #include <algorithm>
 #include <array>
@@ -69,8 +70,8 @@ double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradi
 }
 
 std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
-                                  const std::vector<double>& shares, double rays) {
-  constexpr double fewest = 4, most = 48;
+                                  const std::vector<double>& shares, double known, double allowed) {
+  constexpr double fewest = 4, most = 48, fewest_in_mean = 25;  // strata, strata, rays
   double all = 0, area = 0, mean = 0;
   for (int e = 0; e < mesh.count(); ++e) {
     all += noise[at(e)];
@@ -82,6 +83,8 @@ std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<d
     part.push_back((noise[at(e)] + even) / shares[at(e)]);
     if (mesh.counts(e)) mean += shares[at(e)] * part.back();
   }
+  const double too_much = allowed > 0 ? all / allowed : 0;
+  const double rays = std::max(known * std::pow(too_much, 1 / noise_exponent), fewest_in_mean);
   std::vector<int> strata;
   for (const double x : part) {
     const double wanted = mean > 0 ? rays * std::pow(x / mean, 2. / 3) : rays;

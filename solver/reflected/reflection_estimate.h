@@ -53,10 +53,11 @@ struct ReflectionProbes {
 double rough_square(const ReflectedSystem& system, const SplitIrradiance& irradiance,
                     const DirectProjection* direct);
 
-/// Strata of either half of the rays from points of each element, for so many rays in the mean:
-/// more where there is more `noise` of other rays. The noise of the estimate is then the least.
+/// Strata of either half of the rays from points of each element: more where there is more `noise`,
+/// which `known` rays from each node would leave. That of the estimate is then the least, and
+/// `allowed` of it in all is kept to in the mean.
 std::vector<int> share_probe_rays(const ReflectedMesh& mesh, const std::vector<double>& noise,
-                                  const std::vector<double>& shares, double rays);
+                                  const std::vector<double>& shares, double known, double allowed);
 
 /// Compares irradiance with what arrives of leaving light. Two halves of the
 /// rays from a point differ from it by the same error and by noise that is independent: the product

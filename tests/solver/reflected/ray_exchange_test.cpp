@@ -2,6 +2,7 @@
 
 #include "meshing/repair/repair.h"
 #include "solver/reflected/refinement.h"
+#include "solver/reflected/unstable_elements.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -55,17 +56,34 @@ double factor_of_bounces(const RayExchange& exchange, const ReflectedMesh& mesh,
   return std::pow(norm(field) / before, 1. / last);
 }
 
-TEST(RayExchange, LightFallsWithEachBounceInAGap) {
-  constexpr double rho = 0.8, gap = 1e-3;
+/// Two plates that partly cover each other, without light.
+struct Plates {
+  Plates(double rho, double gap)
+      : sound(make_sound(scene(rho, gap))),
+        reflecting(make_reflecting_scene(sound)),
+        light(first_light(
+            sound, reflecting.roots, [](int, const Vec3&) { return Rgb(Rgb::Zero()); }, false)),
+        mesh(make_reflected_mesh(reflecting.roots, 0.3, 2, 100000)) {}
+
+  static Scene scene(double rho, double gap);
+
+  SoundScene sound;
+  ReflectingScene reflecting;
+  FirstLight light;
+  ReflectedMesh mesh;
+};
+
+Scene Plates::scene(double rho, double gap) {
   Scene scene;
   const int white = test::add_material(scene, rho, 0);
   test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, white);
   test::add_polygon(scene, {{-.2, .9, gap}, {.8, 1.2, gap}, {1.2, .2, gap}, {.1, -.3, gap}}, white);
-  const SoundScene sound = make_sound(scene);
-  const ReflectingScene reflecting = make_reflecting_scene(sound);
-  const FirstLight light = first_light(
-      sound, reflecting.roots, [](int, const Vec3&) { return Rgb(Rgb::Zero()); }, false);
-  ReflectedMesh mesh = make_reflected_mesh(reflecting.roots, 0.3, 2, 100000);
+  return scene;
+}
+
+TEST(RayExchange, LightFallsWithEachBounceInAGap) {
+  constexpr double rho = 0.8;
+  auto [sound, reflecting, light, mesh] = Plates(rho, 1e-3);
   RayExchange exchange(reflecting, light, strata);
   ASSERT_TRUE(exchange.update(mesh, {}));
   ASSERT_GT(mesh.count(), 20);
@@ -90,6 +108,30 @@ TEST(RayExchange, LeavesTheOrdersOfARoom) {
   RayExchange exchange(room.reflecting, room.light, strata);
   ASSERT_TRUE(exchange.lower_orders_in_gaps(room.mesh, {}));
   EXPECT_EQ(room.mesh.order, before);
+}
+
+TEST(UnstableElements, OfPlatesAreMadeConstantUntilLightFallsWithEachBounce) {
+  auto [sound, reflecting, light, mesh] = Plates(0.9, 1e-3);
+  RayExchange exchange(reflecting, light, strata);
+  ASSERT_TRUE(exchange.update(mesh, {}));
+  ASSERT_GT(factor_of_bounces(exchange, mesh, light), 1) << "it grows, for this test to tell";
+  for (bool is_stable = false; !is_stable;) {
+    const LightSystems systems = find_systems(reflecting, light, mesh, exchange);
+    is_stable = !make_stable({mesh, light, exchange, systems}, mesh);
+    ASSERT_TRUE(exchange.update(mesh, {}));
+  }
+  EXPECT_LT(factor_of_bounces(exchange, mesh, light), 0.99);
+  EXPECT_GT(std::count(mesh.order.begin(), mesh.order.end(), 2), 0);
+}
+
+TEST(UnstableElements, AreNoneInARoom) {
+  Room room(0.3);
+  room.mesh = make_reflected_mesh(room.reflecting.roots, 0.3, 2, 100000);
+  for (Rgb& rho : room.light.rho) rho = Rgb::Constant(0.95);
+  RayExchange exchange(room.reflecting, room.light, strata);
+  ASSERT_TRUE(exchange.update(room.mesh, {}));
+  const LightSystems systems = find_systems(room.reflecting, room.light, room.mesh, exchange);
+  EXPECT_TRUE(unstable_elements({room.mesh, room.light, exchange, systems}).empty());
 }
 
 TEST(RayExchange, TakesFewerRaysFromSmallElementsAmongVeryMany) {

@@ -14,7 +14,7 @@ constexpr int first_reflections = 8, last_reflections = 2;
 /// What is uneven within elements, as real light leaves it after a reflection, at most.
 constexpr double most_left = 0.9;
 /// Of the unevenness in all: less in an element is not its own.
-constexpr double share_of_all = 1e-3;
+constexpr double own_share = 1e-3;
 /// Where less is reflected nothing grows.
 constexpr double least_reflectance = 0.5;
 
@@ -70,7 +70,7 @@ std::vector<int> unstable_elements(const ReflectedSystem& system) {
   for (int e = 0; e < mesh.count(); ++e) {
     const auto [uneven, even] = squares(mesh, field, e);
     const double left = std::pow(most_left, 2 * last_reflections) * squares(mesh, before, e).uneven;
-    if (uneven > share_of_all * all && uneven > even && uneven > left) unstable.push_back(e);
+    if (uneven > own_share * all && uneven > even && uneven > left) unstable.push_back(e);
   }
   return unstable;
 }

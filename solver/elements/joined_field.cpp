@@ -3,6 +3,7 @@
 #include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/corner_fans.h"
+#include "meshing/geometry/triangle_height.h"
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -63,15 +64,6 @@ int edge_to(const ElementTable& elements, int element, int neighbour) {
 /// chair reaches behind the next, and what is true of them is not seen.
 constexpr double no_say = 0.01;
 
-/// Area over longest side, but for a factor.
-double height(const ElementTable& elements, int element) {
-  const auto& [a, b, c] = elements.corners[at(element)];
-  const Vec3 ab = elements.points[at(b)] - elements.points[at(a)],
-             ac = elements.points[at(c)] - elements.points[at(a)];
-  const double longest = std::max({ab.norm(), ac.norm(), (ac - ab).norm()});
-  return longest > 0 ? ab.cross(ac).norm() / longest : 0;
-}
-
 /// Where borders turn back by more than so much (its sine), something stands at the corner.
 constexpr double turns_back = 0.1;
 
@@ -118,8 +110,10 @@ class Joining {
     least_change_ = (share_of_error * relative + rounding) * largest;
     highest_.assign(elements.points.size(), 0);
     for (int e = 0; e < field.count(); ++e) {
-      height_.push_back(height(elements, e));
-      for (const int point : elements.corners[at(e)])
+      const auto& [a, b, c] = elements.corners[at(e)];
+      height_.push_back(shortest_height(
+          {elements.points[at(a)], elements.points[at(b)], elements.points[at(c)]}));
+      for (const int point : {a, b, c})
         highest_[at(point)] = std::max(highest_[at(point)], height_.back());
       int order = std::max(field.order[at(e)], 1);
       for (const int n : elements.neighbours[at(e)])

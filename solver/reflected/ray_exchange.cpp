@@ -2,6 +2,7 @@
 
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
+#include "meshing/geometry/triangle_height.h"
 #include "solver/elements/triangle_key.h"
 
 #include <algorithm>
@@ -29,12 +30,6 @@ constexpr double share_of_width = 0.5;
 /// each bounce, or grows. Below this one it falls soon enough, and polynomials of what comes in at
 /// the border take fewer elements than constants do.
 constexpr double amplified_reflectance = 0.65;
-
-/// Of a triangle.
-double shortest_height(const std::array<Vec3, 3>& p) {
-  const std::size_t k = at(longest_edge(p));
-  return (p[1] - p[0]).cross(p[2] - p[0]).norm() / (p[(k + 1) % 3] - p[k]).norm();
-}
 
 /// Of the mean area, if elements are so many that it matters; else 0.
 double area_of_all_rays(const ReflectedMesh& mesh) {

@@ -119,7 +119,7 @@ class Rounds {
     LightSystems systems = find_systems(state_.reflecting, state_.light, mesh_, kept);
     systems.power = power_put_in(mesh_, state_.light, direct_, systems);
     const ReflectedSystem system{mesh_, state_.light, kept, systems};
-    if (kept_rays_ && all_bounces() && make_stable(system, mesh_)) return !progress_.stopped();
+    if (kept_rays_ && all_bounces() && make_stable(system, mesh_)) return true;
     Found found;
     found.weight = element_weights(mesh_, state_.light, options_.weight);
     if (!kept.find_losses(mesh_, systems, loss_share * options_.tolerance, progress_)) return false;
@@ -311,7 +311,7 @@ class Rounds {
     if (unbalanced.square > goal && cannot_show) return Next::end;
     if (is_last_doubt && reflected.is_unsure() && surer_ < surest) return Next::points;
     // What is reflected on shrinks as what is off does, elements or noise.
-    const double share_left = (allowed - unbalanced.square) / (off + on);
+    const double share_left = off + on > 0 ? (allowed - unbalanced.square) / (off + on) : 1;
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
                   is_last_doubt ? share_left * square : goal, found);
   }

@@ -3,6 +3,7 @@
 #include "meshing/geometry/mix_bits.h"
 #include "solver/reflected/ray_exchange.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -43,9 +44,8 @@ ElementField uneven_field(const ReflectedMesh& mesh) {
 }
 
 bool reflects_much(const ReflectedSystem& system) {
-  for (const Rgb& rho : system.light.rho)
-    if (rho.maxCoeff() > least_reflectance) return true;
-  return false;
+  return std::ranges::any_of(system.light.rho,
+                             [](const Rgb& rho) { return rho.maxCoeff() > least_reflectance; });
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ std::vector<int> unstable_elements(const ReflectedSystem& system) {
   if (!reflects_much(system)) return {};
   ElementField field = uneven_field(mesh);
   const auto reflect = [&](int times) {
-    for (int k = 0; k < times; ++k)
+    for (int k = 0; k < times && !exchange.stopped(); ++k)
       field = exchange.apply(mesh, reflected_part(mesh, light, field));
   };
   reflect(first_reflections);
@@ -64,6 +64,7 @@ std::vector<int> unstable_elements(const ReflectedSystem& system) {
   field.coefficients /= largest;
   const ElementField before = field;
   reflect(last_reflections);
+  if (exchange.stopped()) return {};
   double all = 0;
   for (int e = 0; e < mesh.count(); ++e) all += squares(mesh, field, e).uneven;
   std::vector<int> unstable;

@@ -34,28 +34,4 @@ BalanceEstimate estimate_balance(const ReflectedSystem& system, const ElementFie
 ReflectionEstimate reflected_within(ReflectionEstimate estimate,
                                     const std::vector<UnsureLoss>& unsure);
 
-/// What all light is off by what is missing, as it is reflected on: ∫ |error|², weighted.
-struct ReflectedOn {
-  double square = 0;    ///< without bias by the noise of the points; may be negative
-  double variance = 0;  ///< that noise, reflected on as well
-
-  /// With two standard deviations.
-  double at_most() const;
-  /// Whether more points would say more than that.
-  bool is_unsure() const { return 4 * variance > square; }
-};
-
-/// Whether all points go together, or a part of them at a time, which tells their noise.
-enum class PointParts { one, all };
-
-/// What comes of what `estimate` finds missing in the mean over each element. Where light is
-/// reflected a hundred times, not only its amount is slow to settle: in a narrow gap it spreads as
-/// heat does in a plate, and whatever is missing over some gaps' width moves it there by nearly as
-/// much. What is missing where all that leaves gets lost, as above a lamp close below a ceiling,
-/// does not count. With PointParts::one, all points go together, which takes a sixth as long: noise
-/// counts as what is reflected, and its variance stays 0.
-ReflectedOn reflected_on(const ReflectedSystem& system, const SplitIrradiance& irradiance,
-                         const ReflectionEstimate& estimate, const std::vector<UnsureLoss>& unsure,
-                         const std::vector<double>& weight, PointParts which);
-
 }  // namespace halfshade

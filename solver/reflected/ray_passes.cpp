@@ -3,6 +3,22 @@
 #include <algorithm>
 
 namespace halfshade {
+namespace {
+
+constexpr double share_of_all = 0.95, uncertain = 1.1;
+/// A pass takes at least so much of the noise away that this share is left.
+constexpr double least_gain = 0.75;
+
+}  // namespace
+
+double noise_after_pass(const ReflectionEstimate& estimate, double noise, double goal,
+                        double enough) {
+  const double of_elements = std::max(estimate.sum - noise, 0.);
+  const double doubt = 2 * estimate.deviation / std::max(estimate.sum, noise);
+  const double allowed =
+      std::max(share_of_all / (1 + doubt) * goal - of_elements, least_noise * goal) / uncertain;
+  return std::min(std::max(allowed, enough), least_gain * noise);
+}
 
 const RayPasses::OfTriangle* RayPasses::find(const ReflectedMesh& mesh, int element) const {
   const int t = mesh.triangle[at(element)];

@@ -1,10 +1,19 @@
 #pragma once
 
 #include "solver/reflected/final_pass.h"
+#include "solver/reflected/reflection_estimate.h"
 
 #include <vector>
 
 namespace halfshade {
+
+/// Of a goal: less noise is not worth a pass.
+inline constexpr double least_noise = 0.25;
+
+/// What a pass is to leave of `noise`, so that elements, noise and twice the deviation of the
+/// estimate are a little less than `goal`, or `enough` if that is more.
+double noise_after_pass(const ReflectionEstimate& estimate, double noise, double goal,
+                        double enough);
 
 /// What rays that are not kept have found, for as long as their elements are there: by how much K
 /// is more than the kept rays say. That hardly changes with what leaves.

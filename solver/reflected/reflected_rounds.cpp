@@ -9,6 +9,7 @@
 #include "solver/reflected/quiet_field.h"
 #include "solver/reflected/ray_passes.h"
 #include "solver/reflected/refinement.h"
+#include "solver/reflected/reflected_on.h"
 #include "solver/reflected/stagnation.h"
 #include "solver/reflected/unstable_elements.h"
 
@@ -44,12 +45,7 @@ constexpr double negligible = 0.01;
 /// Of the tolerance: what open systems lose may be off, relatively.
 constexpr double loss_share = 0.15;
 
-// Of the goal, noise may have this share; after a pass elements, noise and twice the estimate's
-// deviation are to have a little less than all.
-constexpr double share_of_noise = 0.45, share_of_all = 0.95, uncertain = 1.1;
-constexpr double least_noise = 0.25;
-/// A pass takes at least so much of the noise away that this share is left.
-constexpr double least_gain = 0.75;
+constexpr double share_of_noise = 0.45;                // of the goal
 constexpr int most_passes = 5, surest = 16, sure = 3;  // times as many points as usual
 /// Deviation of the estimate above which it may be off by so much that it asks for too much.
 constexpr double unsure = 0.1, much_noise = 0.6;
@@ -309,7 +305,8 @@ class Rounds {
     report.end = kept_rays_ ? ReflectedEnd::rays : ReflectedEnd::elements;
     if (unbalanced.in_gaps > goal) report.end = ReflectedEnd::gaps;
     if (unbalanced.square > goal && cannot_show) return Next::end;
-    if (is_last_doubt && reflected.is_unsure() && surer_ < surest) return Next::points;
+    const bool could_be_little = off + unbalanced.square + reflected.square <= allowed;
+    if (is_last_doubt && could_be_little && surer_ < surest) return Next::points;
     // What is reflected on shrinks as what is off does, elements or noise.
     const double share_left = off + on > 0 ? (allowed - unbalanced.square) / (off + on) : 1;
     return decide({mesh_, irradiance.rest, found.noise_left, found.weight, estimate, unbalanced},
@@ -354,13 +351,7 @@ class Rounds {
   /// Rays that bring the noise down to what suits the goal, or to `enough`. False if there may be
   /// no more.
   bool plan_pass(const RefinementInput& input, double goal, double enough, const Found& found) {
-    const double noise = summed(found.noise_left);
-    const double of_elements = std::max(input.estimate.sum - noise, 0.);
-    // Which judge() adds.
-    const double doubt = 2 * input.estimate.deviation / std::max(input.estimate.sum, noise);
-    const double allowed =
-        std::max(share_of_all / (1 + doubt) * goal - of_elements, least_noise * goal) / uncertain;
-    const double wanted = std::min(std::max(allowed, enough), least_gain * noise);
+    const double wanted = noise_after_pass(input.estimate, summed(found.noise_left), goal, enough);
     const double more =
         rays_for(mesh_, noisy_forest(mesh_, found.rest, found.noise), found.weight, wanted);
     const double all = summed(noise_of_elements(found.noise, found.weight));

@@ -152,6 +152,13 @@ ReflectedSolution solve_for(const ReflectedSystem& system, double tolerance) {
   return is_enough ? solution : solve_to(exact);
 }
 
+ElementField all_light_of(const ReflectedSystem& system, const ElementField& arriving,
+                          double residual) {
+  const ChannelArray no_power = ChannelArray::Zero(system.systems.count(), 3);
+  return solve_reflected(system, arriving, no_power, residual)
+      .irradiance.whole(system.mesh, system.systems);
+}
+
 ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving) {
   ElementField arriving = system.exchange.source(system.mesh);
   arriving.coefficients += system.exchange.apply(system.mesh, leaving).coefficients;

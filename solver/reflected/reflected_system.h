@@ -35,6 +35,10 @@ ReflectedSolution solve_reflected(const ReflectedSystem& system, const ElementFi
 /// amplified, is a small share of a tolerance. 0: as far as doubles go.
 ReflectedSolution solve_for(const ReflectedSystem& system, double tolerance);
 
+/// All light that comes of some that arrives, and no other power put in; `residual` as there.
+ElementField all_light_of(const ReflectedSystem& system, const ElementField& arriving,
+                          double residual);
+
 /// K (S + `leaving`) by the exchange's rows.
 ElementField arriving_by_rows(const ReflectedSystem& system, const ElementField& leaving);
 

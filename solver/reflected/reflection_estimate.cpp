@@ -3,6 +3,10 @@
 #include "meshing/core/parallel.h"
 #include "meshing/geometry/mix_bits.h"
 #include "solver/reflected/field_noise.h"
+#include "solver/reflected/gathering.h"
+#include "solver/reflected/leaving_field.h"
+#include "solver/reflected/quick_field.h"
+#include "solver/reflected/ray_exchange.h"
 
 #include <algorithm>
 #include <array>

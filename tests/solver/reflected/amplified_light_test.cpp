@@ -1,5 +1,4 @@
 #include "meshing/repair/repair.h"
-#include "solver/reflected/balance_estimate.h"
 #include "solver/reflected/reflected_cost.h"
 #include "solver/reflected/reflected_light.h"
 #include "tests/support/element_points.h"
@@ -79,13 +78,6 @@ TEST(AmplifiedLight, ExactPartsAreWorthLessAmongManySurfaces) {
   EXPECT_GT(reflected_cost(1000, options).give_up.amplified, 1000);
   options.visibility = ReflectedVisibility::sampled;
   EXPECT_EQ(reflected_cost(2, options).give_up.amplified, HUGE_VAL);
-}
-
-TEST(ReflectedOn, ClaimsTwoStandardDeviationsOfThePoints) {
-  EXPECT_DOUBLE_EQ((ReflectedOn{9, 4}.at_most()), 49);
-  EXPECT_DOUBLE_EQ((ReflectedOn{-1, 4}.at_most()), 16) << "there may be nothing but noise";
-  EXPECT_TRUE((ReflectedOn{-1, 4}.is_unsure()));
-  EXPECT_FALSE((ReflectedOn{100, 4}.is_unsure()));
 }
 
 }  // namespace

@@ -55,17 +55,21 @@ PeakPlaces peak_places(std::span<const NoisyElement> elements, int count) {
   return places;
 }
 
-double peaks_of(const PeakPlaces& places, std::span<const NoisyValue> values) {
+FirstLook first_look(const PeakPlaces& places, std::span<const NoisyValue> values) {
   LitSums sums;
+  FirstLook look;
   for (std::size_t k = 0; k < values.size(); ++k) {
+    const double square = places.area[k] * values[k].square();
+    look.noise += places.area[k] * values[k].noise();
+    look.square += square;
     const Rgb mean = values[k].mean();
     if (!(mean.sum() > 0)) continue;
     sums.area += places.area[k];
     sums.light += places.area[k] * mean;
-    // The noise of the two is not the same.
-    sums.square += places.area[k] * (values[k].a * values[k].b).sum();
+    sums.square += square;
   }
-  return sums.peaks();
+  look.peaks = sums.peaks();
+  return look;
 }
 
 }  // namespace halfshade

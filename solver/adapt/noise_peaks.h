@@ -14,7 +14,7 @@ constexpr double most_peaks = 10;
 /// to most_peaks: what is off is judged by the one, noise by the other.
 double peaks_of(std::span<const NoisyElement> elements);
 
-/// Places that tell it roughly, and the areas that they stand for.
+/// Places that tell light roughly, and the areas that they stand for.
 struct PeakPlaces {
   std::vector<FieldPoint> points;
   std::vector<double> area;
@@ -23,6 +23,12 @@ struct PeakPlaces {
 /// About `count` ≥ 1 of them: half by area, half by the square of what light may be there.
 PeakPlaces peak_places(std::span<const NoisyElement> elements, int count);
 
-double peaks_of(const PeakPlaces& places, std::span<const NoisyValue> values);
+/// What they tell.
+struct FirstLook {
+  double peaks = 1;  ///< see peaks_of
+  double noise = 0;  ///< ∫ of it, and of the square of light
+  double square = 0;
+};
+FirstLook first_look(const PeakPlaces& places, std::span<const NoisyValue> values);
 
 }  // namespace halfshade

@@ -86,6 +86,12 @@ double known_error(std::span<const NoisyElement> elements) {
   return sum;
 }
 
+double sum_of_noise(std::span<const NoisyElement> elements) {
+  double sum = 0;
+  for (const NoisyElement& element : elements) sum += element.area * element.noise;
+  return sum;
+}
+
 double sum_of_reaches(std::span<const NoisyElement> elements) {
   double sum = 0;
   for (const NoisyElement& element : elements) sum += element.area * element.reach;
@@ -104,11 +110,11 @@ Rgb value_at(const NoisyElement& element, const TrianglePlace& place) {
 
 void fit(NoisyElement& element) {
   const int count = static_cast<int>(element.samples.size());
-  double noise = 0;  // variance of a mean of two values
+  double noise = 0;
   std::vector<BasisRow> basis(element.samples.size());
   for (std::size_t k = 0; k < basis.size(); ++k) {
     const NoisySample& sample = element.samples[k];
-    noise += (sample.value.a - sample.value.b).matrix().squaredNorm() / 4 / count;
+    noise += sample.value.noise() / count;
     basis_at(highest_order, sample.place, basis[k]);
   }
   double least = std::numeric_limits<double>::infinity();
@@ -124,6 +130,7 @@ void fit(NoisyElement& element) {
     element.surely_left = polynomial.surely_left;
     element.by_chance = polynomial.by_chance;
   }
+  element.noise = noise;
   element.is_fitted = true;
 }
 

@@ -32,6 +32,7 @@ struct NoisyElement {
   double surely_left = 0;  ///< of it, what noise is not likely to have made; ≥ 0
   double by_chance = 0;    ///< mean square of what it is off because samples are few and noisy
   double unseen = 0;       ///< mean square of what neighbours see and too few samples here may miss
+  double noise = 0;        ///< mean square of that of its samples, each the mean of two values
 
   /// In the mean of many elements.
   double square_error() const { return left + by_chance + unseen; }
@@ -39,8 +40,9 @@ struct NoisyElement {
   double known_error() const { return surely_left + by_chance + unseen; }
 };
 
-/// ∫ of that, and of what light does not exceed, over all of them.
+/// ∫ of that, of the noise of samples, and of what light does not exceed, over all of them.
 double known_error(std::span<const NoisyElement> elements);
+double sum_of_noise(std::span<const NoisyElement> elements);
 double sum_of_reaches(std::span<const NoisyElement> elements);
 
 /// What slack an element has to begin with, and its parts keep: more where it is smaller than the

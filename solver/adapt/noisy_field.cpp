@@ -31,6 +31,10 @@ constexpr double least_of_round = 0.1;
 /// Where elements must not be split, rounds that leave more than this of the square of the error
 /// do not pay.
 constexpr double hardly_less = 0.97;
+/// Of the square of the error allowed: noise of samples, each of which counts with others. Where
+/// rays tell nearly the same there is much less than they are told to leave: then so many times as
+/// much will do.
+constexpr double share_of_noise_in_samples = 0.5, most_ease = 6;
 /// Elements, and places that tell how uneven light is before it is known on them.
 constexpr double many_at_first = 5000;
 constexpr int places_for_peaks = 2000;
@@ -71,8 +75,11 @@ class NoisyFit {
 
   AdaptiveField run() {
     while (true) {
+      const double peaks = peaks_;
       sample_and_fit();
       sum_up();
+      if (report_.rounds == 1)
+        allow_noise(std::pow(peaks_ / peaks, 2) * sum_of_noise(elements_), allowed());
       if (progress_.stopped()) report_.limit = FieldLimit::stopped;
       if (report_.limit != FieldLimit::none) break;
       if (square_error_ <= allowed()) {
@@ -94,11 +101,21 @@ class NoisyFit {
     const PeakPlaces places = peak_places(elements_, places_for_peaks);
     const std::vector<NoisyValue> values =
         sample(places.points, std::vector<double>(places.points.size(), most_peaks));
-    if (values.size() == places.points.size()) peaks_ = peaks_of(places, values);
+    if (values.size() != places.points.size()) return;
+    const FirstLook look = first_look(places, values);
+    peaks_ = look.peaks;
+    allow_noise(std::pow(peaks_ / most_peaks, 2) * look.noise, square_of_tolerance() * look.square);
+  }
+
+  /// What noise there may be, if there is so much for now.
+  void allow_noise(double now, double allowed) {
+    const double wanted = share_of_noise_in_samples * std::max(allowed, 0.);
+    ease_ = now > 0 ? std::clamp(ease_ * std::sqrt(wanted / now), 1., most_ease) : most_ease;
   }
 
   /// Squares of errors. Noise may make square_error_ negative.
-  double allowed() const { return options_.tolerance * options_.tolerance * square_; }
+  double square_of_tolerance() const { return options_.tolerance * options_.tolerance; }
+  double allowed() const { return square_of_tolerance() * square_; }
   double estimated() const { return std::max(square_error_, least_estimate * allowed()); }
   double corrected() const { return correction_ * estimated(); }
 
@@ -167,7 +184,7 @@ class NoisyFit {
         places.push_back(spread_place(start + k));
         points.push_back(point_at(element, places.back()));
       }
-      slack.resize(points.size(), peaks_ * element.slack);
+      slack.resize(points.size(), ease_ * peaks_ * element.slack);
     }
     first.push_back(places.size());
     const std::vector<NoisyValue> values = sample(points, slack);
@@ -221,7 +238,7 @@ class NoisyFit {
           static_cast<std::uint64_t>(report_.rounds * most_comparisons + error.count());
       const FreshPlaces fresh = fresh_places(elements_, options_, estimated(), count, draw);
       const std::vector<NoisyValue> values =
-          sample(fresh.points, std::vector<double>(fresh.points.size(), peaks_));
+          sample(fresh.points, std::vector<double>(fresh.points.size(), ease_ * peaks_));
       if (values.size() < fresh.points.size() || fresh.points.empty()) break;
       error.add(fresh, values, elements_);
       by_chance = deviations * error.deviation();
@@ -355,6 +372,7 @@ class NoisyFit {
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;
   double peaks_ = 1;  ///< as last known: values may be so much noisier than usual
+  double ease_ = 1;   ///< and again so many times, as there is less noise than is thought
   std::size_t unknowns_ = 0;
   AdaptiveFieldReport report_;
 };

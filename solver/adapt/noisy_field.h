@@ -19,7 +19,8 @@ using FieldBound = std::function<double(const FieldPoint&)>;
 /// `bound` says that they matter, and may be noisier where they are small: most of very many are,
 /// and what they are off hardly counts. Their parts may be no noisier than they: those gather where
 /// light is. All may be where light is uneven, once that is known, of very many elements from a few
-/// places beforehand: usual noise suits a tolerance of the mean.
+/// places beforehand: usual noise suits a tolerance of the mean. And all may be where the first
+/// samples have less of it than the tolerance lets them: most rays tell the same.
 ///
 /// What an element may be off follows from what is left at its samples, less the noise, and from
 /// how many they are. Before it is believed, samples at new places are compared: the product of

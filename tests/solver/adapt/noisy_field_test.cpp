@@ -233,7 +233,7 @@ TEST(NoisyField, KnowsOfPeaksBeforeManyElementsAreSampled) {
   const NoisyFieldAt noisier = [&](std::span<const FieldPoint> points,
                                    std::span<const double> slack, const Progress& progress) {
     calls.emplace_back(points.size(), *std::ranges::min_element(slack));
-    return noisy_field_of(f, 0.05)(points, {}, progress);
+    return noisy_field_of(f, 0.1 * slack[0])(points, {}, progress);
   };
   const AdaptiveField fit = fit_noisy(
       mesh, noisier, [&](const FieldPoint& p) { return f(p.point.position); }, options);
@@ -242,6 +242,37 @@ TEST(NoisyField, KnowsOfPeaksBeforeManyElementsAreSampled) {
   EXPECT_LT(calls[0].first, calls[1].first / 5);
   EXPECT_NEAR(calls[1].second, norm / mean, 0.1 * norm / mean);
   EXPECT_LE(true_error(fit, f), 1.15 * fit.report.relative_error);
+}
+
+/// Less noise than the tolerance lets samples have, as where most rays tell the same: they may be
+/// told to have more, until it is half of the square of the error, or six times as large.
+TEST(NoisyField, AllowsMoreNoiseWhereThereIsLittle) {
+  AdaptiveFieldOptions options;
+  options.tolerance = 0.05;
+  for (const auto& [noise, width] :
+       {std::pair(0.02, 0.1), {0.02, 0.015}, {0.05, 0.1}, {1e-3, 0.1}, {0., 0.1}}) {
+    PatchMesh mesh = unit_square(width);
+    std::vector<double> least;  // slack, by call
+    const NoisyFieldAt noisier = [&, usual = noise](std::span<const FieldPoint> points,
+                                                    std::span<const double> slack,
+                                                    const Progress& progress) {
+      least.push_back(*std::ranges::min_element(slack));
+      return noisy_field_of(shadows, usual * least.back())(points, {}, progress);
+    };
+    const AdaptiveField fit = fit_noisy(mesh, noisier, one, options);
+    double norm = 0;
+    Rgb mean = Rgb::Zero();
+    for (int e = 0; e < fit.field.count(); ++e) {
+      norm += fit.elements.area[at(e)] * fit.field.of(e).matrix().squaredNorm();
+      mean += fit.elements.area[at(e)] * fit.field.of(e).row(0).transpose();
+    }
+    const double peaks = std::sqrt(norm / mean.square().sum());
+    norm /= in_channels(1).square().sum();
+    const double most = noise > 0 ? std::sqrt(0.5 * norm) * options.tolerance / noise : HUGE_VAL;
+    EXPECT_NEAR(least.back(), std::clamp(most, peaks, 6 * peaks), 0.1 * least.back()) << noise;
+    EXPECT_LE(fit.report.relative_error, options.tolerance) << noise;
+    EXPECT_LE(true_error(fit, shadows), 1.15 * fit.report.relative_error) << noise;
+  }
 }
 
 TEST(NoisyField, SaysWhenALimitStopsIt) {

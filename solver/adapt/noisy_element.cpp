@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -31,6 +32,9 @@ constexpr double varies_little = 0.3;
 /// An edge across an element leaves a sixth of the square of its height on the mean of all places;
 /// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
 constexpr double missed = 3;
+
+constexpr std::array<std::pair<double, double>, 6> corners_and_middles = {
+    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}}};
 
 constexpr int most_coefficients = basis_size(highest_order);
 using BasisRow = Eigen::Matrix<double, most_coefficients, 1>;
@@ -76,6 +80,24 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples,
       std::max(result.left - sure * noise * std::sqrt(2 / freedom + 2 / count), 0.);
   result.by_chance = std::max(spread, noise) * trace;
   return result;
+}
+
+/// Light is not below 0, and a polynomial that is, at corners or middles of edges, is nearer to it
+/// with less of all that varies. Its mean stays (Zhang and Shu 2010).
+void keep_positive(NoisyElement& element) {
+  const Eigen::Index size = element.coefficients.rows();
+  Eigen::VectorXd phi(size);
+  Rgb least = Rgb::Zero();  // of what varies
+  for (const auto& [s, t] : corners_and_middles) {
+    basis_at(element.order, {s, t}, phi);
+    least = least.min(
+        (element.coefficients.bottomRows(size - 1).matrix().transpose() * phi.tail(size - 1))
+            .array());
+  }
+  for (Eigen::Index c = 0; c < 3; ++c) {
+    const double mean = std::max(element.coefficients(0, c), 0.);  // the first function is 1
+    if (mean + least[c] < 0) element.coefficients.col(c).tail(size - 1) *= mean / -least[c];
+  }
 }
 
 }  // namespace
@@ -130,6 +152,7 @@ void fit(NoisyElement& element) {
     element.surely_left = polynomial.surely_left;
     element.by_chance = polynomial.by_chance;
   }
+  keep_positive(element);
   element.noise = noise;
   element.is_fitted = true;
 }

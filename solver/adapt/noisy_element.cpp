@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace halfshade {
 namespace {
@@ -32,9 +31,6 @@ constexpr double varies_little = 0.3;
 /// An edge across an element leaves a sixth of the square of its height on the mean of all places;
 /// every second neighbour of one with an edge has it, too, and n samples miss 1/(n + 1) of it.
 constexpr double missed = 3;
-
-constexpr std::array<std::pair<double, double>, 6> corners_and_middles = {
-    {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0, 0.5}, {0.5, 0.5}}};
 
 constexpr int most_coefficients = basis_size(highest_order);
 using BasisRow = Eigen::Matrix<double, most_coefficients, 1>;
@@ -83,20 +79,16 @@ NoisyPolynomial fit_order(int order, const std::vector<NoisySample>& samples,
 }
 
 /// Light is not below 0, and a polynomial that is, at corners or middles of edges, is nearer to it
-/// with less of all that varies. Its mean stays (Zhang and Shu 2010).
+/// with less of all that varies. Its mean stays (Zhang and Shu 2010), unless that is below 0, too.
 void keep_positive(NoisyElement& element) {
-  const Eigen::Index size = element.coefficients.rows();
-  Eigen::VectorXd phi(size);
-  Rgb least = Rgb::Zero();  // of what varies
-  for (const auto& [s, t] : corners_and_middles) {
-    basis_at(element.order, {s, t}, phi);
-    least = least.min(
-        (element.coefficients.bottomRows(size - 1).matrix().transpose() * phi.tail(size - 1))
-            .array());
-  }
+  const Eigen::Index varying = element.coefficients.rows() - 1;  // the first function is 1
+  const Eigen::MatrixXd at_nodes = element_node_basis(highest_order).middleCols(1, varying) *
+                                   element.coefficients.bottomRows(varying).matrix();
   for (Eigen::Index c = 0; c < 3; ++c) {
-    const double mean = std::max(element.coefficients(0, c), 0.);  // the first function is 1
-    if (mean + least[c] < 0) element.coefficients.col(c).tail(size - 1) *= mean / -least[c];
+    auto column = element.coefficients.col(c);
+    const double least = at_nodes.col(c).minCoeff();
+    column[0] = std::max(column[0], 0.);
+    if (column[0] + least < 0) column.tail(varying) *= column[0] / -least;
   }
 }
 

@@ -57,8 +57,8 @@ Rgb value_at(const NoisyElement& element, const TrianglePlace& place);
 
 /// Fits the order of 0 to 2 with the least error to an element's samples by least squares. What is
 /// left at the samples, less what their noise is, is what the polynomial cannot follow; both
-/// together, times the trace of the inverse normal matrix, are what the fit is off by chance. Light
-/// that varies by more than there is varies less, so that it is nowhere below 0.
+/// together, times the trace of the inverse normal matrix, are what the fit is off by chance. What
+/// is below 0 at corners or middles of edges then varies less, so that it is not.
 void fit(NoisyElement& element);
 
 /// Parts of an element begin with no fewer samples.

@@ -29,7 +29,7 @@ ReflectedOn square_of(int places, double length, double noisy, test::Random& ran
 
 struct Summary {
   double mean = 0, deviation = 0;
-  int enough = 0;  ///< times that no more was there than at most
+  double enough = 0;  ///< how often, as a share, no more was there than at most
 };
 
 Summary of_many(int places, double length, double noisy) {
@@ -40,9 +40,8 @@ Summary of_many(int places, double length, double noisy) {
     const ReflectedOn found = square_of(places, length, noisy, random);
     all.mean += found.square / times;
     all.deviation += found.deviation / times;
-    all.enough += length * length <= found.at_most() ? 1 : 0;
+    if (length * length <= found.at_most()) all.enough += 1. / times;
   }
-  all.enough = 100 * all.enough / times;
   return all;
 }
 
@@ -55,10 +54,10 @@ TEST(ReflectedOn, HasNoBiasByNoise) {
 TEST(ReflectedOn, ClaimsEnough) {
   for (const double noisy : {0.1, 0.5, 2.})
     for (const int places : {1, 10, 300})
-      EXPECT_GE(of_many(places, 1, noisy).enough, 85) << places << " places, noise " << noisy;
+      EXPECT_GE(of_many(places, 1, noisy).enough, 0.85) << places << " places, noise " << noisy;
 }
 
-// Noise of as many points on each of many elements is a hundred times as much as is reflected on.
+/// In all it has a square of 1.
 TEST(ReflectedOn, NoiseInManyPlacesCancels) {
   EXPECT_LT(of_many(300, 0, 1).deviation, 0.15);
   EXPECT_GT(of_many(1, 0, 1).deviation, 0.5) << "of one form it does not";

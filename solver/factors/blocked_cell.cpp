@@ -216,10 +216,10 @@ double BlockedCells::missed(const BlockedCell& cell, double whole) {
     for (const Blocker* side : sides) most += side->area;
     most = std::min(most, whole);
     if (found >= hardly_found * most || most <= negligible) continue;
-    if (!is_wide && !shaft) shaft = make_shaft(cell.corners, few_->target_corners(), 0);
+    if (!shaft) shaft = make_shaft(cell.corners, few_->target_corners(), 0);
     most = 0;
     for (const Blocker* side : sides)
-      most += is_wide ? hidden_from_above(cell.corners, own.frame.normal, *side)
+      most += is_wide ? hidden_from_above(*shaft, cell.corners, own.frame.normal, *side)
                       : hidden_at_most(*shaft, cell.corners, own.frame.normal, *side);
     most = std::min(most, whole);
     if (found >= hardly_found * most || most <= negligible) continue;

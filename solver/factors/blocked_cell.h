@@ -120,6 +120,7 @@ double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& nor
                       const Blocker& blocker);
 
 /// The same of that part of a thing alone that lies over or under the triangle.
-double hidden_from_above(const Triangle3& part, const Vec3& normal, const Blocker& blocker);
+double hidden_from_above(const Shaft& shaft, const Triangle3& part, const Vec3& normal,
+                         const Blocker& blocker);
 
 }  // namespace halfshade

@@ -1,12 +1,10 @@
 #include "solver/factors/factor_scene.h"
 
-#include "meshing/core/planar.h"
 #include "meshing/repair/repair.h"
-#include "meshing/triangulation/ring_triangles.h"
+#include "solver/factors/unused_backs.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 
 namespace halfshade {
@@ -47,53 +45,12 @@ void set_apart(Scene& scene) {
   for (std::size_t f = 0; f < scene.faces.size(); ++f) scene.faces[f].group = static_cast<int>(f);
 }
 
-Surface back_of(const Surface& front) {
-  Surface back = front;
-  back.back = true;
-  back.frame = {front.frame.origin, front.frame.e1, -front.frame.e2, -front.frame.normal};
-  const auto turn = [](std::vector<Ring>& rings) {
-    for (Ring& ring : rings) {
-      std::reverse(ring.begin(), ring.end());
-      for (Vec2& p : ring) p.y() = -p.y();
-    }
-  };
-  turn(back.rings);
-  turn(back.face_rings);
-  for (Segment2& line : back.contacts)
-    for (Vec2& p : line) p.y() = -p.y();
-  return back;
-}
-
-/// Whether a surface that looks the other way lies on some triangle's middle of this one.
-bool is_covered(const SoundScene& scene, const std::vector<int>& in_plane, const Surface& surface) {
-  std::vector<Vec2> corners;
-  for (const Ring& ring : surface.rings) corners.insert(corners.end(), ring.begin(), ring.end());
-  for (const auto& t : ring_triangles(surface.rings)) {
-    const Vec3 middle =
-        surface.frame.to_space((corners[at(t[0])] + corners[at(t[1])] + corners[at(t[2])]) / 3);
-    for (const int s : in_plane) {
-      const Surface& other = scene.surfaces[at(s)];
-      if (other.frame.normal.dot(surface.frame.normal) < 0 &&
-          is_inside(other.rings, other.frame.to_plane(middle)))
-        return true;
-    }
-  }
-  return false;
-}
-
 void add_unused_backs(FactorScene& scene) {
-  SoundScene& sound = scene.sound;
-  std::map<int, std::vector<int>> in_plane;
-  for (std::size_t s = 0; s < sound.surfaces.size(); ++s)
-    in_plane[sound.surfaces[s].plane].push_back(static_cast<int>(s));
-  std::vector<Surface> backs;
-  for (std::size_t s = 0; s < sound.surfaces.size(); ++s) {
-    const Surface& surface = sound.surfaces[s];
-    if (scene.row[s] >= 0 && !surface.back && !is_covered(sound, in_plane[surface.plane], surface))
-      backs.push_back(back_of(surface));
-  }
-  for (Surface& back : backs) {
-    sound.surfaces.push_back(std::move(back));
+  std::vector<bool> has_back;
+  for (std::size_t s = 0; s < scene.row.size(); ++s)
+    has_back.push_back(scene.row[s] >= 0 && !scene.sound.surfaces[s].back);
+  for (Surface& back : uncovered_backs(scene.sound, has_back)) {
+    scene.sound.surfaces.push_back(std::move(back));
     scene.row.push_back(unused_back);
   }
 }

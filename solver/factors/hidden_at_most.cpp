@@ -77,8 +77,9 @@ double hidden_at_most(const Shaft& shaft, const Triangle3& part, const Vec3& nor
   return between.empty() ? 0 : hidden_by(part, normal, between);
 }
 
-double hidden_from_above(const Triangle3& part, const Vec3& normal, const Blocker& blocker) {
-  return seen_from_middle(above(part, normal, blocker.corners), part);
+double hidden_from_above(const Shaft& shaft, const Triangle3& part, const Vec3& normal,
+                         const Blocker& blocker) {
+  return seen_from_middle(above(part, normal, clipped(blocker.corners, shaft)), part);
 }
 
 double hidden_at_most(const SightScene& scene, const Triangle3& part, int a, int b, double enough) {

@@ -1,0 +1,134 @@
+#include "solver/factors/unused_backs.h"
+
+#include "meshing/arrangement/overlay.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace halfshade {
+namespace {
+
+Surface back_of(const Surface& front) {
+  Surface back = front;
+  back.back = true;
+  back.frame = {front.frame.origin, front.frame.e1, -front.frame.e2, -front.frame.normal};
+  const auto turn = [](std::vector<Ring>& rings) {
+    for (Ring& ring : rings) {
+      std::reverse(ring.begin(), ring.end());
+      for (Vec2& p : ring) p.y() = -p.y();
+    }
+  };
+  turn(back.rings);
+  turn(back.face_rings);
+  for (Segment2& line : back.contacts)
+    for (Vec2& p : line) p.y() = -p.y();
+  return back;
+}
+
+Eigen::AlignedBox2d box_of(const std::vector<Ring>& rings) {
+  Eigen::AlignedBox2d box;
+  for (const Vec2& p : rings.front()) box.extend(p);
+  return box;
+}
+
+/// Rings of one surface in the frame of another.
+std::vector<Ring> rings_in(const PlaneFrame& frame, const Surface& surface) {
+  std::vector<Ring> rings = surface.rings;
+  for (Ring& ring : rings)
+    for (Vec2& p : ring) p = frame.to_plane(surface.frame.to_space(p));
+  return rings;
+}
+
+/// A surface and those that lie on its back, laid over each other.
+class CoveredBack {
+ public:
+  explicit CoveredBack(const Surface& front) : front_(front), tolerance_(tolerance_of(front)) {
+    add(front.rings);
+  }
+
+  void cover_with(const Surface& other) {
+    const std::vector<Ring> rings = rings_in(front_.frame, other);
+    const LocalTolerance tolerance = tolerance_of(front_, other);
+    const Eigen::AlignedBox2d common = box_of(front_.rings).intersection(box_of(rings));
+    if ((common.sizes().array() <= tolerance.planarity).any()) return;
+    tolerance_.length = std::max(tolerance_.length, tolerance.length);
+    tolerance_.planarity = std::max(tolerance_.planarity, tolerance.planarity);
+    add(rings);
+  }
+
+  /// What is not covered, as surfaces that look as the front does.
+  std::vector<Surface> rest() const {
+    if (loops_.size() == front_.rings.size()) return {front_};
+    const Overlay parts = overlay(points_, loops_, {tolerance_.length, tolerance_.planarity});
+    std::vector<int> labels;
+    for (const auto& winding : parts.winding) labels.push_back(is_bare(winding) ? 0 : -1);
+    std::vector<Surface> surfaces;
+    for (const OverlayRegion& region : regions(parts, labels)) {
+      if (is_sliver(parts, region)) continue;
+      surfaces.push_back(front_);
+      surfaces.back().rings.clear();
+      for (const std::vector<int>& ring : region.rings) {
+        surfaces.back().rings.emplace_back();
+        for (const int p : ring) surfaces.back().rings.back().push_back(parts.points[at(p)]);
+      }
+    }
+    return surfaces;
+  }
+
+ private:
+  void add(const std::vector<Ring>& rings) {
+    for (const Ring& ring : rings) {
+      loops_.emplace_back(ring.size());
+      std::iota(loops_.back().begin(), loops_.back().end(), static_cast<int>(points_.size()));
+      points_.insert(points_.end(), ring.begin(), ring.end());
+    }
+  }
+
+  /// Inside of the front, and of nothing else: holes wind the other way.
+  bool is_bare(const std::vector<std::pair<int, int>>& winding) const {
+    int of_front = 0, of_others = 0;
+    for (const auto& [loop, turns] : winding)
+      (loop < static_cast<int>(front_.rings.size()) ? of_front : of_others) += turns;
+    return of_front != 0 && of_others == 0;
+  }
+
+  /// Narrower than what counts as nothing.
+  bool is_sliver(const Overlay& parts, const OverlayRegion& region) const {
+    double area = 0, length = 0;
+    for (const std::vector<int>& ring : region.rings) {
+      area += twice_area(parts.points, ring) / 2;
+      for (std::size_t k = 0; k < ring.size(); ++k)
+        length +=
+            (parts.points[at(ring[k])] - parts.points[at(ring[(k + 1) % ring.size()])]).norm();
+    }
+    return area <= tolerance_.planarity * length;
+  }
+
+  const Surface& front_;
+  LocalTolerance tolerance_;
+  std::vector<Vec2> points_;
+  std::vector<std::vector<int>> loops_;
+};
+
+}  // namespace
+
+std::vector<Surface> uncovered_backs(const SoundScene& scene, const std::vector<bool>& has_back) {
+  std::map<int, std::vector<const Surface*>> in_plane;
+  for (const Surface& surface : scene.surfaces) in_plane[surface.plane].push_back(&surface);
+  std::vector<Surface> backs;
+  for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+    if (!has_back[s]) continue;
+    const Surface& front = scene.surfaces[s];
+    CoveredBack covered(front);
+    for (const Surface* other : in_plane[front.plane])
+      if (other->frame.normal.dot(front.frame.normal) < 0) covered.cover_with(*other);
+    for (const Surface& part : covered.rest()) backs.push_back(back_of(part));
+  }
+  return backs;
+}
+
+}  // namespace halfshade

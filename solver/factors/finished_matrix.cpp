@@ -47,8 +47,10 @@ void fill_report(double tolerance, const RowSums& sums, FactorMatrix& result) {
   const auto entries = static_cast<double>(result.area.size() + 1);
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
     const double missing = std::abs(result.row_sum[i] - 1);
-    // One entry at least is off by its part of what the sum is off.
-    result.error[i] = std::max(result.error[i], missing / entries);
+    // Entries are off by far less than they claim as a rule: what a sum misses is in one of them,
+    // unless there are so many that even small errors add up to more than the tolerance. One at
+    // least is off by its part.
+    result.error[i] = std::max({result.error[i], std::min(missing, tolerance), missing / entries});
     // Space is found on its own: what a sum of many good entries misses is in one that is not. The
     // others may make it look smaller than it is.
     if (missing > 2 * tolerance || sums.is_refuted(i)) result.error[i] += missing;

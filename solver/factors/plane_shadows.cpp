@@ -128,6 +128,8 @@ void PlaneShadows::find_open_box(const Shadow& shadow, FlatBox& box) const {
   const double x = point_.x(), y = point_.y(), z = point_.z();
   const auto part_of = [&](double height) { return z / (z - height); };
   const auto is_nearer = [&](double height) { return z - height > edge_on_plane * z; };
+  // Rounding does not tell on which side of the point's level a corner lies.
+  const auto is_farther = [&](double height) { return height - z > edge_on_plane * z; };
   box = {};
   if (std::none_of(shadow.w.begin(), shadow.w.end(), is_nearer)) return;
   box = FlatBox::everywhere();
@@ -151,7 +153,7 @@ void PlaneShadows::find_open_box(const Shadow& shadow, FlatBox& box) const {
       open.add(x + part * dx, y + part * dy);
       is_any_ahead = true;
       reach = std::max({reach, part * std::abs(dx), part * std::abs(dy)});
-    } else if (is_nearer(height))
+    } else if (!is_farther(height))
       add_far(dx, dy);
     const double before = shadow.z[from];
     if ((before < z) == (height < z)) continue;

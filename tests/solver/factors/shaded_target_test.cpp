@@ -1,0 +1,49 @@
+#include "solver/factors/shaded_target.h"
+
+#include "solver/factors/few_blockers.h"
+#include "tests/support/random.h"
+#include "tests/support/scene_maker.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace halfshade {
+namespace {
+
+/// A wall hangs down from the ceiling, whose corners rounding has put on the ceiling's level, or
+/// hardly above or below: its shadows on the floor, which those of sheets cut into parts, have no
+/// end.
+TEST(ShadedTarget, OfWallsThatReachUpToThePoint) {
+  for (const double top : {std::nextafter(1, 0), 1., std::nextafter(1, 2)}) {
+    test::SceneMaker maker;
+    maker.down({0, 0}, {1, 1}, 1).up({-.3, -.4}, {1.2, 1.1}, 0);
+    for (const double x : {-.1, .4, .9})
+      for (const double y : {-.2, .3, .8}) maker.up({x, y}, {x + .1, y + .1}, .1);
+    maker.polygon({{.2, .1, top}, {.2, .1, .3}, {.8, .7, .3}, {.8, .7, top}});
+    const SoundScene sound = maker.sound();
+    const SightScene sight = make_sight_scene(sound);
+    const FewBlockers blockers(sight, 0, 1);
+    ASSERT_TRUE(blockers.is_applicable());
+    ASSERT_EQ(blockers.things(), 10u);
+    FewBlockers alone(sight, 0, 1);
+    SharedShadows shadows(sight);
+    TargetMemory memory;
+    const ShadedTarget target = blockers.shaded_target(shadows, memory);
+    test::Random random(5);
+    double hidden = 0;
+    for (int k = 0; k < 200; ++k) {
+      const Vec3 point(random(0, 1), random(0, 1), 1);
+      shadows.move_to(point);
+      HiddenFactor found, expected;
+      ASSERT_TRUE(target.hidden_factor(found));
+      ASSERT_TRUE(alone.factor(point, expected));
+      EXPECT_NEAR(found.hidden, expected.hidden, 1e-13);
+      hidden += expected.hidden;
+    }
+    EXPECT_GT(hidden, 1);
+  }
+}
+
+}  // namespace
+}  // namespace halfshade

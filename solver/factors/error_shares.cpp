@@ -44,6 +44,7 @@ const ErrorShares::Entry& ErrorShares::entry(int row, int other) const {
 
 double ErrorShares::allowed(int row, int other) const {
   const double area = scene_.areas[at(row)];
+  if (other == row) return tolerance_ * area / 2;  // its pairs are seen from both sides
   return tolerance_ * (other < 0 ? area : std::min(area, scene_.areas[at(other)]));
 }
 

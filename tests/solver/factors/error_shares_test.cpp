@@ -61,6 +61,18 @@ TEST(ErrorShares, NoPairGetsLessThanItsEvenShare) {
   EXPECT_DOUBLE_EQ(shares.share(0, surroundings, 2), shares.even_share(0, surroundings));
 }
 
+/// What two surfaces of a row see of each other counts for both, and so does what it is off by.
+TEST(ErrorShares, PairsWithinARowCountTwice) {
+  OneRow row;
+  const std::size_t pairs = row.pairs.size() - 2;
+  for (std::size_t k = 0; k < pairs; ++k) row.pairs[k] = {{OneRow::count - 1, Sight::partial, {}}};
+  row.pairs[pairs].clear();
+  ErrorShares shares(row.scene, row.pairs, 1e-3);
+  double sum = 0;
+  for (std::size_t k = 0; k < pairs; ++k) sum += 2 * shares.even_share(0, 0);
+  EXPECT_NEAR(sum, 2e-3, 1e-15);
+}
+
 /// The side of a cylinder round the z axis.
 void add_side(Scene& scene, double radius, int faces, bool inwards) {
   const auto corner = [&](int k, double z) {

@@ -23,8 +23,8 @@ struct ReflectedCost {
   double cpu_seconds = 0;  ///< within five times that in rooms of 9 to 1,700 surfaces
 };
 
-/// The way that the options ask for, or exactly visible parts unless rays are expected to take far
-/// less time. `surfaces`: of the scene, where options.counted does not say which of them count.
+/// The way that the options ask for, or exactly visible parts unless rays are expected to take
+/// clearly less time. `surfaces`: of the scene, where options.counted does not say which of them count.
 ReflectedCost reflected_cost(int surfaces, const ReflectedOptions& options);
 
 }  // namespace halfshade

@@ -71,6 +71,21 @@ TEST(AmplifiedLight, IsFoundByExactPartsUnlessRaysAreAskedFor) {
       << "little of it comes back";
 }
 
+/// Rays took a tenth to a quarter of the time in the first three rooms, four times as long in the
+/// others.
+TEST(ReflectedCost, WaitsForExactPartsInSmallRoomsAlone) {
+  const auto is_exact = [](int surfaces, double tolerance) {
+    ReflectedOptions options;
+    options.tolerance = tolerance;
+    return reflected_cost(surfaces, options).is_exact;
+  };
+  EXPECT_FALSE(is_exact(72, 0.005));
+  EXPECT_FALSE(is_exact(59, 0.005)) << "though that is less than two and a half times as long";
+  EXPECT_FALSE(is_exact(276, 0.01));
+  EXPECT_TRUE(is_exact(17, 0.005));
+  EXPECT_TRUE(is_exact(9, 0.002));
+}
+
 TEST(AmplifiedLight, ExactPartsAreWorthLessAmongManySurfaces) {
   ReflectedOptions options;
   options.tolerance = 0.1;

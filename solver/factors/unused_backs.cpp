@@ -29,35 +29,28 @@ Surface back_of(const Surface& front) {
   return back;
 }
 
-Eigen::AlignedBox2d box_of(const std::vector<Ring>& rings) {
+/// Of a surface, in the frame of another.
+Eigen::AlignedBox2d box_in(const PlaneFrame& frame, const Surface& surface) {
   Eigen::AlignedBox2d box;
-  for (const Vec2& p : rings.front()) box.extend(p);
+  for (const Vec2& p : surface.rings.front()) box.extend(frame.to_plane(surface.frame.to_space(p)));
   return box;
-}
-
-/// Rings of one surface in the frame of another.
-std::vector<Ring> rings_in(const PlaneFrame& frame, const Surface& surface) {
-  std::vector<Ring> rings = surface.rings;
-  for (Ring& ring : rings)
-    for (Vec2& p : ring) p = frame.to_plane(surface.frame.to_space(p));
-  return rings;
 }
 
 /// A surface and those that lie on its back, laid over each other.
 class CoveredBack {
  public:
-  explicit CoveredBack(const Surface& front) : front_(front), tolerance_(tolerance_of(front)) {
-    add(front.rings);
+  explicit CoveredBack(const Surface& front)
+      : front_(front), box_(box_in(front.frame, front)), tolerance_(tolerance_of(front)) {
+    add(front);
   }
 
   void cover_with(const Surface& other) {
-    const std::vector<Ring> rings = rings_in(front_.frame, other);
     const LocalTolerance tolerance = tolerance_of(front_, other);
-    const Eigen::AlignedBox2d common = box_of(front_.rings).intersection(box_of(rings));
+    const Eigen::AlignedBox2d common = box_.intersection(box_in(front_.frame, other));
     if ((common.sizes().array() <= tolerance.planarity).any()) return;
     tolerance_.length = std::max(tolerance_.length, tolerance.length);
     tolerance_.planarity = std::max(tolerance_.planarity, tolerance.planarity);
-    add(rings);
+    add(other);
   }
 
   /// What is not covered, as surfaces that look as the front does.
@@ -80,11 +73,13 @@ class CoveredBack {
   }
 
  private:
-  void add(const std::vector<Ring>& rings) {
-    for (const Ring& ring : rings) {
+  void add(const Surface& surface) {
+    const bool is_front = &surface == &front_;  // whose corners others share to the bit
+    for (const Ring& ring : surface.rings) {
       loops_.emplace_back(ring.size());
       std::iota(loops_.back().begin(), loops_.back().end(), static_cast<int>(points_.size()));
-      points_.insert(points_.end(), ring.begin(), ring.end());
+      for (const Vec2& p : ring)
+        points_.push_back(is_front ? p : front_.frame.to_plane(surface.frame.to_space(p)));
     }
   }
 
@@ -109,6 +104,7 @@ class CoveredBack {
   }
 
   const Surface& front_;
+  Eigen::AlignedBox2d box_;
   LocalTolerance tolerance_;
   std::vector<Vec2> points_;
   std::vector<std::vector<int>> loops_;

@@ -24,7 +24,8 @@ struct ReflectedCost {
 };
 
 /// The way that the options ask for, or exactly visible parts unless rays are expected to take
-/// clearly less time. `surfaces`: of the scene, where options.counted does not say which of them count.
+/// clearly less time. `surfaces`: of the scene, where options.counted does not say which of them
+/// count.
 ReflectedCost reflected_cost(int surfaces, const ReflectedOptions& options);
 
 }  // namespace halfshade

@@ -44,13 +44,11 @@ FactorMatrix matrix_of(const FactorScene& scene, const RowExchange& exchange) {
 
 void fill_report(double tolerance, const RowSums& sums, FactorMatrix& result) {
   FactorReport& report = result.report;
-  const auto entries = static_cast<double>(result.area.size() + 1);
   for (Eigen::Index i = 0; i < result.area.size(); ++i) {
     const double missing = std::abs(result.row_sum[i] - 1);
     // Entries are off by far less than they claim as a rule: what a sum misses is in one of them,
-    // unless there are so many that even small errors add up to more than the tolerance. One at
-    // least is off by its part.
-    result.error[i] = std::max({result.error[i], std::min(missing, tolerance), missing / entries});
+    // unless there are so many that even small errors add up to more than the tolerance.
+    result.error[i] = std::max(result.error[i], std::min(missing, tolerance));
     // Space is found on its own: what a sum of many good entries misses is in one that is not. The
     // others may make it look smaller than it is.
     if (missing > 2 * tolerance || sums.is_refuted(i)) result.error[i] += missing;

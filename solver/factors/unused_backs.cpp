@@ -68,6 +68,7 @@ class CoveredBack {
         surfaces.back().rings.emplace_back();
         for (const int p : ring) surfaces.back().rings.back().push_back(parts.points[at(p)]);
       }
+      surfaces.back().scale.size = size_of(surfaces.back());
     }
     return surfaces;
   }

@@ -6,9 +6,11 @@
 
 namespace halfshade {
 
-/// Backs of surfaces, but for those parts where a surface that looks the other way lies: what
-/// stands flat on a face hides that much of its back. One-sided surfaces of which `has_back` says
-/// so; a back may be in several parts, each a surface. Their contacts are those of the front.
+/// Backs of those surfaces of which `has_back`, one entry a surface, says so, but for the parts on
+/// which a surface of the same plane lies that looks the other way: what stands flat on a face
+/// hides that much of its back. A back may be in several parts, each a surface, or none. They have
+/// the contacts of their front, beyond their own rings, too. All pairs in a plane are compared;
+/// throws as overlay() does.
 std::vector<Surface> uncovered_backs(const SoundScene& scene, const std::vector<bool>& has_back);
 
 }  // namespace halfshade

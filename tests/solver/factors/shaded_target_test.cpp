@@ -23,10 +23,9 @@ TEST(ShadedTarget, OfWallsThatReachUpToThePoint) {
     maker.polygon({{.2, .1, top}, {.2, .1, .3}, {.8, .7, .3}, {.8, .7, top}});
     const SoundScene sound = maker.sound();
     const SightScene sight = make_sight_scene(sound);
-    const FewBlockers blockers(sight, 0, 1);
+    FewBlockers blockers(sight, 0, 1);
     ASSERT_TRUE(blockers.is_applicable());
     ASSERT_EQ(blockers.things(), 10u);
-    FewBlockers alone(sight, 0, 1);
     SharedShadows shadows(sight);
     TargetMemory memory;
     const ShadedTarget target = blockers.shaded_target(shadows, memory);
@@ -37,7 +36,7 @@ TEST(ShadedTarget, OfWallsThatReachUpToThePoint) {
       shadows.move_to(point);
       HiddenFactor found, expected;
       ASSERT_TRUE(target.hidden_factor(found));
-      ASSERT_TRUE(alone.factor(point, expected));
+      ASSERT_TRUE(blockers.factor(point, expected));
       EXPECT_NEAR(found.hidden, expected.hidden, 1e-13);
       hidden += expected.hidden;
     }

@@ -71,7 +71,7 @@ TEST(AmplifiedLight, IsFoundByExactPartsUnlessRaysAreAskedFor) {
       << "little of it comes back";
 }
 
-/// Rays took a tenth to a quarter of the time in the first three rooms, four times as long in the
+/// Rays took less than a quarter of the time in the first three rooms, four times as long in the
 /// others.
 TEST(ReflectedCost, WaitsForExactPartsInSmallRoomsAlone) {
   const auto is_exact = [](int surfaces, double tolerance) {

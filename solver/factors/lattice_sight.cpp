@@ -30,7 +30,7 @@ constexpr std::size_t too_few_points = 4;
 constexpr std::array<double, 3> share_of_change = {1.6, 0.8, 0.4};
 
 /// Points of a trial.
-constexpr double few_to_try = 64;
+constexpr std::size_t few_to_try = 64;
 
 /// The estimate shrinks with this power of the number of points, at least.
 constexpr double decay = 1.25;
@@ -73,10 +73,10 @@ class PairOnLattices {
   /// `quads` are what it looks from: goes on if there is a lattice that neither the other surface
   /// nor anything in between is too narrow for. Shadows are wider than what casts them.
   PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
-                 std::span<const Quad> quads, SharedShadows& shadows, TargetMemory& memory,
-                 const std::stop_token& stop)
+                 std::span<const Quad> quads, std::size_t most_places, SharedShadows& shadows,
+                 TargetMemory& memory, const std::stop_token& stop)
       : PairOnLattices(
-            scene, a, pair, quads,
+            scene, a, pair, quads, most_places,
             FewBlockers(scene, a, pair.other, {pair.blockers.begin(), pair.blockers.end()}),
             shadows, memory, stop) {}
 
@@ -97,32 +97,34 @@ class PairOnLattices {
   }
 
   /// All places of a lattice have been looked at: whether that is enough, or ever will be.
-  void settle(const SquareLattice& lattice, bool is_last) {
+  void settle(const SquareLattice& lattice) {
+    settle_at(lattice);
+    if (2 * lattice.places.size() > most_) goes_on_ = false;
+    if (!goes_on_) std::vector<Values>().swap(values_);
+  }
+
+ private:
+  void settle_at(const SquareLattice& lattice) {
     const double count = static_cast<double>(lattice.places.size());
     means_.push_back(sum_of_values() / count);
-    if (lattice.places.size() < fewest_) {
-      goes_on_ = goes_on_ && !is_last;
-      return;
-    }
+    if (lattice.places.size() < fewest_) return;
     double error = share_of_residuals() * std::sqrt(sum_of_squares(lattice)) / count;
     for (std::size_t k = 0; k < share_of_change.size() && k + 1 < means_.size(); ++k)
       error = std::max(
           error, share_of_change[k] * std::abs(means_.back() - means_[means_.size() - 2 - k]));
     sight_.value = std::max(0., whole_.value - means_.back());
     sight_.error = whole_.error + error;
-    const double allowed =
-        std::max(hidden_allowed_.absolute, hidden_allowed_.relative * sight_.value);
+    const double allowed = hidden_allowed_.allowed(sight_.value);
     tells_ = goes_on_ && std::min(not_lit_, not_dark_) >= too_few_points;
     sight_.is_reached = tells_ && error <= allowed;
     const double needed = count * std::pow(error / allowed, 1 / decay);
     const bool may_tell = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
-    goes_on_ = may_tell && !sight_.is_reached && !is_last && needed <= most();
+    goes_on_ = may_tell && !sight_.is_reached && needed <= static_cast<double>(most_);
   }
 
- private:
   PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
-                 std::span<const Quad> quads, const FewBlockers& few, SharedShadows& shadows,
-                 TargetMemory& memory, const std::stop_token& stop)
+                 std::span<const Quad> quads, std::size_t most_places, const FewBlockers& few,
+                 SharedShadows& shadows, TargetMemory& memory, const std::stop_token& stop)
       : target_(few.shaded_target(shadows, memory)), hidden_allowed_(pair.tolerance) {
     sight_.is_reached = false;
     if (!few.is_applicable()) return;
@@ -131,9 +133,12 @@ class PairOnLattices {
     unhidden.absolute *= share_of_unhidden;
     hidden_allowed_.relative -= unhidden.relative;
     hidden_allowed_.absolute -= unhidden.absolute;
+    const auto limit = static_cast<std::size_t>(pair.tolerance.max_points);
+    const std::size_t of_all = limit / std::max<std::size_t>(quads.size(), 1);
+    most_ = std::min({most_places, limit, std::max(few_lattice_places, of_all)});
+    if (pair.tolerance.is_trial) most_ = std::min(most_, few_to_try);
     const double across = few.points_across(sides_of(quads));
-    goes_on_ =
-        across <= most() && static_cast<double>(square_lattices().front().places.size()) <= most();
+    goes_on_ = across <= static_cast<double>(most_) && places_of_lattice(0) <= most_;
     if (!goes_on_) return;
     fewest_ = static_cast<std::size_t>(across);
     whole_ = clear_sight(scene, a, pair.other, unhidden, stop);
@@ -143,14 +148,6 @@ class PairOnLattices {
   struct Values {
     std::vector<double> places, corners;
   };
-
-  /// Points on a quadrilateral.
-  double most() const {
-    return std::min(hidden_allowed_.is_trial
-                        ? few_to_try
-                        : static_cast<double>(square_lattices().back().places.size()),
-                    static_cast<double>(hidden_allowed_.max_points));
-  }
 
   double share_of_residuals() const {
     return std::max(least_share, few_points / static_cast<double>(std::min(not_lit_, not_dark_)));
@@ -181,7 +178,7 @@ class PairOnLattices {
   ShadedTarget target_;
   SightTolerance hidden_allowed_;
   MutualSight whole_, sight_;
-  std::size_t fewest_ = 0;
+  std::size_t fewest_ = 0, most_ = 0;  ///< points on a quadrilateral
   bool goes_on_ = false, tells_ = false;
   std::size_t not_lit_ = 0, not_dark_ = 0;  // points that find something hidden, or seen
   std::vector<Values> values_;              // by quadrilateral
@@ -191,12 +188,11 @@ class PairOnLattices {
 /// Looks at all of some pairs from one lattice after the other.
 void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
              SharedShadows& shadows, const std::stop_token& stop) {
-  const auto lattices = square_lattices();
   std::size_t first = 0;
-  for (std::size_t level = 0; level < lattices.size(); ++level) {
+  for (std::size_t level = 0; level < lattice_levels; ++level) {
     std::erase_if(pairs, [](const PairOnLattices* pair) { return !pair->goes_on(); });
     if (pairs.empty()) return;
-    const SquareLattice& lattice = lattices[level];
+    const SquareLattice& lattice = square_lattice(level);
     for (std::size_t q = 0; q < quads.size(); ++q) {
       const auto look_from = [&](const Vec2& at, bool is_corner) {
         if (stop.stop_requested()) return;
@@ -210,7 +206,7 @@ void look_at(std::vector<PairOnLattices*> pairs, std::span<const Quad> quads,
         look_from(lattice.corner(k), true);
     }
     if (stop.stop_requested()) return;
-    for (PairOnLattices* pair : pairs) pair->settle(lattice, level + 1 == lattices.size());
+    for (PairOnLattices* pair : pairs) pair->settle(lattice);
     first = lattice.places.size();
   }
 }
@@ -239,6 +235,7 @@ PartBefore part_before(const SightSurface& surface, const SightSurface& other) {
 
 std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, int a,
                                                       std::span<const LatticePair> pairs,
+                                                      std::size_t most_places,
                                                       const std::stop_token& stop) {
   if (pairs.empty()) return {};
   const SightSurface& own = scene.surfaces[at(a)];
@@ -253,8 +250,8 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
     looks.push_back(nullptr);
     if (stop.stop_requested() || !in_all_cells_of(scene, a, pair.other)) continue;
     const PartBefore part = part_before(own, scene.surfaces[at(pair.other)]);
-    looks.back() =
-        std::make_unique<PairOnLattices>(scene, a, pair, part.quads, shadows, memory, stop);
+    looks.back() = std::make_unique<PairOnLattices>(scene, a, pair, part.quads, most_places,
+                                                    shadows, memory, stop);
     PairOnLattices* look = looks.back().get();
     if (part.is_all)
       from_all.push_back(look);
@@ -264,11 +261,9 @@ std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, i
   look_at(from_all, all, shadows, stop);
   if (stop.stop_requested()) return std::vector<std::optional<MutualSight>>(pairs.size());
   std::vector<std::optional<MutualSight>> result;
-  for (std::size_t k = 0; k < looks.size(); ++k) {
-    const PairOnLattices* look = looks[k].get();
+  for (const auto& look : looks) {
     result.emplace_back();
-    if (look && (pairs[k].tolerance.is_trial ? look->tells() : look->sight().is_reached))
-      result.back() = look->sight();
+    if (look && look->tells()) result.back() = look->sight();
   }
   return result;
 }

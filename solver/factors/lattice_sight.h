@@ -3,6 +3,7 @@
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/sight_scene.h"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,15 +17,20 @@ struct LatticePair {
   std::span<const int> blockers = {};  ///< SightPair::blockers
 };
 
+/// Places on a quadrilateral: few of them, and as many as there are. Pairs that few do not suffice
+/// for are better off with cells, if these come to an end.
+constexpr std::size_t few_lattice_places = 4096, most_lattice_places = 262144;
+
 /// Mutual areas of surface `a` and others, with what is between them: what they would see without
-/// it less what it hides, which is integrated over all of `a` by lattices of points. Where kinks
-/// are everywhere that takes a fraction of the points that partial_sight takes, whose cells follow
-/// each of them; and points serve all pairs. Nothing for pairs that no lattice of 4,096 points
-/// suffices for, or that are all or nothing from all points. In a trial 64 points are the most, and
-/// what is not reached is told, too. If
-/// stopped, nothing. Cost: a microsecond a point and pair.
+/// it less what it hides, which is integrated over all of `a` by lattices of at most `most_places`
+/// points. Where kinks are everywhere that takes a fraction of the points that partial_sight takes,
+/// whose cells follow each of them; and points serve all pairs. Nothing for pairs that are all or
+/// nothing from all points, or that lattices have too few points for; others that they do not
+/// suffice for are not reached. In a trial 64 points are the most. If stopped, nothing. Cost: a
+/// microsecond a point and pair, and as long as it is not done eight bytes.
 std::vector<std::optional<MutualSight>> lattice_sight(const SightScene& scene, int a,
                                                       std::span<const LatticePair> pairs,
+                                                      std::size_t most_places = few_lattice_places,
                                                       const std::stop_token& stop = {});
 
 }  // namespace halfshade

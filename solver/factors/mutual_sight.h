@@ -4,6 +4,7 @@
 #include "solver/factors/point_looks.h"
 #include "solver/factors/sight_scene.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <stop_token>
 
@@ -15,6 +16,9 @@ struct SightTolerance {
   double absolute = 0;       ///< what is good enough in any case, squared scene units, ≥ 0
   int max_points = 1000000;  ///< at which a pair is looked at, ≥ 1
   bool is_trial = false;     ///< what few points tell is enough, of what something may hide
+
+  /// What a mutual area may be off by.
+  double allowed(double value) const { return std::max(absolute, relative * value); }
 };
 
 /// Mutual area of what two surfaces see of each other.

@@ -120,7 +120,7 @@ struct OneSide {
 
   double value() const { return std::max(0., whole.value - hidden.total().value); }
   double error() const { return whole.error + hidden.total().error; }
-  double allowed() const { return std::max(tolerance.absolute, tolerance.relative * value()); }
+  double allowed() const { return tolerance.allowed(value()); }
   bool is_reached() const { return hidden.total().error <= allowed(); }
   bool is_far_off() const { return hidden.total().error > far_off * allowed(); }
   bool is_believed() const {

@@ -36,7 +36,9 @@ struct HardPair {
   int own, other;  ///< the same two: what is integrated over first, and what it looks at
   SightTolerance tolerance = {};
   bool is_done = false;
-  double need = HUGE_VAL;  ///< ErrorShares::claim, once few points were looked at
+  bool is_seen = false;           ///< in part, at least
+  double cell_points = HUGE_VAL;  ///< that cells are expected to take in all
+  double need = HUGE_VAL;         ///< ErrorShares::claim, once few points were looked at
 };
 
 HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place) {
@@ -48,6 +50,14 @@ HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place
 
 /// From which of the two surfaces of a pair lattices look.
 enum class LookFrom { own, other };
+
+/// Before lattices of many points are made, cells may take so many: where kinks are few, these are
+/// enough for any tolerance. From there on their error shrinks with this power of the number of
+/// points, or faster.
+constexpr int few_cell_points = 10000;
+constexpr double decay_of_cells = 1.6;
+/// Pairs that look from such lattices together, for each keeps what it sees.
+constexpr std::size_t pairs_of_lattice = 16;
 
 /// So many surfaces of one plane are looked from at another plane before what was seen is
 /// forgotten: what these look back at is then found once for all of them.
@@ -112,10 +122,10 @@ class ExactPairs {
   bool see_partial() {
     if (!try_shared()) return false;
     for (const LookFrom from : {LookFrom::own, LookFrom::other}) {
-      if (!see_by_lattices(from)) return false;
+      if (!see_by_lattices(from, few_lattice_places)) return false;
       share_out();
     }
-    return see_by_cells();
+    return see_the_hardest();
   }
 
   /// Pairs of these rows that something may come between once more, so much more exactly, but for
@@ -133,7 +143,7 @@ class ExactPairs {
         pair.tolerance.absolute = share * shares_.even_share(row(pair), other_row(pair));
         hard_.push_back(pair);
       }
-    return see_by_lattices(LookFrom::own) && see_by_lattices(LookFrom::other) && see_by_cells();
+    return see_by_few_points() && see_the_hardest();
   }
 
   RowExchange exchange() const {
@@ -172,16 +182,20 @@ class ExactPairs {
         hard_.begin(), hard_.end(), [](const HardPair& pair) { return pair.tolerance.is_trial; });
     std::vector<HardPair> untried(are_all, hard_.end());
     hard_.erase(are_all, hard_.end());
-    const bool is_complete = hard_.empty() || (see_by_lattices(LookFrom::own) &&
-                                               see_by_lattices(LookFrom::other) && see_by_cells());
+    const bool is_complete =
+        hard_.empty() || (see_by_few_points() && see_by_cells(for_partial_.max_points));
     for (HardPair& pair : hard_) pair.tolerance.is_trial = false;
     share_out();
     hard_.insert(hard_.end(), untried.begin(), untried.end());
     return is_complete;
   }
 
+  /// Keeps the better one of what was seen.
   void note(const MutualSight& seen, HardPair& pair) {
-    sight_of(pair) = seen;
+    MutualSight& best = sight_of(pair);
+    if (!pair.is_seen || seen.is_reached || seen.error < best.error) best = seen;
+    best.is_at_limit = seen.is_at_limit;
+    pair.is_seen = true;
     pair.is_done = seen.is_reached;
     pair.need = std::min(pair.need, seen.error * static_cast<double>(seen.points));
   }
@@ -200,35 +214,71 @@ class ExactPairs {
       pair.tolerance.absolute = shares_.share(row(pair), other_row(pair), pair.need);
   }
 
+  bool see_by_few_points() {
+    return see_by_lattices(LookFrom::own, few_lattice_places) &&
+           see_by_lattices(LookFrom::other, few_lattice_places);
+  }
+
+  /// Pairs that few points of lattices are not enough for.
+  bool see_the_hardest() {
+    const int most = for_partial_.max_points;
+    return see_by_cells(std::min(few_cell_points, most)) &&
+           see_by_lattices(LookFrom::own, most_lattice_places) &&
+           see_by_lattices(LookFrom::other, most_lattice_places) && see_by_cells(most);
+  }
+
   /// Partial pairs that lattices of points are enough for; those are done then.
-  bool see_by_lattices(LookFrom side) {
+  bool see_by_lattices(LookFrom side, std::size_t most_places) {
+    const bool is_last = most_places > few_lattice_places;
     std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
     for (std::size_t h = 0; h < hard_.size(); ++h)
       from[at(side == LookFrom::own ? hard_[h].own : hard_[h].other)].push_back(h);
-    const auto see = [&](std::size_t s) {
+    std::vector<std::span<const std::size_t>> tasks;
+    for (const std::span<const std::size_t> all : from) {
+      const std::size_t together =
+          is_last ? pairs_of_lattice : std::max<std::size_t>(all.size(), 1);
+      for (std::size_t k = 0; k < all.size(); k += together)
+        tasks.push_back(all.subspan(k, std::min(together, all.size() - k)));
+    }
+    const auto see = [&](std::size_t task) {
       std::vector<LatticePair> some;
-      for (const std::size_t h : from[s])
-        some.push_back({side == LookFrom::own ? hard_[h].other : hard_[h].own, hard_[h].tolerance,
-                        pairs_[at(hard_[h].low)][hard_[h].place].blockers});
-      const auto seen = lattice_sight(sight_, static_cast<int>(s), some, progress_.stop);
-      for (std::size_t k = 0; k < seen.size(); ++k)
-        if (seen[k]) note(*seen[k], hard_[from[s][k]]);
+      for (const std::size_t h : tasks[task]) {
+        const HardPair& pair = hard_[h];
+        some.push_back({side == LookFrom::own ? pair.other : pair.own, pair.tolerance,
+                        pairs_[at(pair.low)][pair.place].blockers});
+        int& most = some.back().tolerance.max_points;
+        most = static_cast<int>(std::min<double>(most, pair.cell_points));
+      }
+      const HardPair& first = hard_[tasks[task].front()];
+      const auto seen = lattice_sight(sight_, side == LookFrom::own ? first.own : first.other, some,
+                                      most_places, progress_.stop);
+      for (std::size_t k = 0; k < seen.size(); ++k) {
+        HardPair& pair = hard_[tasks[task][k]];
+        if (seen[k] && (seen[k]->is_reached || is_last || pair.tolerance.is_trial))
+          note(*seen[k], pair);
+      }
     };
-    const bool is_complete = parallel_for(from.size(), see, progress_, "hidden form factors");
+    const bool is_complete = parallel_for(tasks.size(), see, progress_, "hidden form factors");
     drop_done();
     return is_complete;
   }
 
-  /// The other partial pairs; in a trial those that lattices say nothing of.
-  bool see_by_cells() {
+  /// Partial pairs by cells of so many points at most; in a trial those that lattices say nothing
+  /// of.
+  bool see_by_cells(int most_points) {
     const std::vector<std::size_t> ends = sort_into_tasks(sight_, hard_);
     const auto see = [&](std::size_t task) {
       PointLooks looks(sight_);
       for (std::size_t h = task == 0 ? 0 : ends[task - 1]; h < ends[task]; ++h) {
         HardPair& pair = hard_[h];
         if (pair.tolerance.is_trial && pair.need < HUGE_VAL) continue;
-        note(partial_sight(sight_, looks, pair.own, pair.other, pair.tolerance, progress_.stop),
-             pair);
+        SightTolerance tolerance = pair.tolerance;
+        tolerance.max_points = most_points;
+        const MutualSight seen =
+            partial_sight(sight_, looks, pair.own, pair.other, tolerance, progress_.stop);
+        note(seen, pair);
+        pair.cell_points = static_cast<double>(seen.points) *
+                           std::pow(seen.error / tolerance.allowed(seen.value), 1 / decay_of_cells);
       }
     };
     const bool is_complete = parallel_for(ends.size(), see, progress_, "hidden form factors");

@@ -10,6 +10,13 @@
 namespace halfshade {
 namespace {
 
+/// Up to 8,192 places.
+std::vector<SquareLattice> smaller_lattices() {
+  std::vector<SquareLattice> lattices;
+  for (std::size_t level = 0; level < 10; ++level) lattices.push_back(square_lattice(level));
+  return lattices;
+}
+
 using Function = std::function<double(const Vec2&)>;
 
 double mean(const SquareLattice& lattice, const Function& f) {
@@ -28,7 +35,7 @@ double residual(const SquareLattice& lattice, const SquareLattice::Watch& watch,
 
 TEST(SquareLattice, PointsLieInTheSquareAndApart) {
   std::size_t before = 0;
-  for (const SquareLattice& lattice : square_lattices()) {
+  for (const SquareLattice& lattice : smaller_lattices()) {
     const std::size_t count = lattice.places.size();
     EXPECT_GT(count, before);
     before = count;
@@ -42,9 +49,9 @@ TEST(SquareLattice, PointsLieInTheSquareAndApart) {
 }
 
 TEST(SquareLattice, EachBeginsWithTheOneBefore) {
-  const auto lattices = square_lattices();
-  for (std::size_t k = 0; k + 1 < lattices.size(); ++k) {
-    const auto &few = lattices[k].places, &many = lattices[k + 1].places;
+  for (std::size_t level = 0; level + 1 < lattice_levels; ++level) {
+    const auto &few = square_lattice(level).places, &many = square_lattice(level + 1).places;
+    ASSERT_EQ(few.size(), places_of_lattice(level));
     ASSERT_EQ(many.size(), 2 * few.size());
     EXPECT_TRUE(std::equal(few.begin(), few.end(), many.begin()));
   }
@@ -52,7 +59,7 @@ TEST(SquareLattice, EachBeginsWithTheOneBefore) {
 
 TEST(SquareLattice, WhatIsLinearIsExpectedFromItsNeighbours) {
   const Function f = [](const Vec2& p) { return 3 - 2 * p.x() + 5 * p.y(); };
-  for (const SquareLattice& lattice : square_lattices()) {
+  for (const SquareLattice& lattice : smaller_lattices()) {
     for (std::size_t k = 0; k < lattice.places.size(); ++k) {
       EXPECT_NEAR(residual(lattice, lattice.inner[k], lattice.places[k], f), 0, 1e-12);
       const auto& near = lattice.inner[k].near;
@@ -98,15 +105,23 @@ TEST(SquareLattice, KinksAreLessOffThanByFibonacciLattices) {
     of_fibonacci += std::log(scaled(places)) / (fibonacci.size() - 1);
   }
   double mean = 0;
-  for (const SquareLattice& lattice : square_lattices().first(5))
-    mean += std::log(scaled(lattice.places)) / 5;
+  for (std::size_t level = 0; level < 5; ++level)
+    mean += std::log(scaled(square_lattice(level).places)) / 5;
   EXPECT_LT(mean, of_fibonacci - 0.2);
+}
+
+/// None of the larger ones falls back behind the smaller.
+TEST(SquareLattice, KinksAreAsLittleOffAtAllSizes) {
+  for (std::size_t level = 0; level < lattice_levels; ++level) {
+    const auto count = static_cast<double>(places_of_lattice(level));
+    EXPECT_LT(error_of_kinks(square_lattice(level).places), 2 * std::pow(count, -1.5)) << count;
+  }
 }
 
 /// Of a smooth function nearly like 1/N², of kinks, wherever they are, faster than 1/N.
 TEST(SquareLattice, MeansConvergeInSpiteOfKinks) {
-  const auto& coarse = square_lattices().front();
-  const auto& fine = square_lattices().back();
+  const auto& coarse = square_lattice(0);
+  const auto& fine = square_lattice(12);
   const double ratio =
       static_cast<double>(fine.places.size()) / static_cast<double>(coarse.places.size());
   const Function smooth = [](const Vec2& p) { return std::exp(p.x() - 2 * p.y()); };

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "meshing/backprojection/opaque_scene.h"
-#include "meshing/core/sound_scene.h"
 #include "meshing/geometry/ball.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -14,7 +13,8 @@ namespace halfshade {
 /// Round the mean of some points.
 Ball ball_round(std::span<const Vec3> points);
 
-/// A convex solid, closed by convex polygons that look outwards.
+/// A convex solid, closed by convex polygons that look outwards, but for some sides that are open.
+/// No light passes through it from outside: there is one such side alone, or others lie on them.
 struct ConvexBody {
   struct Side {
     Vec3 corner, normal;  ///< of its plane, unit length
@@ -24,18 +24,25 @@ struct ConvexBody {
     std::array<int, 2> sides;  ///< to the left, and to the right
   };
   std::vector<Vec3> vertices;
-  std::vector<Side> sides;
+  std::vector<Side> sides;  ///< open ones last
+  std::size_t open_sides = 0;
   std::vector<Edge> edges;
   Ball ball;         ///< round it
   Vec3 low, high;    ///< the box round it
   double width = 0;  ///< least distance from a side to the farthest vertex, scene units
 };
 
-/// Whether some point of one surface, in or on the body, may look through its inside at points of
-/// another one that lie outside, or on the body: no silhouette tells what its sides hide then.
-/// What lies outside looks at nothing inside. Both are of convex pieces.
-bool is_within_sight(const ConvexBody& body, const std::vector<std::vector<Vec3>>& looking,
-                     const std::vector<std::vector<Vec3>>& seen);
+/// A flat surface.
+struct FlatSurface {
+  const std::vector<std::vector<Vec3>>& pieces;  ///< convex
+  Vec3 normal;
+};
+
+/// Whether its sides may hide anything else from one surface of another than what a solid would.
+/// If it is closed: where some point of one, in or on the body, looks through its inside at the
+/// other, outside or on it. What lies outside looks at nothing inside. If it is open: unless both
+/// lie outside, or one of them does and the other one on an open side, looking in.
+bool is_within_sight(const ConvexBody& body, const FlatSurface& looking, const FlatSurface& seen);
 
 /// The edges of a body between sides that a point sees and sides that it does not.
 struct Silhouette {
@@ -51,16 +58,7 @@ struct Silhouette {
 /// Which sides a point sees; in `is_front`, whose memory is used again.
 void find_fronts(const ConvexBody& body, const Vec3& point, std::vector<char>& is_front);
 
-/// As seen from a point; in `silhouette`, whose memory is used again.
+/// As seen from a point; in `silhouette`, whose memory is used again. No edges from inside.
 void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silhouette);
-
-struct ConvexBodies {
-  std::vector<ConvexBody> bodies;
-  std::vector<int> of;  ///< surface → body; −1: none
-};
-
-/// Surfaces that share all their edges with each other and with nothing else, and have the others
-/// behind them. `opaque` must be made of `scene`.
-ConvexBodies find_convex_bodies(const SoundScene& scene, const OpaqueScene& opaque);
 
 }  // namespace halfshade

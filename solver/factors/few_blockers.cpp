@@ -86,7 +86,8 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     const ConvexBody& body = scene.bodies[at(blocker.body)];
     if (body.edges.size() < borders_of_shade &&
         std::all_of(body.vertices.begin(), body.vertices.end(), is_before) &&
-        !is_within_sight(body, own_.pieces, target_.pieces))
+        !is_within_sight(body, {own_.pieces, own_.frame.normal},
+                         {target_.pieces, target_.frame.normal}))
       solids_.push_back({blocker.body, &body, {&blocker}});
     else
       add(blocker);
@@ -166,8 +167,7 @@ double FewBlockers::hidden_by(std::size_t thing, const Vec3& point) {
   parts_.take_all();
   shadow_.clear();
   if (thing < solids_.size()) {
-    find_silhouette(*solids_[thing].shape, point, silhouette_);
-    if (!make_shadow(silhouette_, 0)) return 0;
+    if (!make_shadow(*solids_[thing].shape, 0)) return 0;
   } else {
     const Shade& shade = shades_[thing - solids_.size()];
     const double height = shade.height(point);
@@ -217,11 +217,13 @@ bool FewBlockers::make_shadow(const Shade& shade, double height, std::uint32_t b
   return true;
 }
 
-/// The same: the cone through the silhouette.
-bool FewBlockers::make_shadow(const Silhouette& silhouette, std::uint32_t border) {
-  for (const Silhouette::Edge& edge : silhouette.edges)
+/// The same of a body: the cone through its silhouette. From an open side, on which only what looks
+/// in lies, it hides all.
+bool FewBlockers::make_shadow(const ConvexBody& body, std::uint32_t border) {
+  find_silhouette(body, point_, silhouette_);
+  for (const Silhouette::Edge& edge : silhouette_.edges)
     if (!add_plane(edge.normal, edge.corner, border + edge.index + 1)) return false;
-  return !silhouette.edges.empty();
+  return !silhouette_.edges.empty() || body.open_sides > 0;
 }
 
 double FewBlockers::sum_over(std::span<const Corner> part) const {
@@ -315,8 +317,7 @@ bool FewBlockers::cut_off_all(HiddenFactor& factor) {
     border += borders_of_shade;
     if (is_beside(solid.shape->ball)) continue;
     shadow_.clear();
-    find_silhouette(*solid.shape, point_, silhouette_);
-    if (make_shadow(silhouette_, border)) cut_off(k, solid.shape->vertices);
+    if (make_shadow(*solid.shape, border)) cut_off(k, solid.shape->vertices);
   }
   // Fronts first: what backs of closed things hide is hidden then.
   for (const double side : {1., -1.})
@@ -376,11 +377,7 @@ double FewBlockers::seen_at_most(const std::array<Vec3, 3>& cell) {
     }
     parts_.cut_off(shadow_, FlatParts::everywhere(), [](std::span<const Corner>) {});
   };
-  for (const Solid& solid : solids_)
-    cut_off_common([&] {
-      find_silhouette(*solid.shape, point_, silhouette_);
-      return make_shadow(silhouette_, 0);
-    });
+  for (const Solid& solid : solids_) cut_off_common([&] { return make_shadow(*solid.shape, 0); });
   for (const Shade& shade : shades_) {
     double side = 0;  // the same for all corners, or nothing is sure
     cut_off_common([&] {

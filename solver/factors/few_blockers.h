@@ -83,7 +83,7 @@ class FewBlockers {
 
   void add(const Blocker& blocker);
   bool make_shadow(const Shade& shade, double height, std::uint32_t border);
-  bool make_shadow(const Silhouette& silhouette, std::uint32_t border);
+  bool make_shadow(const ConvexBody& body, std::uint32_t border);
   bool add_plane(const Vec3& normal, const Vec3& corner, std::uint32_t border);
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);

@@ -186,8 +186,11 @@ void PlaneShadows::find_sides(Shadow& shadow, int side) {
   shadow.stand = stand_;
   shadow.sides.clear();
   if (shadow.body >= 0) {
-    for (const auto& [from, to] : outlines_.of(shadow.body)) add_side(at(from), at(to), 1, shadow);
-    if (shadow.sides.empty()) shadow.sides.push_back({0, 0, 1});
+    const Outlines::Edges& outline = outlines_.of(shadow.body);
+    for (const auto& [from, to] : outline) add_side(at(from), at(to), 1, shadow);
+    // From inside it hides nothing, but from an open side, on which only what looks in lies, all.
+    const bool hides_all = outline.empty() && scene_.bodies[at(shadow.body)].open_sides > 0;
+    if (shadow.sides.empty() && !hides_all) shadow.sides.push_back({0, 0, 1});
     return;
   }
   shadow.sides.push_back({side * shadow.plane.ax, side * shadow.plane.ay, side * shadow.plane.b});

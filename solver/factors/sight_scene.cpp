@@ -3,6 +3,7 @@
 #include "meshing/core/planar.h"
 #include "meshing/geometry/shaft.h"
 #include "meshing/triangulation/ring_triangles.h"
+#include "solver/factors/body_search.h"
 #include "solver/factors/one_blocker.h"
 
 #include <algorithm>

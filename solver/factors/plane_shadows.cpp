@@ -147,19 +147,19 @@ void PlaneShadows::find_open_box(const Shadow& shadow, FlatBox& box) const {
   const std::size_t count = shadow.x.size();
   for (std::size_t from = count - 1, to = 0; to < count; from = to++) {
     const double dx = shadow.x[to] - x, dy = shadow.y[to] - y, height = shadow.z[to];
-    const bool is_ahead = height < z && part_of(height) < thrown_far;
-    if (is_ahead) {
-      const double part = part_of(height);
+    // What is thrown far lies from there on in its direction: not beyond all others for certain.
+    const double part = std::min(part_of(height), thrown_far);
+    if (height < z) {
       open.add(x + part * dx, y + part * dy);
-      is_any_ahead = true;
       reach = std::max({reach, part * std::abs(dx), part * std::abs(dy)});
-    } else if (!is_farther(height))
-      add_far(dx, dy);
+      is_any_ahead = is_any_ahead || part < thrown_far;
+    }
+    if (!(height < z && part < thrown_far) && !is_farther(height)) add_far(dx, dy);
     const double before = shadow.z[from];
     if ((before < z) == (height < z)) continue;
-    const double part = (z - before) / (height - before);
-    add_far(shadow.x[from] + part * (shadow.x[to] - shadow.x[from]) - x,
-            shadow.y[from] + part * (shadow.y[to] - shadow.y[from]) - y);
+    const double crossing = (z - before) / (height - before);
+    add_far(shadow.x[from] + crossing * (shadow.x[to] - shadow.x[from]) - x,
+            shadow.y[from] + crossing * (shadow.y[to] - shadow.y[from]) - y);
   }
   if (!is_any_ahead) return;
   const double off = exactness_of_reach * reach;

@@ -1,5 +1,6 @@
 #include "solver/factors/shaded_target.h"
 
+#include "solver/direct/direct_light.h"
 #include "solver/factors/few_blockers.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_maker.h"
@@ -41,6 +42,35 @@ TEST(ShadedTarget, OfWallsThatReachUpToThePoint) {
       hidden += expected.hidden;
     }
     EXPECT_GT(hidden, 1);
+  }
+}
+
+/// A slanted sheet hardly below the point, as seen from a plane a thousand times as far off: some
+/// of its corners are thrown farther than others, in the same direction, and no farther aside.
+TEST(ShadedTarget, OfSheetsThatAreThrownFar) {
+  for (const double far : {300., 500., 2000., 1e5}) {
+    test::SceneMaker maker;
+    maker.up({0, 0}, {1, 1}, 0).down({-far, -far}, {far, far}, far);
+    maker.polygon({{.1, .1, .6}, {.8, .2, .7}, {.3, .9, .5}});
+    maker.up({.31, .17}, {.62, .48}, .3);
+    const SoundScene sound = maker.sound();
+    const SightScene sight = make_sight_scene(sound);
+    const DirectLightIndex exact(sound);
+    FewBlockers blockers(sight, 0, 1);
+    ASSERT_EQ(blockers.things(), 2u);
+    SharedShadows shadows(sight);
+    TargetMemory memory;
+    const ShadedTarget target = blockers.shaded_target(shadows, memory);
+    test::Random random(3);
+    for (int k = 0; k < 1000; ++k) {
+      const Vec3 point(random(0, 1), random(0, 1), 0);
+      shadows.move_to(point);
+      HiddenFactor found;
+      ASSERT_TRUE(target.hidden_factor(found));
+      const PointFactor expected = exact.factor({point, Vec3::UnitZ()}, 1);
+      ASSERT_NEAR(found.hidden, expected.unobstructed - expected.visible, 1e-12 + 1e-15 * far)
+          << far;
+    }
   }
 }
 

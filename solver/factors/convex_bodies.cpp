@@ -93,6 +93,19 @@ void find_silhouette(const ConvexBody& body, const Vec3& point, Silhouette& silh
   }
 }
 
+bool lies_outside(const ConvexBody& body, std::span<const Vec3> polygon) {
+  const double rounding = rounding_of(body);
+  for (std::size_t k = 0; k < body.sides.size(); ++k) {
+    const bool is_open = k + body.open_sides >= body.sides.size();
+    const auto is_beyond = [&](const Vec3& p) {
+      const double height = body.sides[k].normal.dot(p - body.sides[k].corner);
+      return height > (is_open ? -rounding : rounding);
+    };
+    if (std::all_of(polygon.begin(), polygon.end(), is_beyond)) return true;
+  }
+  return false;
+}
+
 bool is_within_sight(const ConvexBody& body, const FlatSurface& looking, const FlatSurface& seen) {
   const Within own = within(body, looking.pieces);
   if (own == Within::nothing && body.open_sides == 0) return false;

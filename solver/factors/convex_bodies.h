@@ -44,6 +44,10 @@ struct FlatSurface {
 /// lie outside, or one of them does and the other one on an open side, looking in.
 bool is_within_sight(const ConvexBody& body, const FlatSurface& looking, const FlatSurface& seen);
 
+/// Whether a convex polygon clearly lies beyond a side of the body, or on or beyond an open one.
+/// Some that lie outside do not.
+bool lies_outside(const ConvexBody& body, std::span<const Vec3> polygon);
+
 /// The edges of a body between sides that a point sees and sides that it does not.
 struct Silhouette {
   struct Edge {

@@ -52,8 +52,10 @@ bool passes(const ConvexBody& body, const Vec3& from, const Vec3& to) {
   return enter > 0 && leave < 1;
 }
 
-/// The same of a body: what it hides from a point is convex, too.
+/// The same of a body: what it hides from a point is convex, too. But into an open one points look
+/// past its sides.
 bool hides_all(const ConvexBody& body, std::span<const Vec3> part, std::span<const Vec3> other) {
+  if (body.open_sides > 0 && !(lies_outside(body, part) && lies_outside(body, other))) return false;
   for (const Vec3& p : part)
     for (const Vec3& q : other)
       if (!passes(body, p, q)) return false;

@@ -2,12 +2,14 @@
 
 #include "solver/factors/factor_scene.h"
 #include "solver/factors/few_blockers.h"
+#include "tests/support/face_factors.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -194,6 +196,23 @@ TEST(BodySearch, OpenBodiesHideWhatTheirSidesHide) {
   EXPECT_GT(partial, 1000);
   EXPECT_GT(dark, 300);
   EXPECT_GT(lit, 1000);
+}
+
+/// A box that is open above, and a board of two halves through it that stick out far on both sides:
+/// its sides hide all corners of the board from all of a small plate over the box.
+TEST(BodySearch, WhatLooksIntoAnOpenBodySeesWhatPiercesIt) {
+  Scene scene = with_material();
+  add_sides(scene, Vec3::Zero(), {1, 1, .2}, {left, right, front, back, bottom});
+  add_sheet(scene, {-9, .4, .1}, {9.5, 0, 0}, {0, .2, 0});
+  add_sheet(scene, {.5, .4, .1}, {9.5, 0, 0}, {0, .2, 0});
+  add_sheet(scene, {.45, .55, .201}, {.1, 0, 0}, {0, -.1, 0});
+  const FactorScene factors = make_factor_scene(scene, FactorUnit::face);
+  const SightScene sight = make_sight_scene(factors.sound);
+  ASSERT_EQ(sight.bodies.size(), 1u);
+  const FactorMatrix matrix = test::face_factors(scene, 1e-4);
+  EXPECT_GT(matrix.factors(7, 5), .3);
+  EXPECT_GT(matrix.factors(7, 6), .3);
+  EXPECT_NEAR(matrix.row_sum[7], 1, 1e-4);
 }
 
 }  // namespace

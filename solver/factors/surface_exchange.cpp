@@ -53,9 +53,9 @@ enum class LookFrom { own, other };
 
 /// Before lattices of many points are made, cells may take so many: where kinks are few, these are
 /// enough for any tolerance. From there on their error shrinks with this power of the number of
-/// points, or faster.
-constexpr int few_cell_points = 10000;
-constexpr double decay_of_cells = 1.6;
+/// points, or faster; unless they are expected to take this many, they go on.
+constexpr int few_cell_points = 5000;
+constexpr double decay_of_cells = 1.6, many_cell_points = 100000;
 /// Pairs that look from such lattices together, for each keeps what it sees.
 constexpr std::size_t pairs_of_lattice = 16;
 
@@ -232,7 +232,8 @@ class ExactPairs {
     const bool is_last = most_places > few_lattice_places;
     std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
     for (std::size_t h = 0; h < hard_.size(); ++h)
-      from[at(side == LookFrom::own ? hard_[h].own : hard_[h].other)].push_back(h);
+      if (!is_last || hard_[h].cell_points > many_cell_points)
+        from[at(side == LookFrom::own ? hard_[h].own : hard_[h].other)].push_back(h);
     std::vector<std::span<const std::size_t>> tasks;
     for (const std::span<const std::size_t> all : from) {
       const std::size_t together =

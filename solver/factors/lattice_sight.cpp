@@ -119,13 +119,16 @@ class PairOnLattices {
     sight_.is_reached = tells_ && error <= allowed;
     const double needed = count * std::pow(error / allowed, 1 / decay);
     const bool may_tell = goes_on_ && not_lit_ > 0 && not_dark_ > 0;
-    goes_on_ = may_tell && !sight_.is_reached && needed <= static_cast<double>(most_);
+    const bool is_hopeless = !to_the_end_ && needed > static_cast<double>(most_);
+    goes_on_ = may_tell && !sight_.is_reached && !is_hopeless;
   }
 
   PairOnLattices(const SightScene& scene, int a, const LatticePair& pair,
                  std::span<const Quad> quads, std::size_t most_places, const FewBlockers& few,
                  SharedShadows& shadows, TargetMemory& memory, const std::stop_token& stop)
-      : target_(few.shaded_target(shadows, memory)), hidden_allowed_(pair.tolerance) {
+      : target_(few.shaded_target(shadows, memory)),
+        hidden_allowed_(pair.tolerance),
+        to_the_end_(pair.to_the_end) {
     sight_.is_reached = false;
     if (!few.is_applicable()) return;
     SightTolerance unhidden = pair.tolerance;
@@ -177,6 +180,7 @@ class PairOnLattices {
 
   ShadedTarget target_;
   SightTolerance hidden_allowed_;
+  bool to_the_end_;
   MutualSight whole_, sight_;
   std::size_t fewest_ = 0, most_ = 0;  ///< points on a quadrilateral
   bool goes_on_ = false, tells_ = false;

@@ -15,6 +15,7 @@ struct LatticePair {
   int other;
   SightTolerance tolerance;
   std::span<const int> blockers = {};  ///< SightPair::blockers
+  bool to_the_end = false;             ///< though no lattice is expected to be enough
 };
 
 /// Places on a quadrilateral: few of them, and as many as there are. Pairs that few do not suffice

@@ -138,6 +138,7 @@ class ExactPairs {
         if (pairs_[a][k].sight == Sight::clear || found_[a][k].is_at_limit) continue;
         HardPair pair = hard_pair(sight_, static_cast<int>(a), pairs_[a][k].other, k);
         if (!is_asked(row(pair)) && !is_asked(other_row(pair))) continue;
+        pair.is_seen = true;
         pair.tolerance = for_partial_;
         pair.tolerance.relative *= share;
         pair.tolerance.absolute = share * shares_.even_share(row(pair), other_row(pair));
@@ -248,6 +249,7 @@ class ExactPairs {
         some.push_back({side == LookFrom::own ? pair.other : pair.own, pair.tolerance,
                         pairs_[at(pair.low)][pair.place].blockers});
         int& most = some.back().tolerance.max_points;
+        some.back().to_the_end = is_last && pair.cell_points > most;
         most = static_cast<int>(std::min<double>(most, pair.cell_points));
       }
       const HardPair& first = hard_[tasks[task].front()];

@@ -29,7 +29,7 @@ inline constexpr int most_rays = 100'000'000;
 struct FactorOptions {
   FactorUnit unit = FactorUnit::group;
   FactorMethod method = FactorMethod::automatic;
-  double tolerance = 1e-4;  ///< error allowed in an entry of F, absolute, in (0, 1)
+  double tolerance = 1e-4;   ///< error allowed in an entry of F, absolute, in (0, 1)
   int max_points = 1000000;  ///< at which a pair of surfaces is looked at, at most, ≥ 1
   /// Of each row, whatever the tolerance is; pixels of hemicubes count as rays. 0: as many as the
   /// tolerance takes, up to most_rays; of pixels 10,000.

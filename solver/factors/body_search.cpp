@@ -213,6 +213,8 @@ class BodyFinder {
       for (const Vec3& p : body.vertices)
         if (side.normal.dot(p - side.corner) > size) return {};
     measure(body);
+    // Coplanar surfaces have each other behind them, whatever their outline.
+    if (!(body.width > size)) return {};
     return body;
   }
 

@@ -124,6 +124,14 @@ TEST(BodySearch, WhatIsNotConvexIsNoBody) {
   EXPECT_TRUE(sight_of(scene).bodies.empty());
 }
 
+TEST(BodySearch, WhatIsFlatIsNoBody) {
+  Scene scene = with_material();
+  for (const Vec2& p : {Vec2(0, 0), {1, 0}, {2, 0}, {0, 1}})
+    add_sheet(scene, {p.x(), p.y(), 0}, {1, 0, 0}, {0, 1, 0});
+  const SoundScene tiles = make_factor_scene(scene, FactorUnit::face).sound;
+  EXPECT_TRUE(find_convex_bodies(tiles, OpaqueScene(tiles)).bodies.empty());
+}
+
 /// A room with a table on four legs, a box without a bottom on the floor and one above it, one that
 /// is open to a wall that it stands at, a cup, and a pipe that hangs from the ceiling.
 Scene furnished_room() {

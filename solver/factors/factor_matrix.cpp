@@ -90,6 +90,11 @@ FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options
   const FactorScene sound = make_factor_scene(scene, options.unit);
   require_factor_memory(sound.rows());
   RowExchange exchange = exchange_of(sound, options, progress);
+  if (!exchange.report.is_complete) {
+    FactorMatrix nothing;
+    nothing.report = exchange.report;
+    return nothing;
+  }
   const bool is_number_of_rays = exchange.report.method == FactorMethod::hemicube ||
                                  (exchange.report.method == FactorMethod::rays && options.rays > 0);
   FactorMatrix result = finished_matrix(sound, std::move(exchange),

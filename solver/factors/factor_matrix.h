@@ -58,7 +58,7 @@ struct FactorReport {
   double left_out_max = 0;       ///< and the largest share of a row that they were, all together
   bool is_enforced = false;      ///< rows were scaled,
   double enforced_by = 0;        ///< an entry by at most this share
-  bool is_complete = true;       ///< false if stopped: entries are missing
+  bool is_complete = true;       ///< false if stopped: there is no matrix
 };
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -90,7 +90,7 @@ struct FactorMatrix {
 /// where nothing is in between, else cubature of exact point factors; or rows by rays; see
 /// factors.md. No emitter is needed. Throws as make_factor_scene does, and Error(too_large) if the
 /// matrix would not fit into memory or, with FactorMethod::exact, take more than a day. If stopped,
-/// what comes back is not complete.
+/// there is no matrix, and the report says so.
 /// The same for any number of threads. Cost: n²/2 shafts for n surfaces.
 FactorMatrix form_factor_matrix(const Scene& scene, const FactorOptions& options = {},
                                 const Progress& progress = {});

@@ -131,10 +131,8 @@ FactorMatrix finished_matrix(const FactorScene& scene, RowExchange exchange, dou
   exchange.mutual = exchange.mutual.cwiseMax(0);
   exchange.space = exchange.space.max(0);
   const RowSums sums(scene, exchange);
-  if (exchange.report.is_complete && exchange.report.method == FactorMethod::exact)
-    sharpen_errors(sums, exchange);
+  if (exchange.report.method == FactorMethod::exact) sharpen_errors(sums, exchange);
   FactorMatrix result = matrix_of(scene, exchange);
-  if (!result.report.is_complete) return result;
   fill_report(tolerance, sums, result);
   if (options.sparse_below > 0) make_sparse(options.sparse_below, exchange, result);
   if (options.enforce) enforce(exchange, result);

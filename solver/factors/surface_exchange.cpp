@@ -336,12 +336,15 @@ void RowExchange::add(int row, int other, Sight sight, const MutualSight& seen) 
 RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
                            const FactorOptions& options, const Progress& progress) {
   ExactPairs pairs(scene, sight, options, progress);
-  bool is_complete = pairs.see_clear() && pairs.see_partial();
-  RowExchange exchange = pairs.exchange();
+  RowExchange exchange(0);
+  exchange.report.is_complete = false;
+  // Of many rows it takes a while to add up what nobody asks for any more.
+  if (!pairs.see_clear() || !pairs.see_partial()) return exchange;
+  exchange = pairs.exchange();
   double share = share_again;
   Eigen::ArrayXd before;
   std::vector<bool> asked;
-  for (int times = 0; times < most_times_again && is_complete; ++times, share *= share_again) {
+  for (int times = 0; times < most_times_again; ++times, share *= share_again) {
     const RowSums sums(scene, exchange);
     std::vector<bool> rows = refuted_rows(sums, options.tolerance);
     for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -352,10 +355,10 @@ RowExchange exact_exchange(const FactorScene& scene, const SightScene& sight,
     asked = rows;
     before = sums.missing;
     if (std::find(rows.begin(), rows.end(), true) == rows.end()) break;
-    is_complete = pairs.see_again(rows, share);
+    exchange.report.is_complete = pairs.see_again(rows, share);
+    if (!exchange.report.is_complete) break;
     exchange = pairs.exchange();
   }
-  exchange.report.is_complete = is_complete;
   return exchange;
 }
 

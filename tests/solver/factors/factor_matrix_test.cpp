@@ -335,9 +335,15 @@ TEST(FactorMatrix, SmallFactorsAreLeftOutWithABound) {
 TEST(FactorMatrix, StoppedItIsNotComplete) {
   std::stop_source stop;
   stop.request_stop();
-  FactorOptions options;
   const Progress progress{stop.get_token(), {}};
-  EXPECT_FALSE(form_factor_matrix(test::l_room(true), options, progress).report.is_complete);
+  for (const FactorMethod method :
+       {FactorMethod::exact, FactorMethod::rays, FactorMethod::hemicube}) {
+    FactorOptions options;
+    options.method = method;
+    const FactorMatrix matrix = form_factor_matrix(test::l_room(true), options, progress);
+    EXPECT_FALSE(matrix.report.is_complete);
+    EXPECT_EQ(matrix.factors.size(), 0);
+  }
 }
 
 TEST(FactorMatrix, PairsThatTakeTooManyPointsSaySo) {

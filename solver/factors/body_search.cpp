@@ -11,6 +11,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -107,9 +108,9 @@ class BodyFinder {
 
   /// What closes a convex shell where its surfaces run along nothing of it. Nothing if that is not
   /// a loop, or several.
-  std::optional<std::vector<Cap>> find_caps(const std::map<int, int>& open, double near) const {
+  /// `left` tells the next vertex along a cap.
+  std::optional<std::vector<Cap>> find_caps(std::map<int, int> left, double near) const {
     std::vector<Cap> caps;
-    std::map<int, int> left = open;
     while (!left.empty()) {
       Cap& cap = caps.emplace_back();
       std::vector<Vec3> corners;
@@ -163,22 +164,44 @@ class BodyFinder {
     return covered;
   }
 
+  /// Where vertices of the topology, and surfaces, are in a body.
+  struct Numbers {
+    std::map<int, int> vertex, side;
+  };
+
+  /// As an open side.
+  void add(const Cap& cap, const Numbers& numbers, ConvexBody& body) const {
+    const int side = static_cast<int>(body.sides.size());
+    body.sides.push_back(cap.side);
+    ++body.open_sides;
+    for (std::size_t k = 0; k < cap.vertices.size(); ++k) {
+      const int from = cap.vertices[k], to = cap.vertices[(k + 1) % cap.vertices.size()];
+      const auto& uses = uses_.at(sorted_link(from, to));
+      const auto own = std::find_if(uses.begin(), uses.end(), [&](const Use& use) {
+        return numbers.side.contains(use.surface) && use.along == Link{to, from};
+      });
+      body.edges.push_back({{numbers.vertex.at(from), numbers.vertex.at(to)},
+                            {side, numbers.side.at(own->surface)}});
+    }
+  }
+
   std::optional<ConvexBody> make(const std::vector<int>& surfaces) const {
     ConvexBody body;
-    std::map<int, int> vertices, side_of, open;  // open: next vertex along a cap
-    double size = 0;
+    Numbers numbers;
+    double near = 0;
     for (const int s : surfaces) {
       const auto& surface = topology_.surfaces[at(s)];
       if (surface.ring_count != 1) return {};
-      side_of[s] = static_cast<int>(body.sides.size());
+      numbers.side[s] = static_cast<int>(body.sides.size());
       body.sides.push_back({surface.frame.origin, surface.frame.normal});
-      size = std::max(size, surface.tolerance.length);
+      near = std::max(near, surface.tolerance.length);
       for_each_link(s, [&](const Link& along) {
         const auto [entry, is_new] =
-            vertices.emplace(along[0], static_cast<int>(body.vertices.size()));
+            numbers.vertex.emplace(along[0], static_cast<int>(body.vertices.size()));
         if (is_new) body.vertices.push_back(topology_.vertices[at(along[0])]);
       });
     }
+    std::map<int, int> open;
     bool is_simple = true;
     for (const int s : surfaces)
       for_each_link(s, [&](const Link& along) {
@@ -187,34 +210,23 @@ class BodyFinder {
           is_simple = is_simple && open.emplace(along[1], along[0]).second;
         } else if (along[0] < along[1]) {
           const Use& other = uses[0].surface == s ? uses[1] : uses[0];
-          body.edges.push_back({{vertices.at(along[0]), vertices.at(along[1])},
-                                {side_of.at(s), side_of.at(other.surface)}});
+          body.edges.push_back({{numbers.vertex.at(along[0]), numbers.vertex.at(along[1])},
+                                {numbers.side.at(s), numbers.side.at(other.surface)}});
         }
       });
-    const auto caps = find_caps(open, size);
+    const auto caps = find_caps(std::move(open), near);
     if (!is_simple || !caps || caps->size() > 2) return {};
     for (const Cap& cap : *caps) {
-      if (caps->size() > 1 && !is_covered(cap, size)) return {};
-      const int side = static_cast<int>(body.sides.size());
-      body.sides.push_back(cap.side);
-      for (std::size_t k = 0; k < cap.vertices.size(); ++k) {
-        const int from = cap.vertices[k], to = cap.vertices[(k + 1) % cap.vertices.size()];
-        const auto& uses = uses_.at(sorted_link(from, to));
-        const auto own = std::find_if(uses.begin(), uses.end(), [&](const Use& use) {
-          return side_of.contains(use.surface) && use.along == Link{to, from};
-        });
-        body.edges.push_back(
-            {{vertices.at(from), vertices.at(to)}, {side, side_of.at(own->surface)}});
-      }
+      if (caps->size() > 1 && !is_covered(cap, near)) return {};
+      add(cap, numbers, body);
     }
-    body.open_sides = caps->size();
     if (body.sides.size() < 4) return {};
     for (const ConvexBody::Side& side : body.sides)
       for (const Vec3& p : body.vertices)
-        if (side.normal.dot(p - side.corner) > size) return {};
+        if (side.normal.dot(p - side.corner) > near) return {};
     measure(body);
     // Coplanar surfaces have each other behind them, whatever their outline.
-    if (!(body.width > size)) return {};
+    if (!(body.width > near)) return {};
     return body;
   }
 

@@ -9,8 +9,7 @@ namespace {
 /// of a figure.
 constexpr double partial_share = 0.25;
 constexpr double looks_of_pair = 64;
-/// Of a look, and what each polygon that may come between adds to it. Closed convex bodies add
-/// little.
+/// Of a look, and what each polygon that may come between adds to it. Convex bodies add little.
 constexpr double look_seconds = 1e-6, seconds_for_polygon = 3e-8;
 constexpr double ray_seconds = 1e-6;
 

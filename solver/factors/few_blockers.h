@@ -30,10 +30,10 @@ class FewBlockers {
   /// points only across. What lies closer to `a` than it is wide hides much from under itself and
   /// little elsewhere: some points are under it.
   double points_across(std::span<const Vec3> sides) const;
-  /// Whether all that is in between are closed convex bodies before the target.
+  /// Whether all that is in between are convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
 
-  /// Closed bodies and polygons in between.
+  /// Convex bodies and polygons in between.
   std::size_t things() const { return solids_.size() + shades_.size(); }
   double width(std::size_t thing) const {
     return thing < solids_.size() ? solids_[thing].shape->width

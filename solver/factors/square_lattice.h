@@ -35,8 +35,8 @@ constexpr std::size_t lattice_levels = 15;
 constexpr std::size_t places_of_lattice(std::size_t level) { return std::size_t{16} << level; }
 
 /// Each holds the one before (Hickernell, Hong, L'Ecuyer and Lemieux 2000), so that no look is lost
-/// where more are needed. It is made when it is first asked for, by any thread, which takes about a
-/// microsecond a place, and kept. Precondition: `level` < lattice_levels.
+/// where more are needed. It is made when it is first asked for, by any thread, which takes some
+/// two microseconds a place, and kept. Precondition: `level` < lattice_levels.
 const SquareLattice& square_lattice(std::size_t level);
 
 }  // namespace halfshade

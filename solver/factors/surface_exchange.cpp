@@ -48,8 +48,15 @@ HardPair hard_pair(const SightScene& sight, int low, int high, std::size_t place
   return {low, high, place, is_swapped ? high : low, is_swapped ? low : high};
 }
 
-/// From which of the two surfaces of a pair lattices look.
+/// From which of the two surfaces of a pair lattices look, and at which.
 enum class LookFrom { own, other };
+
+int looking(const HardPair& pair, LookFrom side) {
+  return side == LookFrom::own ? pair.own : pair.other;
+}
+int seen_from(const HardPair& pair, LookFrom side) {
+  return side == LookFrom::own ? pair.other : pair.own;
+}
 
 /// Before lattices of many points are made, cells may take so many: where kinks are few, these are
 /// enough for any tolerance. From there on their error shrinks with this power of the number of
@@ -223,8 +230,8 @@ class ExactPairs {
   /// Pairs that few points of lattices are not enough for.
   bool see_the_hardest() {
     const int most = for_partial_.max_points;
-    return see_by_cells(std::min(few_cell_points, most)) &&
-           see_by_lattices(LookFrom::own, most_lattice_places) &&
+    if (most <= few_cell_points) return see_by_cells(most);
+    return see_by_cells(few_cell_points) && see_by_lattices(LookFrom::own, most_lattice_places) &&
            see_by_lattices(LookFrom::other, most_lattice_places) && see_by_cells(most);
   }
 
@@ -234,7 +241,7 @@ class ExactPairs {
     std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
     for (std::size_t h = 0; h < hard_.size(); ++h)
       if (!is_last || hard_[h].cell_points > many_cell_points)
-        from[at(side == LookFrom::own ? hard_[h].own : hard_[h].other)].push_back(h);
+        from[at(looking(hard_[h], side))].push_back(h);
     std::vector<std::span<const std::size_t>> tasks;
     for (const std::span<const std::size_t> all : from) {
       const std::size_t together =
@@ -246,14 +253,14 @@ class ExactPairs {
       std::vector<LatticePair> some;
       for (const std::size_t h : tasks[task]) {
         const HardPair& pair = hard_[h];
-        some.push_back({side == LookFrom::own ? pair.other : pair.own, pair.tolerance,
-                        pairs_[at(pair.low)][pair.place].blockers});
-        int& most = some.back().tolerance.max_points;
-        some.back().to_the_end = is_last && pair.cell_points > most;
-        most = static_cast<int>(std::min<double>(most, pair.cell_points));
+        SightTolerance tolerance = pair.tolerance;
+        tolerance.max_points =
+            static_cast<int>(std::min<double>(tolerance.max_points, pair.cell_points));
+        const bool to_the_end = is_last && pair.cell_points > pair.tolerance.max_points;
+        some.push_back({seen_from(pair, side), tolerance, pairs_[at(pair.low)][pair.place].blockers,
+                        to_the_end});
       }
-      const HardPair& first = hard_[tasks[task].front()];
-      const auto seen = lattice_sight(sight_, side == LookFrom::own ? first.own : first.other, some,
+      const auto seen = lattice_sight(sight_, looking(hard_[tasks[task].front()], side), some,
                                       most_places, progress_.stop);
       for (std::size_t k = 0; k < seen.size(); ++k) {
         HardPair& pair = hard_[tasks[task][k]];

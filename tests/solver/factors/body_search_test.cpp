@@ -2,6 +2,7 @@
 
 #include "solver/factors/factor_scene.h"
 #include "solver/factors/few_blockers.h"
+#include "tests/solver/factors/sight_points.h"
 #include "tests/support/face_factors.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
@@ -9,8 +10,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
-#include <utility>
 #include <vector>
 
 namespace halfshade {
@@ -152,15 +151,6 @@ Scene furnished_room() {
   return scene;
 }
 
-/// Anywhere in a surface of four corners.
-Vec3 point_of(const SightSurface& surface, test::Random& random) {
-  const Polygon3& corners = surface.outline;
-  const double s = random(0, 1), t = random(0, 1);
-  const Vec3 low = corners[0] + s * (corners[1] - corners[0]);
-  const Vec3 high = corners[3] + s * (corners[2] - corners[3]);
-  return low + t * (high - low);
-}
-
 /// From everywhere, under legs and boxes, too, and at backs of sides.
 TEST(BodySearch, OpenBodiesHideWhatTheirSidesHide) {
   const FactorScene factors = make_factor_scene(furnished_room(), FactorUnit::face);
@@ -177,15 +167,9 @@ TEST(BodySearch, OpenBodiesHideWhatTheirSidesHide) {
     if (from.outline.size() != 4 || from.rings.size() > 1) continue;
     SharedShadows shadows(sight);
     TargetMemory memory;
-    std::vector<std::pair<int, ShadedTarget>> targets;
-    for (int b = 0; b < surfaces; ++b) {
-      if (!may_see(sight, a, b)) continue;
-      const FewBlockers blockers(sight, a, b);
-      if (blockers.is_applicable())
-        targets.emplace_back(b, blockers.shaded_target(shadows, memory));
-    }
+    const auto targets = test::targets_of(sight, a, shadows, memory);
     for (int k = 0; k < 4; ++k) {
-      const Vec3 point = point_of(from, random);
+      const Vec3 point = test::point_of(from, random);
       shadows.move_to(point);
       for (const auto& [b, target] : targets) {
         const PointFactor expected = exact.factor({point, from.frame.normal}, b);
@@ -214,9 +198,7 @@ TEST(BodySearch, WhatLooksIntoAnOpenBodySeesWhatPiercesIt) {
   add_sheet(scene, {-9, .4, .1}, {9.5, 0, 0}, {0, .2, 0});
   add_sheet(scene, {.5, .4, .1}, {9.5, 0, 0}, {0, .2, 0});
   add_sheet(scene, {.45, .55, .201}, {.1, 0, 0}, {0, -.1, 0});
-  const FactorScene factors = make_factor_scene(scene, FactorUnit::face);
-  const SightScene sight = make_sight_scene(factors.sound);
-  ASSERT_EQ(sight.bodies.size(), 1u);
+  ASSERT_EQ(sight_of(scene).bodies.size(), 1u);
   const FactorMatrix matrix = test::face_factors(scene, 1e-4);
   EXPECT_GT(matrix.factors(7, 5), .3);
   EXPECT_GT(matrix.factors(7, 6), .3);

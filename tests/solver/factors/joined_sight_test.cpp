@@ -6,6 +6,7 @@
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/pair_search.h"
 #include "solver/factors/point_looks.h"
+#include "tests/solver/factors/sight_points.h"
 #include "tests/support/random.h"
 #include "tests/support/scenes.h"
 
@@ -58,15 +59,6 @@ struct Sights {
   int count() const { return static_cast<int>(sight.surfaces.size()); }
 };
 
-/// Anywhere in a surface.
-Vec3 point_of(const SightSurface& surface, test::Random& random) {
-  const Polygon3& corners = surface.outline;
-  const double s = random(0, 1), t = random(0, 1);
-  const Vec3 bottom = corners[0] + s * (corners[1] - corners[0]);
-  const Vec3 top = corners[3 % corners.size()] + s * (corners[2] - corners[3 % corners.size()]);
-  return bottom + t * (top - bottom);
-}
-
 TEST(JoinedScene, WallsOfTilesAreOnePolygon) {
   const Sights room(tiled_room());
   const JoinedScene& joined = room.sight.joined;
@@ -118,7 +110,7 @@ TEST(PointLooks, AgreeWithExactPartsOfTiles) {
     const int a = random.below(room.count()), b = random.below(room.count());
     if (room.sight.surfaces[at(a)].outline.size() != 4 || !may_see(room.sight, a, b)) continue;
     const SightSurface& from = room.sight.surfaces[at(a)];
-    const SurfacePoint point{point_of(from, random), from.frame.normal};
+    const SurfacePoint point{test::point_of(from, random), from.frame.normal};
     const PointFactor expected = tiles.factor(point, b);
     const PointFactor looked = looks.factor(point, b);
     EXPECT_NEAR(looked.visible, expected.visible, 1e-13);
@@ -155,15 +147,9 @@ TEST(ShadedTarget, AgreesWithExactPartsOfTiles) {
     if (from.outline.size() != 4) continue;
     SharedShadows shadows(room.sight);
     TargetMemory memory;
-    std::vector<std::pair<int, ShadedTarget>> targets;
-    for (int b = 0; b < room.count(); ++b) {
-      if (!may_see(room.sight, a, b)) continue;
-      const FewBlockers blockers(room.sight, a, b);
-      if (blockers.is_applicable())
-        targets.emplace_back(b, blockers.shaded_target(shadows, memory));
-    }
+    const auto targets = test::targets_of(room.sight, a, shadows, memory);
     for (int k = 0; k < 3; ++k) {
-      const Vec3 point = point_of(from, random);
+      const Vec3 point = test::point_of(from, random);
       shadows.move_to(point);
       for (const auto& [b, target] : targets) {
         HiddenFactor found;
@@ -193,7 +179,7 @@ TEST(PointLooks, WhatIsKeptChangesNoBit) {
   test::Random random(9);
   const SightSurface& from = room.sight.surfaces[0];
   for (int k = 0; k < 20; ++k) {
-    const SurfacePoint point{point_of(from, random), from.frame.normal};
+    const SurfacePoint point{test::point_of(from, random), from.frame.normal};
     for (int b = 0; b < room.count(); ++b) {
       PointLooks fresh(room.sight);
       const PointFactor one = kept.factor(point, b), other = fresh.factor(point, b);
@@ -231,7 +217,7 @@ TEST(PairSearch, AgreesWithPairsAndPoints) {
       if (found == Sight::partial || !may_see(room.sight, a, b)) continue;
       for (int k = 0; k < 3; ++k) {
         const SightSurface& from = room.sight.surfaces[at(a)];
-        const PointFactor seen = tiles.factor({point_of(from, random), from.frame.normal}, b);
+        const PointFactor seen = tiles.factor({test::point_of(from, random), from.frame.normal}, b);
         EXPECT_NEAR(seen.visible, found == Sight::none ? 0 : seen.unobstructed, 1e-14);
       }
     }

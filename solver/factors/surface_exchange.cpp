@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -62,7 +63,7 @@ int seen_from(const HardPair& pair, LookFrom side) {
 /// enough for any tolerance. From there on their error shrinks with this power of the number of
 /// points, or faster; unless they are expected to take this many, they go on.
 constexpr int few_cell_points = 5000;
-constexpr double decay_of_cells = 1.6, many_cell_points = 100000;
+constexpr double decay_of_cells = 1.6, many_cell_points = 10000;
 /// Pairs that look from such lattices together, for each keeps what it sees.
 constexpr std::size_t pairs_of_lattice = 16;
 
@@ -156,10 +157,20 @@ class ExactPairs {
 
   RowExchange exchange() const {
     RowExchange exchange(scene_.rows());
+    std::vector<std::map<int, JointError>> partial(at(scene_.rows()));
     for (std::size_t a = 0; a < pairs_.size(); ++a)
-      for (std::size_t k = 0; k < found_[a].size(); ++k)
-        exchange.add(scene_.row[a], scene_.row[at(pairs_[a][k].other)], pairs_[a][k].sight,
-                     found_[a][k]);
+      for (std::size_t k = 0; k < found_[a].size(); ++k) {
+        const int row = scene_.row[a], other = scene_.row[at(pairs_[a][k].other)];
+        MutualSight seen = found_[a][k];
+        if (pairs_[a][k].sight == Sight::partial) {
+          const auto [low, high] = ErrorShares::entry_of(row, other);
+          partial[at(low)][high].add(std::exchange(seen.error, 0));
+        }
+        exchange.add(row, other, pairs_[a][k].sight, seen);
+      }
+    for (int row = 0; row < scene_.rows(); ++row)
+      for (const auto& [other, error] : partial[at(row)])
+        exchange.add(row, other, 0, error.bound());
     return exchange;
   }
 

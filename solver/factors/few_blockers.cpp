@@ -25,7 +25,7 @@ constexpr std::size_t most_pieces = 16;
 /// Of a lattice, under what lies close above the surface.
 constexpr double points_under = 4;
 /// Borders of one shade are numbered from a multiple of this on.
-constexpr std::uint32_t borders_of_shade = 1024;
+constexpr std::uint32_t borders_of_shade = 1 << 20;
 
 /// At most √2 times the length, and a good deal quicker.
 double length_about(const Vec2& a) { return std::abs(a.x()) + std::abs(a.y()); }

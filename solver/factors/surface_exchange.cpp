@@ -61,9 +61,10 @@ int seen_from(const HardPair& pair, LookFrom side) {
 
 /// Before lattices of many points are made, cells may take so many: where kinks are few, these are
 /// enough for any tolerance. From there on their error shrinks with this power of the number of
-/// points, or faster; unless they are expected to take this many, they go on.
-constexpr int few_cell_points = 5000;
-constexpr double decay_of_cells = 1.6, many_cell_points = 10000;
+/// points, or faster. Those that are expected to take so many times as many look from lattices; and
+/// again after more points of cells, which tell better what they will take.
+constexpr std::array<int, 2> few_cell_points = {500, 5000};
+constexpr double decay_of_cells = 1.6, many_more = 10;
 /// Pairs that look from such lattices together, for each keeps what it sees.
 constexpr std::size_t pairs_of_lattice = 16;
 
@@ -130,7 +131,7 @@ class ExactPairs {
   bool see_partial() {
     if (!try_shared()) return false;
     for (const LookFrom from : {LookFrom::own, LookFrom::other}) {
-      if (!see_by_lattices(from, few_lattice_places)) return false;
+      if (!see_by_lattices(from)) return false;
       share_out();
     }
     return see_the_hardest();
@@ -234,29 +235,31 @@ class ExactPairs {
   }
 
   bool see_by_few_points() {
-    return see_by_lattices(LookFrom::own, few_lattice_places) &&
-           see_by_lattices(LookFrom::other, few_lattice_places);
+    return see_by_lattices(LookFrom::own) && see_by_lattices(LookFrom::other);
   }
 
   /// Pairs that few points of lattices are not enough for.
   bool see_the_hardest() {
     const int most = for_partial_.max_points;
-    if (most <= few_cell_points) return see_by_cells(most);
-    return see_by_cells(few_cell_points) && see_by_lattices(LookFrom::own, most_lattice_places) &&
-           see_by_lattices(LookFrom::other, most_lattice_places) && see_by_cells(most);
+    for (const int few : few_cell_points)
+      if (few < most && !(see_by_cells(few) && see_by_lattices(LookFrom::own, few) &&
+                          see_by_lattices(LookFrom::other, few)))
+        return false;
+    return see_by_cells(most);
   }
 
-  /// Partial pairs that lattices of points are enough for; those are done then.
-  bool see_by_lattices(LookFrom side, std::size_t most_places) {
-    const bool is_last = most_places > few_lattice_places;
+  /// Partial pairs that lattices of few points are enough for; those are done then. After so many
+  /// points of cells: of many points, those that are expected to take many more.
+  bool see_by_lattices(LookFrom side, int cell_points = 0) {
+    const bool are_many = cell_points > 0;
     std::vector<std::vector<std::size_t>> from(sight_.surfaces.size());
     for (std::size_t h = 0; h < hard_.size(); ++h)
-      if (!is_last || hard_[h].cell_points > many_cell_points)
+      if (!are_many || hard_[h].cell_points > many_more * cell_points)
         from[at(looking(hard_[h], side))].push_back(h);
     std::vector<std::span<const std::size_t>> tasks;
     for (const std::span<const std::size_t> all : from) {
       const std::size_t together =
-          is_last ? pairs_of_lattice : std::max<std::size_t>(all.size(), 1);
+          are_many ? pairs_of_lattice : std::max<std::size_t>(all.size(), 1);
       for (std::size_t k = 0; k < all.size(); k += together)
         tasks.push_back(all.subspan(k, std::min(together, all.size() - k)));
     }
@@ -267,15 +270,17 @@ class ExactPairs {
         SightTolerance tolerance = pair.tolerance;
         tolerance.max_points =
             static_cast<int>(std::min<double>(tolerance.max_points, pair.cell_points));
-        const bool to_the_end = is_last && pair.cell_points > pair.tolerance.max_points;
+        const bool to_the_end =
+            cell_points == few_cell_points.back() && pair.cell_points > pair.tolerance.max_points;
         some.push_back({seen_from(pair, side), tolerance, pairs_[at(pair.low)][pair.place].blockers,
                         to_the_end});
       }
-      const auto seen = lattice_sight(sight_, looking(hard_[tasks[task].front()], side), some,
-                                      most_places, progress_.stop);
+      const auto seen =
+          lattice_sight(sight_, looking(hard_[tasks[task].front()], side), some,
+                        are_many ? most_lattice_places : few_lattice_places, progress_.stop);
       for (std::size_t k = 0; k < seen.size(); ++k) {
         HardPair& pair = hard_[tasks[task][k]];
-        if (seen[k] && (seen[k]->is_reached || is_last || pair.tolerance.is_trial))
+        if (seen[k] && (seen[k]->is_reached || are_many || pair.tolerance.is_trial))
           note(*seen[k], pair);
       }
     };

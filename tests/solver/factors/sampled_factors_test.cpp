@@ -2,6 +2,7 @@
 #include "solver/factors/factor_matrix.h"
 #include "solver/factors/row_rays.h"
 #include "solver/factors/surface_exchange.h"
+#include "tests/support/balls.h"
 #include "tests/support/face_factors.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_maker.h"
@@ -118,6 +119,13 @@ TEST(SampledFactors, AreNotTakenWhereExactOnesAreLittleWorkOrRaysDoNotDo) {
   EXPECT_FALSE(sampled_exchange_within(
       rays_in(seconds), sound, make_reflecting_scene(sound.sound),
       {.unit = FactorUnit::group, .method = FactorMethod::rays, .tolerance = 1e-6}, {}));
+}
+
+/// Most facets of balls see all of each other, or nothing: some thousand of three million pairs are
+/// work. (With a quarter of all it would take minutes.)
+TEST(SampledFactors, BallsAreLittleExactWork) {
+  const FactorScene sound = make_factor_scene(test::room_with_balls(2, 3), FactorUnit::material);
+  EXPECT_LT(exact_seconds(sound, make_sight_scene(sound.sound)), 20);
 }
 
 TEST(RowPlaces, AreSpreadByArea) {

@@ -22,6 +22,8 @@ constexpr double near_by = 0.5;
 /// Edges whose directions have at most this cosine do not contribute: it is rounding.
 constexpr double perpendicular = 1e-15;
 constexpr int max_depth = 40;
+/// What is summed cannot be told apart by less than this part of its terms.
+constexpr double rounding_of_terms = 4 * DBL_EPSILON;
 
 /// Nodes on [−1,1] and weights of the Kronrod rule with 15 nodes and of the Gauss rule with 7 that
 /// is nested in it (Kronrod 1965), for the non-negative half.
@@ -75,6 +77,7 @@ class ContourIntegral {
   struct Interval {
     std::size_t piece;
     double from, to, value, error;
+    double terms;  ///< that of which `value` is the sum, without their signs
     int depth;
   };
   struct Piece {
@@ -105,31 +108,40 @@ class ContourIntegral {
       }
   }
 
+  struct Sum {
+    double value = 0, terms = 0;
+  };
+
   /// (1/2π) Σ over the inner edges at the point x, times the outer direction.
-  double integrand(const Vec3& x, const Vec3& along) const {
-    double sum = 0;
+  Sum integrand(const Vec3& x, const Vec3& along) const {
+    Sum sum;
     Vec3 a = inner_.back();
     for (const Vec3& b : inner_) {
       // Clipping may leave edges without length.
-      if (const double length = (b - a).norm(); length > 0)
-        sum += along.dot(b - a) / length * log_potential(x, a, b, unit_);
+      if (const double length = (b - a).norm(); length > 0) {
+        const double term =
+            along.dot(b - a) / length * log_potential(x, a, b, unit_) / (2 * std::numbers::pi);
+        sum.value += term;
+        sum.terms += std::abs(term);
+      }
       a = b;
     }
-    return sum / (2 * std::numbers::pi);
+    return sum;
   }
 
   Interval evaluate(std::size_t piece, double from, double to, int depth) {
     const auto& [start, along] = pieces_[piece];
-    double kronrod = 0, gauss = 0;
+    double kronrod = 0, gauss = 0, terms = 0;
     const auto add = [&](double x, const KronrodNode& node) {
       // s = u³(10 − 15u + 6u²) gathers the nodes at the ends of the piece, where the integrand may
       // have singularities like t ln t.
       const double u = 0.5 * (from + to) + 0.5 * (to - from) * x;
       const double s = u * u * u * (10 - u * (15 - 6 * u));
       const double slope = 30 * u * u * (1 - u) * (1 - u);
-      const double value = slope * integrand(start + s * along, along);
-      kronrod += node.kronrod * value;
-      gauss += node.gauss * value;
+      const Sum sum = integrand(start + s * along, along);
+      kronrod += node.kronrod * slope * sum.value;
+      gauss += node.gauss * slope * sum.value;
+      terms += node.kronrod * slope * sum.terms;
     };
     for (const KronrodNode& node : kronrod_rule) {
       add(node.x, node);
@@ -137,7 +149,7 @@ class ContourIntegral {
     }
     result_.points += 15;
     const double half = 0.5 * (to - from);
-    return {piece, from, to, half * kronrod, half * std::abs(kronrod - gauss), depth};
+    return {piece, from, to, half * kronrod, half * std::abs(kronrod - gauss), half * terms, depth};
   }
 
   /// Halves the intervals that are worst until the sum of the errors is small enough.
@@ -145,12 +157,16 @@ class ContourIntegral {
     const auto worse = [](const Interval& a, const Interval& b) { return a.error < b.error; };
     std::make_heap(intervals_.begin(), intervals_.end(), worse);
     while (!intervals_.empty() && result_.points < options_.max_points && !stop_.stop_requested()) {
-      double value = 0, error = 0;
+      double value = 0, error = 0, terms = 0;
       for (const Interval& interval : intervals_) {
         value += interval.value;
         error += interval.error;
+        terms += interval.terms;
       }
-      if (error <= std::max(options_.tolerance * std::abs(value), options_.floor)) break;
+      // Of two that are all but in one plane nothing is left but rounding.
+      if (error <= std::max({options_.tolerance * std::abs(value), options_.floor,
+                             rounding_of_terms * terms}))
+        break;
       const Interval worst = intervals_.front();
       if (worst.depth >= max_depth) break;
       std::pop_heap(intervals_.begin(), intervals_.end(), worse);

@@ -202,6 +202,24 @@ TEST(FormFactor, TouchingTrianglesStayRightWhenRoundingMovesThemApart) {
 
 // Of needles rounding may put corners before the plane of what coincides with them, whether that
 // looks the same way or not.
+/// What rounding leaves of each other before the planes of two rectangles in one plane: no
+/// tolerance relative to nothing is reached, so that all points were taken.
+TEST(FormFactor, WhatIsInOnePlaneTakesFewPoints) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const auto any = [&] { return Vec3(uniform(random), uniform(random), uniform(random)); };
+  FormFactorOptions options;
+  options.tolerance = 1e-5;
+  options.max_points = 100000;
+  for (int k = 0; k < 200; ++k) {
+    const Vec3 normal = any().normalized(), u = any().cross(normal), v = normal.cross(any());
+    const Vec3 o = any(), away = 3 * u + 2 * v;
+    const MutualArea area = mutual_area(rectangle(o, u, v), rectangle(o + away, v, u), options);
+    EXPECT_LT(area.points, 20000) << k;
+    EXPECT_LT(area.value, 1e-14) << k;
+  }
+}
+
 TEST(FormFactor, NeedlesThatCoincideExchangeNothing) {
   const Polygon needle = {{0x1.7d3b9567caa47p+0, 0x1.7cea3d97b7774p+0, 0x1.194699d3dd8c2p-3},
                           {0x1.7e151b8ab10e8p+0, 0x1.7d619e08edaf5p+0, 0x1.1946ec9202a28p-3},

@@ -1,7 +1,8 @@
 #include "solver/factors/exchange_work.h"
 
-#include <cstddef>
-#include <random>
+#include "meshing/geometry/mix_bits.h"
+
+#include <cstdint>
 
 namespace halfshade {
 namespace {
@@ -18,8 +19,10 @@ constexpr double ray_seconds = 1e-6;
 
 /// Of pairs that are chosen at random, the same ones each time.
 double share_of_partial_pairs(const FactorScene& scene, const SightScene& sight) {
-  std::minstd_rand random(1);
-  const auto any = [&] { return static_cast<int>(random() % sight.surfaces.size()); };
+  std::uint64_t state = 0;
+  const auto any = [&] {
+    return static_cast<int>(mix_bits(state += splitmix_step) % sight.surfaces.size());
+  };
   int partial = 0;
   for (int k = 0; k < pairs_to_try; ++k) {
     const int a = any(), b = any();

@@ -1,5 +1,6 @@
 #include "solver/factors/factor_scene.h"
 
+#include "meshing/core/error.h"
 #include "meshing/repair/repair.h"
 #include "solver/factors/unused_backs.h"
 
@@ -87,6 +88,10 @@ FactorScene make_factor_scene(const Scene& scene, FactorUnit unit) {
   std::map<FactorRow, int> rows;
   for (const Surface& surface : surfaces)
     if (!is_around(surface)) rows.emplace(key_of(surface, unit), 0);
+  // make_sound does not say so, for the surroundings have areas.
+  if (rows.empty())
+    throw Error(ErrorCode::invalid_input, scene.source,
+                fmt::format("none of its {} faces has an area", scene.faces.size()));
   for (auto& [key, row] : rows) {
     row = result.rows();
     result.keys.push_back(key);

@@ -1,4 +1,5 @@
 #include "solver/factors/factor_matrix.h"
+#include "tests/support/balls.h"
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,10 @@
 //   halfshade_matrices nested 25 1e-4     a box in a box of 12 n² faces (n = 25: 7,500)
 //   halfshade_matrices boxes 5 1e-4       k³ boxes in a room of 6 (k + 3)² faces (k = 5: 1,134)
 //   halfshade_matrices boxes 5 1e-4 exact the same without rays
+//   halfshade_matrices boxes 5 1e-4 material
+//                                         the same between all boxes and the room
+//   halfshade_matrices balls 3 1e-4 material
+//                                         two balls of 20 · 4³ facets in a room, and the room
 // CPU time is that of all threads. The row error is the largest |row sum − 1| of a closed scene;
 // that of rays the largest root of the sum of squares of what a row's entries differ by from the
 // exact ones. Rays to the exact method's are extrapolated from that, for it falls like the root of
@@ -34,6 +39,7 @@ void add_side(Scene& scene, const Vec3& corner, const Vec3& u, const Vec3& v, in
       const int at = first + j * (n + 1) + i;
       Face face;
       face.vertices = {at, at + 1, at + n + 2, at + n + 1};
+      face.material = static_cast<int>(scene.materials.size()) - 1;
       scene.faces.push_back(std::move(face));
     }
 }
@@ -65,6 +71,7 @@ Scene nested(int n) {
 Scene boxes(int k) {
   Scene scene = empty_scene();
   add_cube(scene, Vec3::Zero(), k + 1, k + 3, false);
+  scene.materials.emplace_back();
   for (int x = 0; x < k; ++x)
     for (int y = 0; y < k; ++y)
       for (int z = 0; z < k; ++z) add_cube(scene, Vec3(x + .8, y + .8, z + .8), .4, 1, true);
@@ -91,9 +98,9 @@ struct Last {
   double faces = 0, cpu = 0;
 };
 
-void print_exact(const std::string& name, const Scene& scene, double tolerance) {
+void print_exact(const std::string& name, const Scene& scene, double tolerance, FactorUnit unit) {
   FactorOptions options;
-  options.unit = FactorUnit::face;
+  options.unit = unit;
   options.method = FactorMethod::exact;
   options.tolerance = tolerance;
   const Run exact = run(scene, options);
@@ -131,6 +138,7 @@ void print(const std::string& name, const Scene& scene, double tolerance, Last& 
 }
 
 Scene scene_of(const std::string& name, int size) {
+  if (name == "balls") return test::room_with_balls(2, size);
   return name == "nested" ? nested(size) : boxes(size);
 }
 
@@ -148,7 +156,9 @@ int main(int count, char** words) {
               "s as exact");
   if (count == 5) {
     halfshade::print_exact(words[1], halfshade::scene_of(words[1], std::atoi(words[2])),
-                           std::atof(words[3]));
+                           std::atof(words[3]),
+                           std::string(words[4]) == "material" ? halfshade::FactorUnit::material
+                                                               : halfshade::FactorUnit::face);
     return 0;
   }
   if (count == 4) {

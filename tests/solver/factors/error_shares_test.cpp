@@ -153,9 +153,11 @@ TEST(ErrorShares, WallsPastManyBoxes) {
   const FactorMatrix fine = form_factor_matrix(boxes_in_a_room(), options);
   EXPECT_LT(fine.report.points, 450000u);
   EXPECT_EQ(fine.report.rows_not_reached, 0);
+  EXPECT_LT(fine.report.row_sum_error_max, 1e-6);
   options.tolerance = 1e-3;
   const FactorMatrix coarse = form_factor_matrix(boxes_in_a_room(), options);
   EXPECT_LT(coarse.report.points, 25000u);
+  EXPECT_LT(coarse.report.row_sum_error_max, 1e-4);
   test::expect_within_errors(coarse, fine);
 }
 

@@ -2,6 +2,7 @@
 
 #include "solver/factors/mutual_sight.h"
 #include "tests/support/analytic.h"
+#include "tests/support/expect_error.h"
 #include "tests/support/face_factors.h"
 #include "tests/support/random.h"
 #include "tests/support/scene_maker.h"
@@ -330,6 +331,14 @@ TEST(FactorMatrix, SmallFactorsAreLeftOutWithABound) {
       EXPECT_GE(sparse.error[i], all.factors(i, j));
     }
   EXPECT_TRUE((sparse.row_sum == all.row_sum).all());
+}
+
+/// The box of the surroundings has one, but nobody asks for that.
+TEST(FactorMatrix, FacesWithoutAnAreaAreRefused) {
+  Scene scene;
+  test::add_polygon(scene, {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, test::add_material(scene, 0.5, 0));
+  test::expect_error([&] { test::face_factors(scene, 1e-4); }, ErrorCode::invalid_input,
+                     {"none of its 1 faces has an area"});
 }
 
 TEST(FactorMatrix, StoppedItIsNotComplete) {

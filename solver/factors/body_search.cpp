@@ -237,8 +237,9 @@ class BodyFinder {
       body.low = body.low.cwiseMin(p);
       body.high = body.high.cwiseMax(p);
     }
-    body.width = HUGE_VAL;
+    body.width = body.inner = HUGE_VAL;
     for (const ConvexBody::Side& side : body.sides) {
+      body.inner = std::min(body.inner, side.normal.dot(side.corner - body.ball.centre));
       double deepest = 0;
       for (const Vec3& p : body.vertices)
         deepest = std::max(deepest, side.normal.dot(side.corner - p));

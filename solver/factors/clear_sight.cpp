@@ -1,7 +1,9 @@
 #include "meshing/core/plane_frame.h"
+#include "meshing/geometry/convex_hull.h"
 #include "solver/factors/mutual_sight.h"
 
 #include <cmath>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -40,6 +42,23 @@ MutualArea area_between(std::span<const Vec3> p, double p_area, const SightSurfa
   return is_larger ? mutual_area(q, p, options, stop) : mutual_area(p, q, options, stop);
 }
 
+/// Their hull if they fill it.
+std::vector<Polygon3> joined_triangles(const std::vector<Triangle3>& triangles,
+                                       const PlaneFrame& frame) {
+  std::vector<Polygon3> polygons;
+  std::vector<Vec2> corners;
+  double area = 0;
+  for (const Triangle3& triangle : triangles) {
+    polygons.emplace_back(triangle.begin(), triangle.end());
+    area += area_vector(triangle).norm();
+    for (const Vec3& p : triangle) corners.push_back(frame.to_plane(p));
+  }
+  Polygon3 hull;
+  for (const std::size_t k : convex_hull(corners)) hull.push_back(polygons[k / 3][k % 3]);
+  if (area >= (1 - rounding) * area_vector(hull).norm()) return {hull};
+  return polygons;
+}
+
 }  // namespace
 
 MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolerance& tolerance,
@@ -64,6 +83,19 @@ MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
   MutualSight sum;
   for (std::size_t l = 0; l < q.pieces.size(); ++l)
     add(sum, area_between(part, area, q, l, options, stop), options, tolerance);
+  return sum;
+}
+
+MutualSight clear_sight_in_cells(const SightScene& scene, int a, int b,
+                                 const SightTolerance& tolerance, const std::stop_token& stop) {
+  const std::vector<Polygon3> own =
+      joined_triangles(facing_triangles(scene, a, b).triangles, scene.surfaces[at(a)].frame);
+  const std::vector<Polygon3> other =
+      joined_triangles(facing_triangles(scene, b, a).triangles, scene.surfaces[at(b)].frame);
+  const FormFactorOptions options = options_of(tolerance, own.size() * other.size());
+  MutualSight sum;
+  for (const Polygon3& p : own)
+    for (const Polygon3& q : other) add(sum, mutual_area(p, q, options, stop), options, tolerance);
   return sum;
 }
 

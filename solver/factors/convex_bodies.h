@@ -28,6 +28,7 @@ struct ConvexBody {
   std::size_t open_sides = 0;
   std::vector<Edge> edges;
   Ball ball;         ///< round it
+  double inner = 0;  ///< radius of a ball with the same centre that lies in it
   Vec3 low, high;    ///< the box round it
   double width = 0;  ///< least distance from a side to the farthest vertex, scene units
 };

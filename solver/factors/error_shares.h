@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <vector>
 
@@ -38,6 +39,10 @@ class ErrorShares {
 
   /// Mutual area that a pair may be off by, whatever the others are.
   double even_share(int row, int other) const;
+  /// What so many pairs of an entry together may be.
+  double joint_share(int row, int other, std::size_t pairs) const {
+    return std::pow(static_cast<double>(pairs), 1 / JointError::power) * even_share(row, other);
+  }
   /// Whether its entry has so many pairs that less to do for some means more for others.
   bool is_shared(int row, int other) const;
 

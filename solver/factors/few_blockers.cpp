@@ -1,6 +1,7 @@
 #include "solver/factors/few_blockers.h"
 
 #include "meshing/geometry/mix_bits.h"
+#include "solver/factors/points_across.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,8 +23,6 @@ constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9, of_distance 
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
 /// Of the two surfaces, multiplied: each pair of them is searched for what comes between.
 constexpr std::size_t most_pieces = 16;
-/// Of a lattice, under what lies close above the surface.
-constexpr double points_under = 4;
 /// Borders of one shade are numbered from a multiple of this on.
 constexpr std::uint32_t borders_of_shade = 1 << 20;
 
@@ -41,7 +40,7 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
     : own_(scene.surfaces[at(a)]), target_(scene.surfaces[at(b)]), target_id_(b) {
   if (own_.pieces.size() * target_.pieces.size() > most_pieces) return;
   normal_ = turned(target_.frame, own_.frame.normal);
-  const bool is_known = !blockers.empty();
+  if (blockers.empty()) blockers = blockers_between(scene, a, b);
   double size = 0;
   for (const Polygon3& piece : target_.pieces) {
     const Polygon3 other = clip_to_front(piece, own_.frame.origin, own_.frame.normal);
@@ -52,21 +51,10 @@ FewBlockers::FewBlockers(const SightScene& scene, int a, int b, std::vector<int>
       size = std::max(size, (p - other.front()).norm());
     }
     parts_.add(flat);
-    if (is_known) continue;
-    for (const Polygon3& own_piece : own_.pieces) {
-      const Polygon3 part = clip_to_front(own_piece, target_.frame.origin, target_.frame.normal);
-      if (part.empty()) continue;
-      for (const int t : triangles_between(scene, part, a, other, b))
-        blockers.push_back(scene.blocker_of[at(t)]);
-    }
   }
   for (const Corner& corner : parts_.corners_of_all())
     target_in_space_.push_back(target_.frame.to_space(corner.at));
   target_ball_ = ball_round(target_in_space_);
-  if (!is_known) {
-    std::sort(blockers.begin(), blockers.end());
-    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
-  }
   nearness_ = nearness_of_target * size;
   // Where a body lies before the target's plane as a whole, all that it covers is hidden.
   const auto is_before = [&](const Vec3& p) { return target_.frame.height(p) >= -nearness_; };
@@ -131,34 +119,11 @@ void FewBlockers::forget_found() {
   looks_ = 0;
 }
 
-double FewBlockers::points_across(std::span<const Vec3> sides) const {
-  const auto most = [&](auto square) {
-    double most = 0;
-    for (const Vec3& side : sides) most = std::max(most, square(side));
-    return most;
-  };
-  const double longest = most([](const Vec3& side) { return side.squaredNorm(); });
-  const auto under = [&](std::span<const Vec3> corners, double width) {
-    const bool is_near = std::all_of(corners.begin(), corners.end(), [&](const Vec3& p) {
-      return std::abs(own_.frame.height(p)) < width;
-    });
-    return is_near ? points_under : 1;
-  };
-  double points = longest / (target_ball_.radius * target_ball_.radius);
-  for (const Solid& solid : solids_) {
-    const double width = solid.shape->width;
-    points = std::max(points, under(solid.shape->vertices, width) * longest / (width * width));
-  }
-  for (const Shade& shade : shades_) {
-    const Blocker& blocker = *shade.blocker;
-    const double across = most([&](const Vec3& side) {
-      const double along = side.dot(blocker.along) / blocker.length;
-      return side.cross(blocker.along).squaredNorm() / (blocker.width * blocker.width) +
-             along * along;
-    });
-    points = std::max(points, under(blocker.corners, blocker.width) * across);
-  }
-  return points;
+double FewBlockers::points_across(std::span<const Quad> quads) const {
+  PointsAcross across(own_.frame, quads, target_ball_);
+  for (const Solid& solid : solids_) across.add(*solid.shape);
+  for (const Shade& shade : shades_) across.add(*shade.blocker);
+  return across.points();
 }
 
 double FewBlockers::hidden_by(std::size_t thing, const Vec3& point) {

@@ -5,6 +5,7 @@
 #include "solver/factors/flat_sum.h"
 #include "solver/factors/shaded_target.h"
 #include "solver/factors/sight_scene.h"
+#include "solver/factors/square_lattice.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,11 +26,8 @@ class FewBlockers {
   FewBlockers(const SightScene& scene, int a, int b, std::vector<int> blockers);
 
   bool is_applicable() const { return is_applicable_; }
-  /// How many points of a lattice over a parallelogram or less of `a` it takes for none of the
-  /// things in between, nor the target, to lie between them: what is long and narrow passes between
-  /// points only across. What lies closer to `a` than it is wide hides much from under itself and
-  /// little elsewhere: some points are under it.
-  double points_across(std::span<const Vec3> sides) const;
+  /// PointsAcross of lattices over parts of `a`.
+  double points_across(std::span<const Quad> quads) const;
   /// Whether all that is in between are convex bodies before the target.
   bool has_only_solids() const { return shades_.empty(); }
 

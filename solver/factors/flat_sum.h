@@ -93,6 +93,14 @@ class FlatEdges {
       append(x[from], y[from], x[to], y[to]);
   }
 
+  /// Of one that does not count.
+  void subtract(const double* x, const double* y, std::size_t count) {
+    if (count == 0) return;
+    reserve(count_ + count);
+    for (std::size_t from = count - 1, to = 0; to < count; from = to++)
+      append(x[to], y[to], x[from], y[from]);
+  }
+
   /// From a point, with a unit normal, in the frame of the plane.
   double form_factor(const Vec3& point, const Vec3& normal) {
     if (count_ == 0) return 0;

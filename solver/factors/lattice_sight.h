@@ -2,6 +2,7 @@
 
 #include "solver/factors/mutual_sight.h"
 #include "solver/factors/sight_scene.h"
+#include "solver/factors/square_lattice.h"
 
 #include <cstddef>
 #include <optional>
@@ -17,10 +18,6 @@ struct LatticePair {
   std::span<const int> blockers = {};  ///< SightPair::blockers
   bool to_the_end = false;             ///< though no lattice is expected to be enough
 };
-
-/// Places on a quadrilateral: few of them, and as many as there are. Pairs that few do not suffice
-/// for are better off with cells, if these come to an end.
-constexpr std::size_t few_lattice_places = 4096, most_lattice_places = 262144;
 
 /// Mutual areas of surface `a` and others, with what is between them: what they would see without
 /// it less what it hides, which is integrated over all of `a` by lattices of at most `most_places`

@@ -39,6 +39,10 @@ MutualSight clear_sight(const SightScene& scene, int a, int b, const SightTolera
 MutualSight clear_sight(const SightScene& scene, const Triangle3& part, int b,
                         const SightTolerance& tolerance, const std::stop_token& stop = {});
 
+/// Of what lies of two surfaces in cells of space that both look into.
+MutualSight clear_sight_in_cells(const SightScene& scene, int a, int b,
+                                 const SightTolerance& tolerance, const std::stop_token& stop = {});
+
 /// Of two surfaces that something may come between: what they would see without it less what it
 /// hides, by cubature of exact point factors over `a`; see factors.md. If stopped, the error is
 /// what it is by then, and is_reached false.

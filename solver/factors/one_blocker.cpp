@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -37,8 +39,24 @@ bool hides_all(const Blocker& blocker, std::span<const Vec3> part, std::span<con
   return true;
 }
 
+/// What balls tell of that, if anything.
+std::optional<bool> passes_balls(const ConvexBody& body, const Vec3& from, const Vec3& to) {
+  constexpr double clearly = 1e-6;
+  const double outer2 = body.ball.radius * body.ball.radius;
+  const double inner = (1 - clearly) * body.inner;
+  const Vec3 along = to - from, towards = body.ball.centre - from;
+  const double part = std::clamp(along.dot(towards) / along.squaredNorm(), 0., 1.);
+  const double distance2 = (towards - part * along).squaredNorm();
+  if (distance2 > outer2) return false;
+  const bool are_outside =
+      towards.squaredNorm() > outer2 && (body.ball.centre - to).squaredNorm() > outer2;
+  if (are_outside && inner > 0 && distance2 < inner * inner) return true;
+  return {};
+}
+
 /// Whether a segment passes through a body, not only along it.
 bool passes(const ConvexBody& body, const Vec3& from, const Vec3& to) {
+  if (const auto told = passes_balls(body, from, to)) return *told;
   // What is shorter than this, relative to the segment, may be rounding.
   constexpr double touching = 1e-9;
   double enter = 0, leave = 1;
@@ -63,22 +81,30 @@ bool hides_all(const ConvexBody& body, std::span<const Vec3> part, std::span<con
 }
 
 /// With more in between, one thing that hides all is rather found for smaller parts.
-constexpr std::size_t most_blockers = 64;
+constexpr std::size_t most_things = 64;
+
+/// Bodies and polygons that some triangles are parts of, each once; no more than are looked at, and
+/// one. A body is −1 less its number.
+std::vector<int> things_of(const SightScene& scene, const Between& triangles) {
+  std::vector<int> things;
+  for (const int t : triangles) {
+    const int blocker = scene.blocker_of[at(t)], body = scene.blockers[at(blocker)].body;
+    const int thing = body >= 0 ? -1 - body : blocker;
+    if (std::find(things.rbegin(), things.rend(), thing) == things.rend()) things.push_back(thing);
+    if (things.size() > most_things) break;
+  }
+  return things;
+}
 
 }  // namespace
 
 bool hides_all(const SightScene& scene, const Between& triangles, std::span<const Vec3> part,
                std::span<const Vec3> other) {
-  if (triangles.size() > most_blockers) return false;
-  int last = -1;
-  return std::any_of(triangles.begin(), triangles.end(), [&](int t) {
-    const int blocker = scene.blocker_of[at(t)];
-    const bool is_new = blocker != last;
-    last = blocker;
-    if (!is_new) return false;
-    const int body = scene.blockers[at(blocker)].body;
-    return body >= 0 ? hides_all(scene.bodies[at(body)], part, other)
-                     : hides_all(scene.blockers[at(blocker)], part, other);
+  const std::vector<int> things = things_of(scene, triangles);
+  if (things.size() > most_things) return false;
+  return std::any_of(things.begin(), things.end(), [&](int thing) {
+    return thing < 0 ? hides_all(scene.bodies[at(-1 - thing)], part, other)
+                     : hides_all(scene.blockers[at(thing)], part, other);
   });
 }
 

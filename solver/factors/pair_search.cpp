@@ -1,9 +1,11 @@
 #include "solver/factors/pair_search.h"
 
 #include "meshing/core/parallel.h"
+#include "solver/factors/one_blocker.h"
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace halfshade {
 namespace {
@@ -70,11 +72,19 @@ class TreeMaker {
   const SightScene& scene_;
 };
 
+/// So many sides of a body are looked at together first.
+constexpr std::size_t worth_a_shaft = 8;
+
 class PairSearch {
  public:
   PairSearch(const FactorScene& rows, const SightScene& scene) : rows_(rows), scene_(scene) {
     for (const std::vector<int>& parts : scene.joined.parts)
       trees_.push_back(TreeMaker(scene, parts).tree_);
+    sides_.resize(scene.bodies.size());
+    for (std::size_t t = 0; t < trees_.size(); ++t)
+      if (scene.body_of[t] >= 0) sides_[at(scene.body_of[t])].push_back(static_cast<int>(t));
+    for (std::vector<int>& sides : sides_)
+      if (sides.size() < worth_a_shaft) sides.clear();
   }
 
   struct Found {
@@ -83,16 +93,56 @@ class PairSearch {
   };
 
   void search(int a, std::vector<Found>& found) const {
-    const auto& planes = scene_.joined.sound.surfaces;
     for (int b = a + 1; b < static_cast<int>(trees_.size()); ++b)
-      if (planes[at(a)].plane != planes[at(b)].plane && (has_rows(a) || has_rows(b)))
-        visit({a, 0}, {b, 0}, nullptr, found);
+      if (!is_of_large_body(b)) search(a, b, nullptr, found);
+    for (std::size_t body = 0; body < sides_.size(); ++body) search_body(a, body, found);
   }
 
  private:
   struct Node {
     int tree, group;
   };
+
+  bool is_of_large_body(int tree) const {
+    const int body = scene_.body_of[at(tree)];
+    return body >= 0 && !sides_[at(body)].empty();
+  }
+
+  void search(int a, int b, const Between* known, std::vector<Found>& found) const {
+    const auto& planes = scene_.joined.sound.surfaces;
+    if (planes[at(a)].plane != planes[at(b)].plane && (has_rows(a) || has_rows(b)))
+      visit({a, 0}, {b, 0}, known, found);
+  }
+
+  /// What lies between a surface and all of a body holds what lies between it and any side.
+  void search_body(int a, std::size_t body, std::vector<Found>& found) const {
+    const auto first = std::upper_bound(sides_[body].begin(), sides_[body].end(), a);
+    const int own = scene_.body_of[at(a)];
+    if (first == sides_[body].end() || own == static_cast<int>(body)) return;
+    const Polygon3& part = shape({a, 0});
+    const ConvexBody& shape = scene_.bodies[body];
+    Between between = scene_.between.candidates(part, box_round(shape));
+    // Sides of the two hide nothing of each other: they are convex.
+    std::erase_if(between, [&](int t) {
+      const int of = scene_.blockers[at(scene_.blocker_of[at(t)])].body;
+      return of >= 0 && (of == own || of == static_cast<int>(body));
+    });
+    if (hides_all(scene_, between, part, shape.vertices)) return;
+    for (auto b = first; b != sides_[body].end(); ++b) search(a, *b, &between, found);
+  }
+
+  /// The corners of a box, along edges of it.
+  static Polygon3 box_round(const ConvexBody& body) {
+    const Vec3 &low = body.low, &high = body.high;
+    return {low,
+            {high.x(), low.y(), low.z()},
+            {high.x(), high.y(), low.z()},
+            {low.x(), high.y(), low.z()},
+            {low.x(), high.y(), high.z()},
+            high,
+            {high.x(), low.y(), high.z()},
+            {low.x(), low.y(), high.z()}};
+  }
 
   const Group& group(const Node& n) const { return trees_[at(n.tree)].groups[at(n.group)]; }
   std::span<const int> parts(const Node& n) const {
@@ -152,13 +202,20 @@ class PairSearch {
         const bool has_a = rows_.row[at(a)] >= 0, has_b = rows_.row[at(b)] >= 0;
         if (!(has_a || has_b) || !may_see(scene_, a, b)) continue;
         const bool is_first = has_a && (a < b || !has_b);
-        found.push_back({is_first ? a : b, {is_first ? b : a, sight, blockers}});
+        SightPair pair{is_first ? b : a, sight, {}};
+        pair.is_in_cells = sight == Sight::partial && is_clear_in_cells(scene_, a, b);
+        if (pair.is_in_cells)
+          pair.sight = Sight::clear;
+        else
+          pair.blockers = blockers;
+        found.push_back({is_first ? a : b, std::move(pair)});
       }
   }
 
   const FactorScene& rows_;
   const SightScene& scene_;
-  std::vector<GroupTree> trees_;  // by joined surface
+  std::vector<GroupTree> trees_;         // by joined surface
+  std::vector<std::vector<int>> sides_;  // of bodies with many, joined surfaces, rising
 };
 
 }  // namespace

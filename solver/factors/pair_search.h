@@ -12,6 +12,7 @@ struct SightPair {
   Sight sight;                ///< never none
   std::vector<int> blockers;  ///< of convex pairs that are partial: all SightScene::blockers
                               ///< that reach into their hull; rising
+  bool is_in_cells = false;   ///< is_clear_in_cells; not all of them is
 };
 
 /// For each surface with a row, those it may see: others with rows only once, by the lower of the

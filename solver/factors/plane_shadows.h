@@ -130,6 +130,7 @@ class SharedShadows {
       : scene_(scene), outlines_(scene), planes_(scene.surfaces.size()) {}
 
   void move_to(const Vec3& point) { outlines_.move_to(point); }
+  Outlines& outlines() { return outlines_; }
   PlaneShadows& on_plane_of(int surface) {
     std::unique_ptr<PlaneShadows>& plane = planes_[at(scene_.surfaces[at(surface)].same_frame)];
     if (!plane)

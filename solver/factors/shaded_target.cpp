@@ -7,6 +7,10 @@ namespace halfshade {
 namespace {
 
 constexpr std::size_t most_cut_parts = 1024;
+/// Of each shadow on average: with fewer, parts are few, too.
+constexpr std::size_t many_sides = 12;
+/// What is seen of a target that shadows cover but for this share, may be rounding.
+constexpr double about_dark = 1e-12;
 
 }  // namespace
 
@@ -63,35 +67,10 @@ void ShadedTarget::for_each_part(Use use) const {
   }
 }
 
-/// Puts sides of a shadow that may cross the target into `crossing`. False if
-/// all of the target lies outside of one.
-bool ShadedTarget::find_crossing(int thing) const {
-  const double x = 0.5 * (box_.left + box_.right), y = 0.5 * (box_.low + box_.high);
-  const double across = box_.right - x, up = box_.high - y;
-  const std::span<const ShadowSide> sides = shadows_->sides(thing);
-  std::vector<ShadowSide>& crossing = memory_->crossing;
-  const std::size_t before = crossing.size();
-  crossing.resize(before + sides.size());
-  ShadowSide* next = crossing.data() + before;
-  for (const ShadowSide& side : sides) {
-    const double height = side.ax * x + side.ay * y + side.b;
-    const double reach = std::abs(side.ax) * across + std::abs(side.ay) * up;
-    const double near = side.near(nearness_);
-    if (height - reach > -near) {
-      crossing.resize(before);
-      return false;
-    }
-    *next = side;
-    next += height + reach >= near ? 1 : 0;
-  }
-  crossing.resize(static_cast<std::size_t>(next - crossing.data()));
-  return true;
-}
-
 /// True if it hides all.
 bool ShadedTarget::add_hit(int thing) const {
   const std::size_t before = memory_->crossing.size();
-  if (!find_crossing(thing)) return false;
+  if (!add_crossing(shadows_->sides(thing), box_, nearness_, memory_->crossing)) return false;
   memory_->hits.push_back({before, memory_->crossing.size(), shadows_->box(thing)});
   return memory_->crossing.size() == before;
 }
@@ -123,6 +102,24 @@ void ShadedTarget::take_all() const {
   for_each_part([&](const ShadowCut::Corners& part) { memory_->cut.add(part); });
 }
 
+/// What lies in those hits that are not apart from all others.
+void ShadedTarget::add_union() const {
+  std::vector<FlatShadow>& shadows = memory_->shadows;
+  shadows.clear();
+  for (const TargetMemory::Hit& hit : memory_->hits)
+    if (!hit.is_apart) shadows.push_back({hit.sides(memory_->crossing), hit.box});
+  for_each_part([&](const ShadowCut::Corners& part) {
+    memory_->together.add_edges(part, shadows, nearness_, memory_->edges);
+  });
+}
+
+double ShadedTarget::sum_of_all() const {
+  memory_->edges.clear();
+  for_each_part(
+      [&](const ShadowCut::Corners& part) { memory_->edges.add(part.x, part.y, part.count); });
+  return sum_of_edges();
+}
+
 double ShadedTarget::sum_of_edges() const {
   return std::max(0., memory_->edges.form_factor(shadows_->point(), normal_));
 }
@@ -130,7 +127,10 @@ double ShadedTarget::sum_of_edges() const {
 bool ShadedTarget::hidden_factor(HiddenFactor& factor) const {
   factor = {};
   if (!(shadows_->point().z() > 0) || first_part_ == last_part_) return true;
-  auto& [x, y, ends, all_things, cut, crossing, hits, edges] = *memory_;
+  std::vector<TargetMemory::Hit>& hits = memory_->hits;
+  std::vector<ShadowSide>& crossing = memory_->crossing;
+  ShadowCut& cut = memory_->cut;
+  FlatEdges& edges = memory_->edges;
   crossing.clear();
   hits.clear();
   const auto add_edges = [&](const ShadowCut::Corners& part) {
@@ -150,9 +150,10 @@ bool ShadedTarget::hidden_factor(HiddenFactor& factor) const {
   if (hits.empty()) return true;
   part_hits();
   // What lies apart from all others is cut off the whole.
-  std::size_t together = 0;
+  std::size_t together = 0, sides = 0;
   for (const TargetMemory::Hit& hit : hits) {
     together += hit.is_apart ? 0 : 1;
+    sides += hit.is_apart ? 0 : hit.end - hit.first;
     if (hit.is_apart)
       for_each_part([&](const ShadowCut::Corners& part) {
         add_edges(cut.common(part, hit.sides(crossing), nearness_));
@@ -160,6 +161,12 @@ bool ShadedTarget::hidden_factor(HiddenFactor& factor) const {
   }
   if (together == 0) {
     factor.hidden = sum_of_edges();
+    return true;
+  }
+  if (together <= ShadowUnion::most_shadows && sides > many_sides * together) {
+    add_union();
+    factor.hidden = sum_of_edges();
+    factor.is_dark = factor.hidden >= (1 - about_dark) * sum_of_all();
     return true;
   }
   take_all();

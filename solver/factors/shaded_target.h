@@ -3,6 +3,7 @@
 #include "solver/factors/flat_parts.h"
 #include "solver/factors/flat_sum.h"
 #include "solver/factors/plane_shadows.h"
+#include "solver/factors/shadow_union.h"
 
 #include <cstdint>
 #include <span>
@@ -44,6 +45,8 @@ struct TargetMemory {
   std::vector<ShadowSide> crossing;
   std::vector<Hit> hits;
   FlatEdges edges;
+  ShadowUnion together;
+  std::vector<FlatShadow> shadows;
 };
 
 /// A surface, or what lies of it before another one, and what comes between: as FewBlockers, from
@@ -67,10 +70,11 @@ class ShadedTarget {
   void add_hits(int side, bool& has_others, bool& hides_all) const;
   template <class Use>
   void for_each_part(Use use) const;
-  bool find_crossing(int thing) const;
   bool add_hit(int thing) const;
   void part_hits() const;
   void take_all() const;
+  void add_union() const;
+  double sum_of_all() const;
   double sum_of_edges() const;
   std::span<const TargetMemory::Thing> things() const {
     return {memory_->things.data() + first_thing_, last_thing_ - first_thing_};

@@ -2,6 +2,28 @@
 
 namespace halfshade {
 
+bool add_crossing(std::span<const ShadowSide> sides, const FlatBox& box, double nearness,
+                  std::vector<ShadowSide>& crossing) {
+  const double x = 0.5 * (box.left + box.right), y = 0.5 * (box.low + box.high);
+  const double across = box.right - x, up = box.high - y;
+  const std::size_t before = crossing.size();
+  crossing.resize(before + sides.size());
+  ShadowSide* next = crossing.data() + before;
+  for (const ShadowSide& side : sides) {
+    const double height = side.ax * x + side.ay * y + side.b;
+    const double reach = std::abs(side.ax) * across + std::abs(side.ay) * up;
+    const double near = side.near(nearness);
+    if (height - reach > -near) {
+      crossing.resize(before);
+      return false;
+    }
+    *next = side;
+    next += height + reach >= near ? 1 : 0;
+  }
+  crossing.resize(static_cast<std::size_t>(next - crossing.data()));
+  return true;
+}
+
 void ShadowCut::clear() {
   parts_.clear();
   x_.clear();

@@ -36,6 +36,10 @@ struct FlatBox {
   }
 };
 
+/// Adds sides of a shadow that may cross a box. False, and none, if all of it lies outside of one.
+bool add_crossing(std::span<const ShadowSide> sides, const FlatBox& box, double nearness,
+                  std::vector<ShadowSide>& crossing);
+
 /// What is left of convex polygons when convex shadows are cut off (Sutherland and Hodgman 1974):
 /// as FlatParts, but without borders.
 class ShadowCut {

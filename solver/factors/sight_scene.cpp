@@ -107,8 +107,8 @@ void measure(Blocker& blocker) {
 }
 
 /// A joined surface, or each of its triangles where it is not convex.
-void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
-                  const std::vector<int>& body_of, SightScene& scene) {
+void add_blockers(const std::vector<int>& owner, SightScene& scene) {
+  const SoundScene& joined = scene.joined.sound;
   const TriangleSoup& soup = scene.between.soup();
   std::vector<int> whole(joined.surfaces.size(), -1);
   for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
@@ -118,7 +118,7 @@ void add_blockers(const SoundScene& joined, const std::vector<int>& owner,
       Blocker blocker;
       blocker.normal = surface.frame.normal;
       blocker.rounding = off_plane * surface.scale.magnitude;
-      blocker.body = body_of[at(owner[t])];
+      blocker.body = scene.body_of[at(owner[t])];
       if (is_convex(surface))
         for (const Vec2& p : surface.rings.front())
           blocker.corners.push_back(surface.frame.to_space(p));
@@ -180,9 +180,10 @@ SightScene make_sight_scene(const SoundScene& scene, const Progress& progress) {
                     std::move(between),
                     {},
                     std::move(bodies.bodies),
+                    std::move(bodies.of),
                     {},
                     std::move(light)};
-  add_blockers(result.joined.sound, owner, bodies.of, result);
+  add_blockers(owner, result);
   std::map<std::array<double, 12>, int> frames;
   for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
     SightSurface surface = sight_surface(scene.surfaces[s]);
@@ -288,6 +289,19 @@ std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3
   return triangles;
 }
 
+std::vector<int> blockers_between(const SightScene& scene, int a, int b) {
+  const SightSurface &p = scene.surfaces[at(a)], &q = scene.surfaces[at(b)];
+  const std::vector<Polygon3> others = facing(q.pieces, p.frame);
+  std::vector<int> blockers;
+  for (const Polygon3& part : facing(p.pieces, q.frame))
+    for (const Polygon3& other : others)
+      for (const int t : triangles_between(scene, part, a, other, b))
+        blockers.push_back(scene.blocker_of[at(t)]);
+  std::sort(blockers.begin(), blockers.end());
+  blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
+  return blockers;
+}
+
 bool in_all_cells_of(const SightScene& scene, int a, int b) {
   const std::vector<int>& others = scene.surfaces[at(b)].cells;
   return std::all_of(
@@ -312,6 +326,16 @@ FacingTriangles facing_triangles(const SightScene& scene, int a, int b) {
       result.triangles.push_back({facing[0], facing[k], facing[k + 1]});
   }
   return result;
+}
+
+bool is_clear_in_cells(const SightScene& scene, int a, int b) {
+  if (in_all_cells_of(scene, a, b) && in_all_cells_of(scene, b, a)) return false;
+  Polygon3 part, other;
+  for (const Triangle3& t : facing_triangles(scene, a, b).triangles)
+    part.insert(part.end(), t.begin(), t.end());
+  for (const Triangle3& t : facing_triangles(scene, b, a).triangles)
+    other.insert(other.end(), t.begin(), t.end());
+  return !part.empty() && !other.empty() && triangles_between(scene, part, a, other, b).empty();
 }
 
 }  // namespace halfshade

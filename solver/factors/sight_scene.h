@@ -63,6 +63,7 @@ struct SightScene {
   VisibilityIndex between;  ///< its triangles, each its own owner
   std::vector<Blocker> blockers;
   std::vector<ConvexBody> bodies;
+  std::vector<int> body_of;     ///< joined surface → the body that it is a side of; −1: none
   std::vector<int> blocker_of;  ///< triangle of `between` → what it is a part of
   DirectLightIndex light;       ///< what points see of joined surfaces, exactly
 };
@@ -96,6 +97,10 @@ Sight sight_between_convex(const SightScene& scene, std::span<const Vec3> part, 
 std::vector<int> triangles_between(const SightScene& scene, std::span<const Vec3> part, int a,
                                    std::span<const Vec3> other, int b);
 
+/// What of SightScene::blockers reaches into the hull of any two convex pieces of surfaces `a` and
+/// `b`, as far as these lie before the plane of the other. Rising.
+std::vector<int> blockers_between(const SightScene& scene, int a, int b);
+
 /// Whether light from `b` may reach all triangles of surface `a`, as cells of space go.
 bool in_all_cells_of(const SightScene& scene, int a, int b);
 
@@ -106,5 +111,9 @@ struct FacingTriangles {
   bool is_all = true;
 };
 FacingTriangles facing_triangles(const SightScene& scene, int a, int b);
+
+/// Whether two surfaces, of which one at least lies in cells of space that the other does not see,
+/// see all of each other that lies in the others: as a floor and the inside of what stands on it.
+bool is_clear_in_cells(const SightScene& scene, int a, int b);
 
 }  // namespace halfshade

@@ -30,9 +30,17 @@ struct SquareLattice {
   }
 };
 
+/// A quadrilateral that they are laid on; a triangle has two corners in one place.
+using Quad = std::array<Vec3, 4>;
+
 /// So many lattices there are, of 16, 32, ... 262,144 places.
 constexpr std::size_t lattice_levels = 15;
 constexpr std::size_t places_of_lattice(std::size_t level) { return std::size_t{16} << level; }
+
+/// Few of them, and as many as there are: pairs that few do not suffice for are better off with
+/// cells, if these come to an end.
+constexpr std::size_t few_lattice_places = 4096;
+constexpr std::size_t most_lattice_places = places_of_lattice(lattice_levels - 1);
 
 /// Each holds the one before (Hickernell, Hong, L'Ecuyer and Lemieux 2000), so that no look is lost
 /// where more are needed. It is made when it is first asked for, by any thread, which takes some

@@ -1,5 +1,6 @@
 #include "solver/factors/factor_matrix.h"
 #include "tests/support/balls.h"
+#include "tests/support/round_things.h"
 
 #include <algorithm>
 #include <array>
@@ -19,6 +20,8 @@
 //                                         the same between all boxes and the room
 //   halfshade_matrices balls 3 1e-4 material
 //                                         two balls of 20 · 4³ facets in a room, and the room
+//   halfshade_matrices round 24 1e-4 material
+//                                         cylinders of 24 faces, a ball and a box in a room
 // CPU time is that of all threads. The row error is the largest |row sum − 1| of a closed scene;
 // that of rays the largest root of the sum of squares of what a row's entries differ by from the
 // exact ones. Rays to the exact method's are extrapolated from that, for it falls like the root of
@@ -139,6 +142,7 @@ void print(const std::string& name, const Scene& scene, double tolerance, Last& 
 
 Scene scene_of(const std::string& name, int size) {
   if (name == "balls") return test::room_with_balls(2, size);
+  if (name == "round") return test::room_with_round_things(size);
   return name == "nested" ? nested(size) : boxes(size);
 }
 

@@ -7,6 +7,7 @@
 #include "tests/support/balls.h"
 #include "tests/support/face_factors.h"
 #include "tests/support/random.h"
+#include "tests/support/round_things.h"
 #include "tests/support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -205,6 +206,19 @@ TEST(BodySearch, WhatLooksIntoAnOpenBodySeesWhatPiercesIt) {
   EXPECT_GT(matrix.factors(7, 5), .3);
   EXPECT_GT(matrix.factors(7, 6), .3);
   EXPECT_NEAR(matrix.row_sum[7], 1, 1e-4);
+}
+
+/// However many of its sides lie in between.
+TEST(BodySearch, OneBodyHidesAllThoughItHasManySides) {
+  Scene scene = with_material();
+  add_sheet(scene, {-2, -.2, .8}, {0, .4, 0}, {0, 0, .4});
+  add_sheet(scene, {2, .2, .8}, {0, -.4, 0}, {0, 0, .4});
+  test::add_cylinder(scene, {{0, 0, 0}, 1, 2, 400, true}, 0);
+  const FactorScene factors = make_factor_scene(scene, FactorUnit::face);
+  const SightScene sight = make_sight_scene(factors.sound);
+  ASSERT_TRUE(may_see(sight, 0, 1));
+  EXPECT_GT(blockers_between(sight, 0, 1).size(), 40u);
+  EXPECT_EQ(sight_between(sight, 0, 1), Sight::none);
 }
 
 /// Of a ball of 1,280 facets walls see their share of what it sees of them, which is all; what they

@@ -38,6 +38,7 @@ TEST(ErrorShares, WhatIsLeftGoesToThoseThatNeedIt) {
   JointError joint;
   for (int k = 0; k < OneRow::count; ++k) joint.add(even);
   EXPECT_DOUBLE_EQ(joint.bound(), all);
+  EXPECT_DOUBLE_EQ(shares.joint_share(0, surroundings, OneRow::count), all);
   joint = {};
   for (int k = 0; k < OneRow::count - 3; ++k) {
     shares.spend(0, surroundings, 0.1 * even);

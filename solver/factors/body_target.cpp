@@ -14,13 +14,13 @@ namespace {
 constexpr double nearness_of_view = 1e-12;
 /// From nearer to all its sides, relative to its size, a body is not looked at.
 constexpr double too_near = 1e-7;
-/// Points this near to a plane, relative to their distance, see it edge-on; things this near to one
-/// touch it.
-constexpr double edge_on_plane_of = 1e-12;
+/// Points this near to a plane, relative to their distance, see it edge-on; things this near to
+/// one, relative to where they are, touch it.
+constexpr double edge_on_or_touching = 1e-12;
 constexpr std::size_t most_parts_of_body = 1024;
 
 double touching(const ConvexBody& body) {
-  return edge_on_plane_of * (body.ball.centre.norm() + body.ball.radius);
+  return edge_on_or_touching * (body.ball.centre.norm() + body.ball.radius);
 }
 
 bool is_before(const ConvexBody::Side& plane, std::span<const Vec3> points, double near) {
@@ -170,8 +170,14 @@ void BodyTarget::add_side(const Vec3& from, const Vec3& to, const Vec3& point) {
   cone_.push_back({view_.e1.dot(out), view_.e2.dot(out), -view_.normal.dot(out)});
 }
 
-/// False if the point sees it behind the body, or edge-on. From an open side, on which only what
-/// looks in lies, it hides all.
+/// Whether a body that a point of the surface is in, or on, hides all: unless the surface lies on
+/// it and looks away.
+bool BodyTarget::hides_from_inside(const ConvexBody& body) const {
+  return !is_before(turned_round({own_.frame.origin, own_.frame.normal}), body.vertices,
+                    touching(body));
+}
+
+/// False if the point sees it behind the body, or edge-on.
 bool BodyTarget::find_cone(const Thing& thing, Outlines& outlines) {
   const Vec3& point = outlines.point();
   cone_.clear();
@@ -182,12 +188,12 @@ bool BodyTarget::find_cone(const Thing& thing, Outlines& outlines) {
     const std::vector<Vec3>& vertices = scene_.bodies[at(thing.body)].vertices;
     for (const auto& [from, to] : outlines.of(thing.body))
       add_side(vertices[at(from)], vertices[at(to)], point);
-    return !cone_.empty() || scene_.bodies[at(thing.body)].open_sides > 0;
+    return !cone_.empty() || hides_from_inside(scene_.bodies[at(thing.body)]);
   }
   const std::vector<Vec3>& corners = thing.polygon->corners;
   const Vec3 towards = point - corners.front();
   const double height = thing.polygon->normal.dot(towards);
-  if (!(std::abs(height) > edge_on_plane_of * towards.lpNorm<1>())) return false;
+  if (!(std::abs(height) > edge_on_or_touching * towards.lpNorm<1>())) return false;
   for (std::size_t from = corners.size() - 1, to = 0; to < corners.size(); from = to++)
     height > 0 ? add_side(corners[from], corners[to], point)
                : add_side(corners[to], corners[from], point);

@@ -51,6 +51,7 @@ class BodyTarget {
   bool find_outline(const Outlines::Edges& edges, const Vec3& point);
   bool is_beside(const Ball& ball, const Vec3& point) const;
   bool find_cone(const Thing& thing, Outlines& outlines);
+  bool hides_from_inside(const ConvexBody& body) const;
   void add_side(const Vec3& from, const Vec3& to, const Vec3& point);
   void cut_off_cone();
   double sum_of_edges();

@@ -31,8 +31,8 @@ struct LatticeTarget {
 
 struct LatticeLimits {
   SightTolerance tolerance;
-  bool to_the_end = false;  ///< though no lattice is expected to be enough
-  std::size_t most_places;  ///< of a quadrilateral
+  bool to_the_end = false;                       ///< though no lattice is expected to be enough
+  std::size_t most_places = few_lattice_places;  ///< of a quadrilateral
 };
 
 /// A surface and what it looks at, on their way from lattice to lattice.

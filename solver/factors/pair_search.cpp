@@ -120,14 +120,17 @@ class PairSearch {
     const int own = scene_.body_of[at(a)];
     if (first == sides_[body].end() || own == static_cast<int>(body)) return;
     const Polygon3& part = shape({a, 0});
-    const ConvexBody& shape = scene_.bodies[body];
-    Between between = scene_.between.candidates(part, box_round(shape));
-    // Sides of the two hide nothing of each other: they are convex.
+    const ConvexBody& other = scene_.bodies[body];
+    Between between = scene_.between.candidates(part, box_round(other));
+    // Sides of the two hide nothing of each other: they are convex. Nor does what lies in the
+    // plane.
+    const int plane = scene_.joined.sound.surfaces[at(a)].plane;
     std::erase_if(between, [&](int t) {
       const int of = scene_.blockers[at(scene_.blocker_of[at(t)])].body;
-      return of >= 0 && (of == own || of == static_cast<int>(body));
+      const bool is_side = of >= 0 && (of == own || of == static_cast<int>(body));
+      return is_side || scene_.between.soup().plane[at(t)] == plane;
     });
-    if (hides_all(scene_, between, part, shape.vertices)) return;
+    if (hides_all(scene_, between, part, other.vertices)) return;
     for (auto b = first; b != sides_[body].end(); ++b) search(a, *b, &between, found);
   }
 

@@ -38,7 +38,8 @@ inline void add_cylinder(Scene& scene, const Cylinder& cylinder, int material) {
 }
 
 /// A room in which cylinders stand on the floor, one hovers, and a ball and a box hang between
-/// them, before a sheet. Each has a material of its own; walls are the first.
+/// them, before a sheet; another sheet pierces the box. Each has a material of its own; walls are
+/// the first.
 inline Scene room_with_round_things(int faces) {
   Scene scene;
   const int walls = add_material(scene, 0.5, 0);
@@ -53,6 +54,7 @@ inline Scene room_with_round_things(int faces) {
   for (const auto& face : box_faces({1.5, 2.6, .8}, {2, 3.1, 1.9}, false))
     add_polygon(scene, face, box);
   add_polygon(scene, {{3.4, 2.4, .3}, {3.6, 3.4, .4}, {3.5, 3.4, 2}, {3.3, 2.4, 1.9}}, next());
+  add_polygon(scene, {{1.2, 2.7, .9}, {2.3, 2.7, 1}, {2.3, 2.9, 1.8}, {1.2, 2.9, 1.7}}, next());
   return scene;
 }
 

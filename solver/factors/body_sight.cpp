@@ -17,7 +17,7 @@ constexpr double share_of_dark = 1. / 16;
 
 /// LatticeTarget::weight_of_jumps: one pair is all of an entry, as a rule, where many surfaces are
 /// off independently of each other.
-constexpr double weight_for_bodies = 16;
+constexpr double weight_for_bodies = 25;
 
 /// Sides that face a surface, but for those that nothing comes between.
 std::vector<int> sides_in_doubt(const SightScene& scene, const BodyPair& pair,

@@ -15,10 +15,6 @@ namespace {
 /// the same sign, would add up.
 constexpr double share_of_dark = 1. / 16;
 
-/// LatticeTarget::weight_of_jumps: one pair is all of an entry, as a rule, where many surfaces are
-/// off independently of each other.
-constexpr double weight_for_bodies = 25;
-
 /// Sides that face a surface, but for those that nothing comes between.
 std::vector<int> sides_in_doubt(const SightScene& scene, const BodyPair& pair,
                                 std::span<const int> sides) {
@@ -78,15 +74,7 @@ std::optional<MutualSight> body_sight(const SightScene& scene, const BodyPair& p
   const SightSurface& own = scene.surfaces[at(pair.surface)];
   // Those that are hidden by one thing alone are no pairs, but hidden.
   const std::vector<int> doubtful = sides_in_doubt(scene, pair, sides);
-  std::vector<int> blockers;
-  for (const int side : doubtful) {
-    if (stop.stop_requested()) return {};
-    const std::vector<int> between = blockers_between(scene, pair.surface, side);
-    blockers.insert(blockers.end(), between.begin(), between.end());
-  }
-  std::sort(blockers.begin(), blockers.end());
-  blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
-  BodyTarget body(scene, pair.surface, pair.body, blockers);
+  BodyTarget body(scene, pair.surface, pair.body, doubtful);
   if (!body.is_applicable()) return {};
   std::vector<Quad> quads;
   for (const Polygon3& piece : own.pieces) add_quads(piece, quads);
@@ -97,7 +85,7 @@ std::optional<MutualSight> body_sight(const SightScene& scene, const BodyPair& p
   if (most <= share_of_dark * tolerance.absolute) return MutualSight{0, most, 0, true, false};
   LatticeTarget target;
   target.points_across = body.points_across(quads);
-  target.weight_of_jumps = weight_for_bodies;
+  target.weight_of_jumps = weight_where_alone;
   target.hidden_factor = [&](HiddenFactor& factor) {
     return body.hidden_factor(shadows.outlines(), factor);
   };

@@ -14,8 +14,8 @@ namespace halfshade {
 /// A surface and a convex body that it looks at as a whole.
 struct BodyPair {
   int surface = 0, body = 0;
-  std::vector<int>
-      clear;  ///< sides of the body that nothing comes between, rising: they do not count
+  /// Sides of the body that nothing comes between, rising: they do not count.
+  std::vector<int> clear;
 };
 
 /// Mutual area of a surface and those sides of a body that something may come between: one look

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 #include <utility>
 
 namespace halfshade {
@@ -14,14 +15,9 @@ namespace {
 constexpr double nearness_of_view = 1e-12;
 /// From nearer to all its sides, relative to its size, a body is not looked at.
 constexpr double too_near = 1e-7;
-/// Points this near to a plane, relative to their distance, see it edge-on; things this near to
-/// one, relative to where they are, touch it.
-constexpr double edge_on_or_touching = 1e-12;
+/// Points this near to a polygon's plane, relative to their distance, see it edge-on.
+constexpr double edge_on_polygon = 1e-12;
 constexpr std::size_t most_parts_of_body = 1024;
-
-double touching(const ConvexBody& body) {
-  return edge_on_or_touching * (body.ball.centre.norm() + body.ball.radius);
-}
 
 bool is_before(const ConvexBody::Side& plane, std::span<const Vec3> points, double near) {
   return std::all_of(points.begin(), points.end(),
@@ -42,17 +38,16 @@ std::optional<ConvexBody::Side> side_before(const ConvexBody& body, std::span<co
 
 /// Whether no point of a surface lies within a body, but on it at most.
 bool lies_beside(const ConvexBody& body, const SightSurface& surface) {
-  const double near = touching(body);
+  const double near = rounding_of(body);
   const ConvexBody::Side plane{surface.frame.origin, surface.frame.normal};
-  const FlatSurface own{surface.pieces, surface.frame.normal};
   return side_before(body, surface.outline, near) || is_before(plane, body.vertices, near) ||
-         is_before(turned_round(plane), body.vertices, near) || !is_within_sight(body, own, own);
+         is_before(turned_round(plane), body.vertices, near) ||
+         !reaches_into(body, {surface.pieces, surface.frame.normal});
 }
 
 }  // namespace
 
-BodyTarget::BodyTarget(const SightScene& scene, int surface, int body,
-                       std::span<const int> blockers)
+BodyTarget::BodyTarget(const SightScene& scene, int surface, int body, std::span<const int> sides)
     : scene_(scene),
       own_(scene.surfaces[at(surface)]),
       body_(body),
@@ -61,41 +56,42 @@ BodyTarget::BodyTarget(const SightScene& scene, int surface, int body,
   if (!lies_beside(shape_, own_)) return;
   // Through an open side its inside would be seen.
   for (std::size_t k = shape_.sides.size() - shape_.open_sides; k < shape_.sides.size(); ++k)
-    if (!is_before(turned_round(shape_.sides[k]), own_.outline, touching(shape_))) return;
-  std::vector<int> bodies;
+    if (!is_before(turned_round(shape_.sides[k]), own_.outline, rounding_of(shape_))) return;
+  std::set<int> blockers, bodies;
+  for (const int side : sides)
+    for (const int b : blockers_between(scene, surface, side)) blockers.insert(b);
   for (const int b : blockers) {
     const Blocker& blocker = scene.blockers[at(b)];
     if (blocker.body >= 0)
-      bodies.push_back(blocker.body);
+      bodies.insert(blocker.body);
     else if (!add(blocker))
       return;
   }
-  std::sort(bodies.begin(), bodies.end());
-  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
-  std::erase(bodies, body);  // of a convex body no side hides what is seen of others
+  bodies.erase(body);  // of a convex body no side hides what is seen of others
   is_applicable_ = std::all_of(bodies.begin(), bodies.end(), [&](int b) { return add(b); });
 }
 
 /// False if it may hide anything else than what a solid does, or no plane lies between.
 bool BodyTarget::add(int body) {
   const ConvexBody& other = scene_.bodies[at(body)];
-  const double near = std::max(touching(shape_), touching(other));
+  const double near = std::max(rounding_of(shape_), rounding_of(other));
   std::optional<ConvexBody::Side> plane = side_before(shape_, other.vertices, near);
   if (!plane) {
     plane = side_before(other, shape_.vertices, near);
     if (!plane) return false;
     plane = turned_round(*plane);
   }
-  if (other.open_sides > 0 && !lies_outside(other, shape_.vertices)) return false;
   const std::vector<Polygon3> nothing;  // of what is seen lies in it
-  if (is_within_sight(other, {own_.pieces, own_.frame.normal}, {nothing, own_.frame.normal}))
+  if (other.open_sides > 0 &&
+      (!lies_outside(other, shape_.vertices) ||
+       is_within_sight(other, {own_.pieces, own_.frame.normal}, {nothing, own_.frame.normal})))
     return false;
   things_.push_back({body, nullptr, *plane});
   return true;
 }
 
 bool BodyTarget::add(const Blocker& polygon) {
-  const double near = std::max(touching(shape_), polygon.rounding);
+  const double near = std::max(rounding_of(shape_), polygon.rounding);
   std::optional<ConvexBody::Side> plane = side_before(shape_, polygon.corners, near);
   for (const double sign : {1., -1.}) {
     const ConvexBody::Side own{polygon.corners.front(), sign * polygon.normal};
@@ -151,19 +147,6 @@ bool BodyTarget::find_outline(const Outlines::Edges& edges, const Vec3& point) {
   return is_loop;
 }
 
-/// Whether no ray from the point meets a ball and the target's.
-bool BodyTarget::is_beside(const Ball& ball, const Vec3& point) const {
-  const Vec3 a = shape_.ball.centre - point, b = ball.centre - point;
-  const double a2 = a.squaredNorm(), b2 = b.squaredNorm();
-  const double a_radius2 = shape_.ball.radius * shape_.ball.radius;
-  const double b_radius2 = ball.radius * ball.radius;
-  if (!(a2 > a_radius2 && b2 > b_radius2)) return false;
-  // cos of the angle between them against that of the sum of the angles that they are seen at.
-  const double both =
-      std::sqrt((a2 - a_radius2) * (b2 - b_radius2)) - shape_.ball.radius * ball.radius;
-  return a.dot(b) < both - 1e-12 * std::sqrt(a2 * b2);
-}
-
 /// The plane through the point and an edge; what it hides lies to the left.
 void BodyTarget::add_side(const Vec3& from, const Vec3& to, const Vec3& point) {
   const Vec3 out = (from - point).cross(to - from);
@@ -173,8 +156,8 @@ void BodyTarget::add_side(const Vec3& from, const Vec3& to, const Vec3& point) {
 /// Whether a body that a point of the surface is in, or on, hides all: unless the surface lies on
 /// it and looks away.
 bool BodyTarget::hides_from_inside(const ConvexBody& body) const {
-  return !is_before(turned_round({own_.frame.origin, own_.frame.normal}), body.vertices,
-                    touching(body));
+  return std::any_of(body.vertices.begin(), body.vertices.end(),
+                     [&](const Vec3& p) { return own_.frame.height(p) > rounding_of(body); });
 }
 
 /// False if the point sees it behind the body, or edge-on.
@@ -183,7 +166,7 @@ bool BodyTarget::find_cone(const Thing& thing, Outlines& outlines) {
   cone_.clear();
   if (!(thing.plane.normal.dot(point - thing.plane.corner) > 0)) return false;
   const Ball& ball = thing.polygon ? thing.polygon->ball : scene_.bodies[at(thing.body)].ball;
-  if (is_beside(ball, point)) return false;
+  if (cone_of_body_.is_beside(ball)) return false;
   if (!thing.polygon) {
     const std::vector<Vec3>& vertices = scene_.bodies[at(thing.body)].vertices;
     for (const auto& [from, to] : outlines.of(thing.body))
@@ -193,7 +176,7 @@ bool BodyTarget::find_cone(const Thing& thing, Outlines& outlines) {
   const std::vector<Vec3>& corners = thing.polygon->corners;
   const Vec3 towards = point - corners.front();
   const double height = thing.polygon->normal.dot(towards);
-  if (!(std::abs(height) > edge_on_or_touching * towards.lpNorm<1>())) return false;
+  if (!(std::abs(height) > edge_on_polygon * towards.lpNorm<1>())) return false;
   for (std::size_t from = corners.size() - 1, to = 0; to < corners.size(); from = to++)
     height > 0 ? add_side(corners[from], corners[to], point)
                : add_side(corners[to], corners[from], point);
@@ -206,6 +189,7 @@ bool BodyTarget::stand_at(Outlines& outlines) {
   edges_.clear();
   const Outlines::Edges& edges = outlines.of(body_);
   if (edges.empty()) return true;  // on an open side, or on a side
+  cone_of_body_ = ViewCone(outlines.point(), shape_.ball);
   if (!find_view(outlines.point()) || !find_outline(edges, outlines.point())) return false;
   const Vec3& own = own_.frame.normal;
   normal_ = {own.dot(view_.e1), own.dot(view_.e2), own.dot(view_.normal)};

@@ -4,6 +4,7 @@
 #include "solver/factors/points_across.h"
 #include "solver/factors/shaded_target.h"
 #include "solver/factors/sight_scene.h"
+#include "solver/factors/view_cone.h"
 
 #include <cstddef>
 #include <span>
@@ -16,9 +17,9 @@ namespace halfshade {
 /// after the other in a plane before the point.
 class BodyTarget {
  public:
-  /// With all `blockers` that reach into the hulls of the surface and sides of the body. `scene`
-  /// must outlive it.
-  BodyTarget(const SightScene& scene, int surface, int body, std::span<const int> blockers);
+  /// `sides` are surfaces of the body that something may come between. `scene` must outlive it.
+  /// Cost: that of blockers_between for each side.
+  BodyTarget(const SightScene& scene, int surface, int body, std::span<const int> sides);
 
   /// Whether the surface sees the body from outside alone, and for all that comes between some
   /// plane has it on one side and the body on the other: so that it comes before the body, or lies
@@ -49,7 +50,6 @@ class BodyTarget {
   bool stand_at(Outlines& outlines);
   bool find_view(const Vec3& point);
   bool find_outline(const Outlines::Edges& edges, const Vec3& point);
-  bool is_beside(const Ball& ball, const Vec3& point) const;
   bool find_cone(const Thing& thing, Outlines& outlines);
   bool hides_from_inside(const ConvexBody& body) const;
   void add_side(const Vec3& from, const Vec3& to, const Vec3& point);
@@ -63,8 +63,9 @@ class BodyTarget {
   bool is_applicable_ = false;
   std::vector<Thing> things_;
   // Of one look, at a plane before the point that is 1 above it:
-  PlaneFrame view_;            ///< its axes, with the point as the origin
-  Vec3 normal_;                ///< of the surface that looks, in the view
+  PlaneFrame view_;  ///< its axes, with the point as the origin
+  Vec3 normal_;      ///< of the surface that looks, in the view
+  ViewCone cone_of_body_;
   std::vector<int> next_;      ///< along the outline, by vertex; −1: not on it
   std::vector<double> x_, y_;  ///< corners of the outline
   FlatBox box_;                ///< round it

@@ -16,11 +16,6 @@ constexpr double edge_on_side = 1e-12;
 /// What of a surface lies in a closed body.
 enum class Within { nothing, some, all };
 
-double rounding_of(const ConvexBody& body) {
-  constexpr double rounding = 1e-12;  // relative to the largest coordinate
-  return rounding * (body.ball.centre.norm() + body.ball.radius);
-}
-
 Within within(const ConvexBody& body, const std::vector<std::vector<Vec3>>& pieces) {
   const double near = rounding_of(body);
   const auto all_lie = [&](const std::vector<Vec3>& polygon, const ConvexBody::Side& side,
@@ -63,6 +58,15 @@ bool looks_in_at_open_side(const ConvexBody& body, const FlatSurface& surface) {
 }
 
 }  // namespace
+
+double rounding_of(const ConvexBody& body) {
+  constexpr double rounding = 1e-12;  // relative to the largest coordinate
+  return rounding * (body.ball.centre.norm() + body.ball.radius);
+}
+
+bool reaches_into(const ConvexBody& body, const FlatSurface& surface) {
+  return within(body, surface.pieces) != Within::nothing;
+}
 
 Ball ball_round(std::span<const Vec3> points) {
   Ball ball;

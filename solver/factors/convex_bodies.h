@@ -39,6 +39,12 @@ struct FlatSurface {
   Vec3 normal;
 };
 
+/// Of lengths at the body, scene units.
+double rounding_of(const ConvexBody& body);
+
+/// Whether any of a surface lies in it, or on it.
+bool reaches_into(const ConvexBody& body, const FlatSurface& surface);
+
 /// Whether its sides may hide anything else from one surface of another than what a solid would.
 /// If it is closed: where some point of one, in or on the body, looks through its inside at the
 /// other, outside or on it. What lies outside looks at nothing inside. If it is open: unless both

@@ -17,9 +17,6 @@ constexpr std::size_t worth_a_reach = 8;
 constexpr double nearness_of_target = 1e-11;
 /// A point this near to a blocker's plane sees its edge: relative to the blocker.
 constexpr double edge_on = 1e-12;
-/// Targets that fill more of the view, as the sine of half the angle, are not asked what lies
-/// beside them; and balls count as larger by what rounding is.
-constexpr double nearly_all_round = 0.99, slightly_more = 1 + 1e-9, of_distance = 1e-15;
 constexpr std::uint64_t lit_signature = 0x2fd08b6e51c3a497, dark_signature = 0x81e6c35a0f94d72b;
 /// Of the two surfaces, multiplied: each pair of them is searched for what comes between.
 constexpr std::size_t most_pieces = 16;
@@ -248,23 +245,7 @@ void FewBlockers::stand_at(const Vec3& point) {
 
 void FewBlockers::look_from(const Vec3& point) {
   stand_at(point);
-  towards_ = target_ball_.centre - point;
-  const double distance = towards_.norm();
-  const double sine = target_ball_.radius / distance;
-  tangent_ = HUGE_VAL;
-  if (!(sine < nearly_all_round)) return;
-  secant_ = 1 / std::sqrt(1 - sine * sine);
-  tangent_ = sine * secant_;
-  towards_ /= distance;
-}
-
-/// Whether a ball lies outside of the cone from the point to the target's ball.
-bool FewBlockers::is_beside(const Ball& ball) const {
-  if (tangent_ == HUGE_VAL) return false;
-  const Vec3 to = ball.centre - point_;
-  const double along = towards_.dot(to);
-  const double reach = along * (tangent_ + of_distance) + ball.radius * secant_ * slightly_more;
-  return reach < 0 || (to - along * towards_).squaredNorm() > reach * reach;
+  view_ = ViewCone(point, target_ball_);
 }
 
 /// Leaves the parts that are seen. False if there are too many.
@@ -280,7 +261,7 @@ bool FewBlockers::cut_off_all(HiddenFactor& factor) {
   for (std::size_t k = 0; k < solids_.size() && can_go_on(); ++k) {
     const Solid& solid = solids_[k];
     border += borders_of_shade;
-    if (is_beside(solid.shape->ball)) continue;
+    if (view_.is_beside(solid.shape->ball)) continue;
     shadow_.clear();
     if (make_shadow(*solid.shape, border)) cut_off(k, solid.shape->vertices);
   }
@@ -289,7 +270,7 @@ bool FewBlockers::cut_off_all(HiddenFactor& factor) {
     for (std::size_t k = 0; k < shades_.size() && can_go_on(); ++k) {
       const Shade& shade = shades_[k];
       const double height = shade.height(point_);
-      if (!(height * side > 0) || is_beside(shade.blocker->ball)) continue;
+      if (!(height * side > 0) || view_.is_beside(shade.blocker->ball)) continue;
       const auto number = static_cast<std::uint32_t>(solids_.size() + k + 1);
       shadow_.clear();
       if (make_shadow(shade, height, number * borders_of_shade))

@@ -6,6 +6,7 @@
 #include "solver/factors/shaded_target.h"
 #include "solver/factors/sight_scene.h"
 #include "solver/factors/square_lattice.h"
+#include "solver/factors/view_cone.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -85,7 +86,6 @@ class FewBlockers {
   bool add_plane(const Vec3& normal, const Vec3& corner, std::uint32_t border);
   void stand_at(const Vec3& point);
   void look_from(const Vec3& point);
-  bool is_beside(const Ball& ball) const;
   bool cut_off_all(HiddenFactor& factor);
   FlatParts::Box reach_of_shadow(std::span<const Vec3> corners, bool is_polygon) const;
   void add_hidden(std::span<const Corner> part, HiddenFactor& factor) const;
@@ -106,8 +106,7 @@ class FewBlockers {
   Vec3 point_;       ///< it,
   Vec3 from_frame_;  ///< from the origin of the target's frame,
   Vec3 in_frame_;    ///< and in the frame
-  Vec3 towards_;     ///< the target's ball, unit length; with the angle that it is seen at:
-  double tangent_ = 0, secant_ = 0;
+  ViewCone view_;    ///< of the target
   Silhouette silhouette_;
   std::vector<FlatParts::HalfPlane> shadow_;  ///< of one thing in between
   std::vector<double> found_;                 ///< by thing, the sum over `looks_` points

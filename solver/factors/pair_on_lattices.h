@@ -17,6 +17,10 @@ namespace halfshade {
 /// A convex polygon as a fan of them.
 void add_quads(const Polygon3& polygon, std::vector<Quad>& quads);
 
+/// LatticeTarget::weight_of_jumps of what is all of an entry, as a rule, where many surfaces are
+/// off independently of each other.
+constexpr double weight_where_alone = 25;
+
 /// What is looked at.
 struct LatticeTarget {
   /// What is hidden of it from where the shadows are. False if that cannot be told.

@@ -68,6 +68,11 @@ struct SightScene {
   DirectLightIndex light;       ///< what points see of joined surfaces, exactly
 };
 
+/// The body that a surface is a side of; −1: none.
+inline int body_with(const SightScene& scene, int surface) {
+  return scene.body_of[at(scene.surfaces[at(surface)].joined)];
+}
+
 /// `scene` must outlive the result. Cost: that of ReflectingScene and DirectLightIndex.
 SightScene make_sight_scene(const SoundScene& scene, const Progress& progress = {});
 

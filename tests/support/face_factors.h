@@ -15,6 +15,15 @@ inline FactorMatrix face_factors(const Scene& scene, double tolerance) {
   return form_factor_matrix(scene, options);
 }
 
+/// The same between what is of one material each.
+inline FactorMatrix material_factors(const Scene& scene, double tolerance) {
+  FactorOptions options;
+  options.unit = FactorUnit::material;
+  options.method = FactorMethod::exact;
+  options.tolerance = tolerance;
+  return form_factor_matrix(scene, options);
+}
+
 /// Two matrices of the same rows are as near to each other as both claim.
 inline void expect_within_errors(const FactorMatrix& a, const FactorMatrix& b) {
   for (Eigen::Index i = 0; i < a.area.size(); ++i) {

@@ -20,7 +20,8 @@ struct Cylinder {
 
 inline void add_cylinder(Scene& scene, const Cylinder& cylinder, int material) {
   const auto corner = [&](int k, double z) -> Vec3 {
-    const double angle = 2 * std::numbers::pi * k / cylinder.faces;
+    const int n = cylinder.faces;
+    const double angle = 2 * std::numbers::pi * ((k + n) % n) / n;
     return cylinder.foot +
            Vec3(cylinder.radius * std::cos(angle), cylinder.radius * std::sin(angle), z);
   };

@@ -225,11 +225,7 @@ TEST(BodySearch, OneBodyHidesAllThoughItHasManySides) {
 /// see of each other is less, by one silhouette. (With bodies of up to 1,024 edges only, 83,000
 /// points were looked at.)
 TEST(BodySearch, BallsOfManyFacetsHideWallsFromEachOther) {
-  FactorOptions options;
-  options.unit = FactorUnit::material;
-  options.method = FactorMethod::exact;
-  options.tolerance = 1e-4;
-  const FactorMatrix matrix = form_factor_matrix(test::room_with_balls(1, 3), options);
+  const FactorMatrix matrix = test::material_factors(test::room_with_balls(1, 3), 1e-4);
   const double of_ball = matrix.area[1] / matrix.area[0];
   EXPECT_NEAR(matrix.factors(0, 1), of_ball, 1e-9);
   EXPECT_NEAR(matrix.factors(0, 0), 1 - of_ball, 5e-6);

@@ -30,7 +30,7 @@ struct Room {
 
   Room() : sides(sight.bodies.size()) {
     for (int s = 0; s < surfaces(); ++s) {
-      const int body = sight.body_of[at(sight.surfaces[at(s)].joined)];
+      const int body = body_with(sight, s);
       if (body >= 0) sides[at(body)].push_back(s);
     }
   }
@@ -40,13 +40,10 @@ struct Room {
   }
 
   BodyTarget target(int surface, std::size_t body) const {
-    std::vector<int> blockers;
+    std::vector<int> facing;
     for (const int side : sides[body])
-      if (may_see(sight, surface, side))
-        for (const int b : blockers_between(sight, surface, side)) blockers.push_back(b);
-    std::sort(blockers.begin(), blockers.end());
-    blockers.erase(std::unique(blockers.begin(), blockers.end()), blockers.end());
-    return {sight, surface, static_cast<int>(body), blockers};
+      if (may_see(sight, surface, side)) facing.push_back(side);
+    return {sight, surface, static_cast<int>(body), facing};
   }
 
   struct Seen {
@@ -157,10 +154,11 @@ TEST(BodyTarget, NotWhereThingsMeetTheBodyOrEachOther) {
   test::add_polygon(scene, {{1, 1.8, 2}, {3, 1.8, 2.1}, {3, 2.2, 2.1}, {1, 2.2, 2}}, 0);
   const FactorScene factors = make_factor_scene(scene, FactorUnit::face);
   const SightScene sight = make_sight_scene(factors.sound);
-  std::vector<int> all;
-  for (int b = 0; b < static_cast<int>(sight.blockers.size()); ++b) all.push_back(b);
-  for (std::size_t body = 0; body < sight.bodies.size(); ++body)
-    EXPECT_FALSE(BodyTarget(sight, 0, static_cast<int>(body), all).is_applicable());
+  ASSERT_EQ(sight.bodies.size(), 1u);
+  std::vector<int> sides;
+  for (int s = 0; s < static_cast<int>(sight.surfaces.size()); ++s)
+    if (body_with(sight, s) == 0) sides.push_back(s);
+  EXPECT_FALSE(BodyTarget(sight, 0, 0, sides).is_applicable());
 }
 
 std::vector<JoinedPairs> pairs_by(FactorUnit unit) {
@@ -175,7 +173,7 @@ std::vector<JoinedPairs> pairs_by(FactorUnit unit) {
       const SightPair& pair = pairs[at(low)][place];
       EXPECT_EQ(pair.sight, Sight::partial);
       const int side = low == body.whole.surface ? pair.other : low;
-      EXPECT_EQ(sight.body_of[at(sight.surfaces[at(side)].joined)], body.whole.body);
+      EXPECT_EQ(body_with(sight, side), body.whole.body);
     }
   return joined;
 }
@@ -190,12 +188,8 @@ TEST(BodyPairs, OfBodiesThatHaveOneRow) {
 TEST(BodyPairs, AddUpToWhatTheirSidesDo) {
   const Scene scene = test::room_with_round_things(12);
   const FactorMatrix faces = test::face_factors(scene, 1e-5);
-  FactorOptions options;
-  options.unit = FactorUnit::material;
-  options.method = FactorMethod::exact;
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
-    options.tolerance = tolerance;
-    const FactorMatrix matrix = form_factor_matrix(scene, options);
+    const FactorMatrix matrix = test::material_factors(scene, tolerance);
     EXPECT_EQ(matrix.report.rows_not_reached, 0);
     EXPECT_LT(matrix.report.row_sum_error_max, tolerance);
     for (Eigen::Index i = 0; i < matrix.area.size(); ++i)
@@ -215,11 +209,7 @@ TEST(BodyPairs, AddUpToWhatTheirSidesDo) {
 
 /// (Side by side it is 80,000.)
 TEST(BodyPairs, TakeFewPoints) {
-  FactorOptions options;
-  options.unit = FactorUnit::material;
-  options.method = FactorMethod::exact;
-  options.tolerance = 1e-4;
-  const FactorMatrix matrix = form_factor_matrix(test::room_with_balls(3, 2), options);
+  const FactorMatrix matrix = test::material_factors(test::room_with_balls(3, 2), 1e-4);
   EXPECT_EQ(matrix.report.rows_not_reached, 0);
   EXPECT_LT(matrix.report.points, 45000u);
 }
@@ -234,11 +224,7 @@ TEST(BodyPairs, FloorsUnderOpenCylindersSeeTheirInside) {
   const int faces = 32;
   test::add_cylinder(scene, {{1, 1.5, 0}, .5, 1.7, faces}, 0);
   test::add_cylinder(scene, {{4, 2, 0}, .4, 2, faces}, 0);
-  FactorOptions options;
-  options.unit = FactorUnit::face;
-  options.method = FactorMethod::exact;
-  options.tolerance = 1e-2;
-  const FactorMatrix matrix = form_factor_matrix(scene, options);
+  const FactorMatrix matrix = test::face_factors(scene, 1e-2);
   const double of_unit = faces / 2. * std::sin(2 * std::numbers::pi / faces);
   const double discs = of_unit * (.5 * .5 + .4 * .4);
   const Eigen::Index floor = 4;

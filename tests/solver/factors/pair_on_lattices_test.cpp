@@ -38,7 +38,7 @@ TEST(PairOnLattices, TellsWhatJumpsAreOffBy) {
     SharedShadows shadows(sight);
     LatticeTarget target;
     target.points_across = 16;
-    target.weight_of_jumps = 25;
+    target.weight_of_jumps = weight_where_alone;
     target.unhidden = [](const SightTolerance&) {
       MutualSight all;
       all.value = 1;

@@ -1,5 +1,6 @@
 #include "solver/factors/factor_matrix.h"
 #include "tests/support/face_factors.h"
+#include "tests/support/round_things.h"
 #include "tests/support/scenes.h"
 
 #include <Eigen/Geometry>
@@ -19,18 +20,13 @@ void expect_reached(const FactorMatrix& matrix, double tolerance, const std::str
   EXPECT_EQ(matrix.report.rows_not_reached, 0) << what << " " << tolerance;
 }
 
-/// The side of a cylinder of radius 1 and height 4, seen from outside.
+/// The side of a cylinder of radius 1 and height 4, seen from outside, as a group.
 void add_cylinder(Scene& scene, double middle, int sides) {
-  const auto corner = [&](int k, double z) {
-    const double angle = 2 * std::numbers::pi * (k % sides) / sides;
-    return Vec3(middle + std::cos(angle), std::sin(angle), z);
-  };
   const int group = static_cast<int>(scene.groups.size());
   scene.groups.push_back("cylinder " + std::to_string(group));
-  for (int k = 0; k < sides; ++k) {
-    test::add_polygon(scene, {corner(k, 0), corner(k + 1, 0), corner(k + 1, 4), corner(k, 4)}, 0);
-    scene.faces.back().group = group;
-  }
+  const std::size_t first = scene.faces.size();
+  test::add_cylinder(scene, {{middle, 0, 0}, 1, 4, sides, false, false}, 0);
+  for (std::size_t f = first; f < scene.faces.size(); ++f) scene.faces[f].group = group;
 }
 
 /// Lattices of points agree about some pairs of their sides, and are wrong: rows tell.

@@ -108,15 +108,22 @@ ElementField gathered(const ReflectedLight& light, const AdaptiveField& polynomi
       progress);
 }
 
-/// Direct light that went the way of reflected light, on given elements.
+/// Direct light that went the way of reflected light, on given elements: what exact parts know of
+/// it from all light, `whole`; rays, which must not be noisy, look once more.
 ElementField direct_by_operator(const SoundScene& scene, const ElementTable& elements,
-                                ReflectedOptions options, const Progress& progress) {
+                                const ReflectedLight& whole, ReflectedOptions options,
+                                const Progress& progress) {
+  const std::vector<int> orders(elements.corners.size(), std::min(told_order, options.order));
+  if (whole.bounces() > 0)
+    return fitted(elements, orders, [&](int e, const Vec3& p) {
+      return whole.irradiance_after(1, elements.surface[at(e)], p);
+    });
   options.bounces = 1;
   options.each_bounce = false;
   const ReflectedLight light = reflected_light(scene, {}, options, progress);
-  return fitted(elements,
-                std::vector<int>(elements.corners.size(), std::min(told_order, options.order)),
-                [&](int e, const Vec3& p) { return light.irradiance(elements.surface[at(e)], p); });
+  return fitted(elements, orders, [&](int e, const Vec3& p) {
+    return light.irradiance(elements.surface[at(e)], p);
+  });
 }
 
 /// The parts of `field`, all of `light` on given elements, by the number of reflections.
@@ -244,7 +251,11 @@ TotalField add_reflected_light(const SoundScene& scene, DirectField direct,
   add_fields(light, direct.region, on_elements, find_wholes(total.elements, *found), total);
   if (options.reflected.through_operator) {
     if (total.bounces.empty()) {
-      total.direct = direct_by_operator(scene, total.elements, options.reflected, progress);
+      stages.run("direct light", [&] {
+        total.direct = direct_by_operator(scene, total.elements, *total.reflected,
+                                          options.reflected, progress);
+        return total.elements.corners.size();
+      });
     } else {
       total.direct = std::move(total.bounces.front());
       total.bounces.erase(total.bounces.begin());

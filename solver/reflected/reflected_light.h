@@ -105,7 +105,8 @@ class ReflectedLight {
   /// G by the polynomials. Precondition: the point lies on the surface, up to rounding.
   Rgb irradiance(int surface, const Vec3& position) const;
 
-  /// How many reflections are told apart; 0 unless ReflectedOptions::each_bounce.
+  /// How many reflections are told apart: 0 unless ReflectedOptions::each_bounce, or 1 by exact
+  /// parts if direct light goes through the operator.
   int bounces() const;
   /// The part of G that arrives after `reflections` of them, in [1, bounces()], or one less if
   /// direct light goes through the operator; the parts add up to G.

@@ -144,6 +144,8 @@ class Rounds {
     state_.mesh = system.mesh;
     if (options_.each_bounce)
       state_.by_bounce = split_by_bounce(system, options_.bounces, state_.field);
+    else if (parts_ && options_.through_operator)
+      state_.by_bounce = {arriving_by_rows(system, zero_field(system.mesh))};
   }
 
   void solve(const ReflectedSystem& system, Found& found) {

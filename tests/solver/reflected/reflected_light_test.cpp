@@ -240,6 +240,33 @@ TEST(ReflectedLight, ExactRowsMissByLessWhenLessIsAllowed) {
   }
 }
 
+TEST(ReflectedLight, DirectLightThroughExactPartsTakesNoSolutionOfItsOwn) {
+  const SoundScene scene = make_sound(furnace(test::room({1, 1, 1}, {}), 5));
+  ReflectedOptions options = within(1e-4, ReflectedVisibility::exact);
+  options.through_operator = true;
+  const ReflectedLight light = reflected_light(scene, {}, options);
+  ASSERT_EQ(light.bounces(), 1);
+  const ElementTable& elements = light.elements();
+  std::vector<double> found(6, 0), expected(6, 0);
+  for (int e = 0; e < elements.count(); ++e) {
+    const auto [a, b, c] = elements.triangle(e);
+    const int s = elements.surface[at(e)];
+    for (const Vec3& p : {Vec3((a + b) / 2), Vec3((b + c) / 2), Vec3((c + a) / 2)})
+      found[at(s)] += elements.area[at(e)] / 3 * light.irradiance_after(1, s, p)[0];
+  }
+  // F between opposite faces of a cube, in closed form.
+  constexpr double opposite = 0.19982489569838746, beside = (1 - opposite) / 4;
+  for (int s = 0; s < 6; ++s)
+    for (int t = 0; t < 6; ++t) {
+      const double facing =
+          scene.surfaces[at(s)].frame.normal.dot(scene.surfaces[at(t)].frame.normal);
+      const Material& m = scene.materials[at(scene.surfaces[at(t)].material)];
+      if (s != t) expected[at(s)] += (facing < -0.5 ? opposite : beside) * m.exitance[0];
+    }
+  for (std::size_t s = 0; s < 6; ++s)
+    EXPECT_NEAR(found[s], expected[s], options.tolerance * expected[s]) << s;
+}
+
 struct Case {
   const char* name;
   Scene scene;

@@ -121,9 +121,8 @@ ElementField direct_by_operator(const SoundScene& scene, const ElementTable& ele
   options.bounces = 1;
   options.each_bounce = false;
   const ReflectedLight light = reflected_light(scene, {}, options, progress);
-  return fitted(elements, orders, [&](int e, const Vec3& p) {
-    return light.irradiance(elements.surface[at(e)], p);
-  });
+  return fitted(elements, orders,
+                [&](int e, const Vec3& p) { return light.irradiance(elements.surface[at(e)], p); });
 }
 
 /// The parts of `field`, all of `light` on given elements, by the number of reflections.

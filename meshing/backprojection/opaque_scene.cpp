@@ -20,7 +20,7 @@ FlatTree make_face_tree(const OpaqueTopology& topology) {
     boxes.push_back(box);
   }
   // A box is tested sooner than a face.
-  return make_flat_tree(boxes, 1);
+  return make_tight_tree(boxes, 1);
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ NormalCone cone_of(const OpaqueTopology& topology, const FlatTree::Node& node,
 FlatTree tree_over(const OpaqueTopology& topology, const std::vector<int>& chosen) {
   std::vector<Bounds> boxes;
   for (const int e : chosen) boxes.push_back(box_of(topology, topology.edges[at(e)]));
-  FlatTree tree = make_flat_tree(boxes);
+  FlatTree tree = make_tight_tree(boxes);
   for (int& item : tree.items) item = chosen[at(item)];
   return tree;
 }

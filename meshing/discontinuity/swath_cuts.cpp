@@ -41,7 +41,7 @@ SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
       contacts_.push_back({contact, tolerance_of(surface).length});
       boxes.push_back({contact.from.cwiseMin(contact.to), contact.from.cwiseMax(contact.to)});
     }
-  contact_tree_ = make_flat_tree(boxes);
+  contact_tree_ = make_tight_tree(boxes);
 }
 
 std::vector<double> SwathCuts::limits(const Swath& swath) const {

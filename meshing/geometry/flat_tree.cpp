@@ -2,52 +2,139 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
+#include <utility>
+#include <vector>
 
 namespace halfshade {
 namespace {
 
 /// Centres closer than this share of a node's size have the order of their numbers.
 constexpr double equal = 0x1p-30;
+/// Surfaces that differ by less are the same.
+constexpr double clearly_less = 1e-9;
+/// Longer ranges are halved, for their boxes overlap little and each would be sorted three times.
+/// A quarter on either side of these keeps walks within FlatTree::max_stack.
+constexpr std::size_t most_swept = 4096;
 
-int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count, int leaf_size) {
-  const auto begin = tree.items.begin() + first, end = begin + count;
-  FlatTree::Node node;
-  node.first = first;
-  node.count = count;
-  Bounds centres;
-  for (auto item = begin; item != end; ++item) {
-    node.box.include(boxes[at(*item)]);
-    centres.include(boxes[at(*item)].centre());
+/// Items, as places of their centres along an axis: those that differ by rounding are the same, and
+/// have the order of their numbers.
+struct Placed {
+  double place;
+  int item;
+  bool operator<(const Placed& other) const {
+    return place != other.place ? place < other.place : item < other.item;
   }
-  const auto index = static_cast<int>(tree.nodes.size());
-  tree.nodes.push_back(node);
-  if (count <= leaf_size) return index;
+};
+
+std::vector<Placed> placed(std::span<const Bounds> boxes, std::span<const int> items,
+                           const Bounds& centres, int axis) {
+  const double size = centres.high[axis] - centres.low[axis], unit = size > 0 ? equal * size : 1;
+  std::vector<Placed> result;
+  for (const int i : items)
+    result.push_back({std::round((boxes[at(i)].centre()[axis] - centres.low[axis]) / unit), i});
+  return result;
+}
+
+void take_order(const std::vector<Placed>& order, std::span<int> items) {
+  for (std::size_t k = 0; k < items.size(); ++k) items[k] = order[k].item;
+}
+
+/// Half of them to the left along the longest axis. The number of those.
+int halve_items(std::span<const Bounds> boxes, const Bounds& centres, std::span<int> items) {
   const Vec3 size = centres.high - centres.low;
   int axis = 0;  // the first of the longest; ties are not for rounding to break
   for (int k = 1; k < 3; ++k)
     if (size[k] > size[axis] * (1 + equal)) axis = k;
-  const double unit = size[axis] > 0 ? equal * size[axis] : 1;
-  const int half = count / 2;
-  std::nth_element(begin, begin + half, end, [&](int i, int j) {
-    const double x = std::round((boxes[at(i)].centre()[axis] - centres.low[axis]) / unit);
-    const double y = std::round((boxes[at(j)].centre()[axis] - centres.low[axis]) / unit);
-    return x != y ? x < y : i < j;
-  });
-  add_node(tree, boxes, first, half, leaf_size);
-  const int right = add_node(tree, boxes, first + half, count - half, leaf_size);
+  std::vector<Placed> order = placed(boxes, items, centres, axis);
+  const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
+  std::nth_element(order.begin(), order.begin() + half, order.end());
+  take_order(order, items);
+  return static_cast<int>(half);
+}
+
+double half_surface(const Bounds& box) {
+  const Vec3 size = box.high - box.low;
+  return size.x() * size.y() + size.y() * size.z() + size.z() * size.x();
+}
+
+/// The number of the first items of an order, a quarter of all at least and at most three, with
+/// which both sides have the least surface for their items, and that.
+std::pair<int, double> least_surface(std::span<const Bounds> boxes,
+                                     const std::vector<Placed>& order) {
+  const std::size_t n = order.size(), least = std::max<std::size_t>(1, n / 4);
+  std::vector<double> cost(n + 1, 0);  // by the number on the left
+  Bounds left, right;
+  for (std::size_t k = 1; k < n; ++k) {
+    left.include(boxes[at(order[k - 1].item)]);
+    right.include(boxes[at(order[n - k].item)]);
+    cost[k] += half_surface(left) * static_cast<double>(k);
+    cost[n - k] += half_surface(right) * static_cast<double>(k);
+  }
+  std::size_t best = least;
+  for (std::size_t k = least; k <= n - least; ++k)
+    if (cost[k] < cost[best] * (1 - clearly_less)) best = k;
+  return {static_cast<int>(best), cost[best]};
+}
+
+/// As make_tight_tree says. The number of those to the left.
+int divide_by_surface(std::span<const Bounds> boxes, const Bounds& centres, std::span<int> items) {
+  if (items.size() > most_swept) return halve_items(boxes, centres, items);
+  std::vector<Placed> best_order;
+  std::pair<int, double> best;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<Placed> order = placed(boxes, items, centres, axis);
+    std::sort(order.begin(), order.end());
+    const std::pair<int, double> found = least_surface(boxes, order);
+    if (!best_order.empty() && !(found.second < best.second * (1 - clearly_less))) continue;
+    best_order = std::move(order);
+    best = found;
+  }
+  if (best.second == 0) return halve_items(boxes, centres, items);  // points, or all in a line
+  take_order(best_order, items);
+  return best.first;
+}
+
+template <class Divide>
+int add_node(FlatTree& tree, std::span<const Bounds> boxes, int first, int count, int leaf_size,
+             const Divide& divide) {
+  const std::span<int> items = std::span(tree.items).subspan(at(first), at(count));
+  FlatTree::Node node;
+  node.first = first;
+  node.count = count;
+  Bounds centres;
+  for (const int item : items) {
+    node.box.include(boxes[at(item)]);
+    centres.include(boxes[at(item)].centre());
+  }
+  const auto index = static_cast<int>(tree.nodes.size());
+  tree.nodes.push_back(node);
+  if (count <= leaf_size) return index;
+  const int left = divide(boxes, centres, items);
+  add_node(tree, boxes, first, left, leaf_size, divide);
+  const int right = add_node(tree, boxes, first + left, count - left, leaf_size, divide);
   tree.nodes[at(index)].right = right;
   return index;
+}
+
+template <class Divide>
+FlatTree make_tree(std::span<const Bounds> boxes, int leaf_size, const Divide& divide) {
+  FlatTree tree;
+  tree.items.resize(boxes.size());
+  std::iota(tree.items.begin(), tree.items.end(), 0);
+  if (!boxes.empty()) add_node(tree, boxes, 0, static_cast<int>(boxes.size()), leaf_size, divide);
+  return tree;
 }
 
 }  // namespace
 
 FlatTree make_flat_tree(std::span<const Bounds> boxes, int leaf_size) {
-  FlatTree tree;
-  tree.items.resize(boxes.size());
-  std::iota(tree.items.begin(), tree.items.end(), 0);
-  if (!boxes.empty()) add_node(tree, boxes, 0, static_cast<int>(boxes.size()), leaf_size);
-  return tree;
+  return make_tree(boxes, leaf_size, halve_items);
+}
+
+FlatTree make_tight_tree(std::span<const Bounds> boxes, int leaf_size) {
+  return make_tree(boxes, leaf_size, divide_by_surface);
 }
 
 }  // namespace halfshade

@@ -1,9 +1,10 @@
 // Is the accuracy given that was asked for, and at what cost? Direct light of scenes in data/, with
-// curves (as solve decides) and without, for tolerances from 1e-2 to 1e-6: elements, unknowns,
-// estimated and true error (exact values at random points), seconds. Then of random scenes, 50 of
-// convex occluders and 50 of lights and things that touch or nearly do: how many were reached, how
-// far the error of those was from the tolerance, and from the estimate (a fine rule on each
-// element, since random points do not find what is wrong in a corner).
+// curves (as solve decides) and without, for tolerances from 1e-2 to 1e-6, and without by elements
+// of one order: elements, unknowns, estimated and true error (exact values at random points),
+// seconds. Then of random scenes, 50 of convex occluders and 50 of lights and things that touch or
+// nearly do: how many were reached, how far the error of those was from the tolerance, and from the
+// estimate (a fine rule on each element, since random points do not find what is wrong in a
+// corner).
 
 #include "io/read/read_scene.h"
 #include "solver/direct/direct_light.h"
@@ -28,6 +29,8 @@ namespace {
 /// count for as much as all others. Where a point takes milliseconds, fewer must do.
 constexpr int many_points = 100000, few_points = 10000;
 constexpr std::size_t many_faces = 500;
+/// Where elements of one order without curves do not take minutes.
+constexpr std::size_t few_faces = 4;
 
 /// Relative L2 error of the polynomials, at points spread evenly over the area.
 double true_error(const SolveResult& result) {
@@ -66,16 +69,20 @@ SolveOptions options_for(double tolerance) {
   return options;
 }
 
-void measure(const std::string& name, const Scene& scene, double tolerance, bool with_curves) {
+/// `order` of all elements, −1: each has its own.
+void measure(const std::string& name, const Scene& scene, double tolerance, bool with_curves,
+             int order = -1) {
   SolveOptions options = options_for(tolerance);
   options.discontinuities = with_curves;
+  options.order = order;
   const auto start = std::chrono::steady_clock::now();
   const SolveResult result = solve(scene, options);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   const double error = true_error(result);
-  fmt::print("{},{:.0e},{},{},{},{:.3g},{:.3g},{:.2f},{:.2f},{}\n", name, tolerance,
+  fmt::print("{},{:.0e},{}{},{},{},{:.3g},{:.3g},{:.2f},{:.2f},{}\n", name, tolerance,
              with_curves ? (result.curves > 0 ? "followed" : "not worth it") : "left out",
-             result.elements.count(), result.refinement.unknowns, result.relative_error, error,
+             order < 0 ? "" : fmt::format(" (order {})", order), result.elements.count(),
+             result.refinement.unknowns, result.relative_error, error,
              result.relative_error / error, elapsed.count(),
              result.not_reached.empty() ? "reached" : "limit");
 }
@@ -134,6 +141,8 @@ int main(int argc, char** argv) {
       for (const double tolerance : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6})
         if (tolerance > least && (with_curves || tolerance > 5e-5))
           measure(name, scene, tolerance, with_curves);
+    if (scene.faces.size() <= few_faces)
+      for (const int order : {1, 2, 3, 4, 5}) measure(name, scene, 1e-4, false, order);
   }
   if (!is_all) return 0;
   fmt::print(

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <random>
+#include <span>
+#include <vector>
 
 namespace halfshade {
 namespace {
@@ -26,21 +29,26 @@ std::vector<int> meeting(const std::vector<Bounds>& boxes, const Bounds& probe) 
   return result;
 }
 
-TEST(FlatTree, WithOneItemToALeafFindsWhatComparingAllFinds) {
+class EachFlatTree
+    : public testing::TestWithParam<FlatTree (*)(std::span<const Bounds> boxes, int leaf_size)> {};
+INSTANTIATE_TEST_SUITE_P(HalvedAndTight, EachFlatTree,
+                         testing::Values(make_flat_tree, make_tight_tree));
+
+TEST_P(EachFlatTree, WithOneItemToALeafFindsWhatComparingAllFinds) {
   const std::vector<Bounds> boxes = random_boxes(300, 9);
-  const FlatTree tree = make_flat_tree(boxes, 1);
+  const FlatTree tree = GetParam()(boxes, 1);
   for (const Bounds& probe : random_boxes(50, 10)) {
     std::vector<int> found;
     visit_overlaps(tree, probe, [&](int i) { found.push_back(i); });
     std::sort(found.begin(), found.end());
     EXPECT_EQ(found, meeting(boxes, probe));
   }
-  visit_overlaps(make_flat_tree({}), boxes[0], [](int) { ADD_FAILURE(); });
+  visit_overlaps(GetParam()({}, 1), boxes[0], [](int) { ADD_FAILURE(); });
 }
 
-TEST(FlatTree, WithLargerLeavesMissesNothing) {
+TEST_P(EachFlatTree, WithLargerLeavesMissesNothing) {
   const std::vector<Bounds> boxes = random_boxes(300, 9);
-  const FlatTree tree = make_flat_tree(boxes);
+  const FlatTree tree = GetParam()(boxes, 4);
   for (const Bounds& probe : random_boxes(50, 10)) {
     std::vector<int> found;
     visit_overlaps(tree, probe, [&](int i) { found.push_back(i); });
@@ -50,11 +58,65 @@ TEST(FlatTree, WithLargerLeavesMissesNothing) {
   }
 }
 
-TEST(FlatTree, ManyEqualBoxesStayWithinTheStack) {
+TEST_P(EachFlatTree, ManyEqualBoxesStayWithinTheStack) {
   const std::vector<Bounds> boxes(1000, Bounds{Vec3::Zero(), Vec3::Ones()});
   int count = 0;
-  visit_overlaps(make_flat_tree(boxes, 1), boxes[0], [&](int) { ++count; });
+  visit_overlaps(GetParam()(boxes, 1), boxes[0], [&](int) { ++count; });
   EXPECT_EQ(count, 1000);
+}
+
+int depth_below(const FlatTree& tree, int node) {
+  const FlatTree::Node& own = tree.nodes[at(node)];
+  return own.right < 0 ? 1
+                       : 1 + std::max(depth_below(tree, node + 1), depth_below(tree, own.right));
+}
+
+/// The least surface is that of all but the largest, again and again.
+TEST_P(EachFlatTree, BoxesEachTwiceAsLargeStayWithinTheStack) {
+  std::vector<Bounds> boxes;
+  for (int k = 0; k < 900; ++k) {
+    const Vec3 high = Vec3::Constant(std::ldexp(1., k - 450));
+    boxes.push_back({0.9 * high, high});
+  }
+  EXPECT_LE(depth_below(GetParam()(boxes, 1), 0), FlatTree::max_stack);
+}
+
+TEST_P(EachFlatTree, SizesBeyondSquaresAndPointsAreTakenToo) {
+  for (const double size : {1e-200, 1e200, 0.}) {
+    std::vector<Bounds> boxes = random_boxes(100, 12);
+    for (Bounds& box : boxes) box = {size * box.low, size * box.high};
+    const FlatTree tree = GetParam()(boxes, 1);
+    int count = 0;
+    visit_overlaps(tree, tree.nodes[0].box, [&](int) { ++count; });
+    EXPECT_EQ(count, 100);
+  }
+}
+
+/// Walls and rods, and small things among them: where halving puts a wall with them, all of them
+/// are looked at wherever the wall is.
+TEST(FlatTree, ATightOneHasFewerBoxesToPass) {
+  std::vector<Bounds> boxes = random_boxes(400, 13);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    Bounds& box = boxes[i];
+    box.high = box.low + 0.1 * (box.high - box.low);
+    if (i % 3 == 0) {
+      box.low[static_cast<int>(i / 3) % 3] = 0;
+      box.high[static_cast<int>(i / 3) % 3] = 1;
+    }
+  }
+  const auto passed = [&](const FlatTree& tree) {
+    int count = 0;
+    for (const Bounds& probe : random_boxes(200, 14))
+      walk_tree(
+          tree,
+          [&](int node) {
+            ++count;
+            return !tree.nodes[at(node)].box.meets({probe.low, probe.low});
+          },
+          [](int) {});
+    return count;
+  };
+  EXPECT_LT(passed(make_tight_tree(boxes, 1)), 0.75 * passed(make_flat_tree(boxes, 1)));
 }
 
 TEST(FlatTree, AWalkHandsItsStateDownwards) {

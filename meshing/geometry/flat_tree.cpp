@@ -18,40 +18,48 @@ constexpr double clearly_less = 1e-9;
 /// A quarter on either side of these keeps walks within FlatTree::max_stack.
 constexpr std::size_t most_swept = 4096;
 
-/// Items, as places of their centres along an axis: those that differ by rounding are the same, and
-/// have the order of their numbers.
-struct Placed {
-  double place;
-  int item;
-  bool operator<(const Placed& other) const {
-    return place != other.place ? place < other.place : item < other.item;
+/// The place of an item's centre along an axis: those that differ by rounding have the same.
+class PlaceAlong {
+ public:
+  PlaceAlong(std::span<const Bounds> boxes, const Bounds& centres, int axis)
+      : boxes_(boxes), axis_(axis), low_(centres.low[axis]) {
+    const double size = centres.high[axis] - low_;
+    if (size > 0) unit_ = equal * size;
   }
+  double operator()(int item) const {
+    return std::round((boxes_[at(item)].centre()[axis_] - low_) / unit_);
+  }
+
+ private:
+  std::span<const Bounds> boxes_;
+  int axis_;
+  double low_, unit_ = 1;
 };
 
-std::vector<Placed> placed(std::span<const Bounds> boxes, std::span<const int> items,
-                           const Bounds& centres, int axis) {
-  const double size = centres.high[axis] - centres.low[axis], unit = size > 0 ? equal * size : 1;
-  std::vector<Placed> result;
-  for (const int i : items)
-    result.push_back({std::round((boxes[at(i)].centre()[axis] - centres.low[axis]) / unit), i});
-  return result;
-}
-
-void take_order(const std::vector<Placed>& order, std::span<int> items) {
-  for (std::size_t k = 0; k < items.size(); ++k) items[k] = order[k].item;
-}
-
-/// Half of them to the left along the longest axis. The number of those.
+/// Half of them to the left along the longest axis. The number of those. Allocates nothing: trees
+/// over the points of a batch are made all the time.
 int halve_items(std::span<const Bounds> boxes, const Bounds& centres, std::span<int> items) {
   const Vec3 size = centres.high - centres.low;
   int axis = 0;  // the first of the longest; ties are not for rounding to break
   for (int k = 1; k < 3; ++k)
     if (size[k] > size[axis] * (1 + equal)) axis = k;
-  std::vector<Placed> order = placed(boxes, items, centres, axis);
+  const PlaceAlong place(boxes, centres, axis);
   const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
-  std::nth_element(order.begin(), order.begin() + half, order.end());
-  take_order(order, items);
+  std::nth_element(items.begin(), items.begin() + half, items.end(), [&](int i, int j) {
+    const double x = place(i), y = place(j);
+    return x != y ? x < y : i < j;
+  });
   return static_cast<int>(half);
+}
+
+/// Items with their places along an axis, in that order; where these are the same, by number.
+std::vector<std::pair<double, int>> in_order(std::span<const Bounds> boxes, const Bounds& centres,
+                                             std::span<const int> items, int axis) {
+  const PlaceAlong place(boxes, centres, axis);
+  std::vector<std::pair<double, int>> order;
+  for (const int i : items) order.emplace_back(place(i), i);
+  std::sort(order.begin(), order.end());
+  return order;
 }
 
 double half_surface(const Bounds& box) {
@@ -62,13 +70,13 @@ double half_surface(const Bounds& box) {
 /// The number of the first items of an order, a quarter of all at least and at most three, with
 /// which both sides have the least surface for their items, and that.
 std::pair<int, double> least_surface(std::span<const Bounds> boxes,
-                                     const std::vector<Placed>& order) {
+                                     const std::vector<std::pair<double, int>>& order) {
   const std::size_t n = order.size(), least = std::max<std::size_t>(1, n / 4);
   std::vector<double> cost(n + 1, 0);  // by the number on the left
   Bounds left, right;
   for (std::size_t k = 1; k < n; ++k) {
-    left.include(boxes[at(order[k - 1].item)]);
-    right.include(boxes[at(order[n - k].item)]);
+    left.include(boxes[at(order[k - 1].second)]);
+    right.include(boxes[at(order[n - k].second)]);
     cost[k] += half_surface(left) * static_cast<double>(k);
     cost[n - k] += half_surface(right) * static_cast<double>(k);
   }
@@ -81,18 +89,17 @@ std::pair<int, double> least_surface(std::span<const Bounds> boxes,
 /// As make_tight_tree says. The number of those to the left.
 int divide_by_surface(std::span<const Bounds> boxes, const Bounds& centres, std::span<int> items) {
   if (items.size() > most_swept) return halve_items(boxes, centres, items);
-  std::vector<Placed> best_order;
+  std::vector<std::pair<double, int>> best_order;
   std::pair<int, double> best;
   for (int axis = 0; axis < 3; ++axis) {
-    std::vector<Placed> order = placed(boxes, items, centres, axis);
-    std::sort(order.begin(), order.end());
+    auto order = in_order(boxes, centres, items, axis);
     const std::pair<int, double> found = least_surface(boxes, order);
     if (!best_order.empty() && !(found.second < best.second * (1 - clearly_less))) continue;
     best_order = std::move(order);
     best = found;
   }
   if (best.second == 0) return halve_items(boxes, centres, items);  // points, or all in a line
-  take_order(best_order, items);
+  for (std::size_t k = 0; k < items.size(); ++k) items[k] = best_order[k].second;
   return best.first;
 }
 

@@ -142,10 +142,15 @@ class Rounds {
   void keep(const ReflectedSystem& system, const SplitIrradiance& irradiance) {
     state_.field = irradiance.whole(system.mesh, system.systems);
     state_.mesh = system.mesh;
-    if (options_.each_bounce)
-      state_.by_bounce = split_by_bounce(system, options_.bounces, state_.field);
-    else if (parts_ && options_.through_operator)
-      state_.by_bounce = {arriving_by_rows(system, zero_field(system.mesh))};
+    state_.by_bounce = parts_by_bounce(system);
+  }
+
+  /// What is told apart of the field that is kept.
+  std::vector<ElementField> parts_by_bounce(const ReflectedSystem& system) const {
+    if (options_.each_bounce) return split_by_bounce(system, options_.bounces, state_.field);
+    if (parts_ && options_.through_operator)
+      return {arriving_by_rows(system, zero_field(system.mesh))};
+    return {};
   }
 
   void solve(const ReflectedSystem& system, Found& found) {

@@ -121,10 +121,10 @@ Scene room_named(const std::string& name) {
   return read_data(name);
 }
 
-/// Those of some hundred polygons and more take minutes to half a percent.
+/// Furnished rooms take minutes to half a percent.
 std::vector<double> tolerances_for(const std::string& name, const Scene& scene) {
   if (name == "dining_room") return {5e-2, 1.5e-2, 1e-2, 3e-3};
-  if (scene.faces.size() > 150) return {5e-2, 1.5e-2};
+  if (scene.faces.size() > 80) return {5e-2, 1.5e-2};
   return {5e-2, 1e-2, 3e-3};
 }
 

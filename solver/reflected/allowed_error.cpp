@@ -6,8 +6,7 @@
 namespace halfshade {
 namespace {
 
-/// For G, whatever else is off: of the square of the tolerance, or of what else is off if that is
-/// more, for then it would hardly show if G were any better.
+/// Of the square of the tolerance, for G, whatever else is off.
 constexpr double least_left = 0.04;
 
 }  // namespace
@@ -19,7 +18,7 @@ double norm_square(const ReflectedOptions& options, const Rgb& scale, double squ
 double allowed_square(const ReflectedOptions& options, const Rgb& scale, double all) {
   const double whole = std::pow(options.tolerance, 2) * all;
   const double others = std::pow(scale.minCoeff() * options.other_error, 2);
-  return std::max(whole - others, least_left * std::max(whole, others));
+  return std::max(whole - others, least_left * whole);
 }
 
 }  // namespace halfshade

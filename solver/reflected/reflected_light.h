@@ -35,8 +35,7 @@ struct ReflectedOptions {
   int order = 2;            ///< of the elements, 0…3
   double tolerance = 0.01;  ///< of G, relative to all irradiance in the L2 norm, > 0
   /// L2 norm of what else is off, W/m² times √area, ≥ 0: if not 0, G may be off by what that leaves
-  /// of `tolerance`; by a fifth of it, or of what else is off, where nothing is left. Not with
-  /// `weight`.
+  /// of `tolerance`, or a fifth of it where nothing is left. Not with `weight`.
   double other_error = 0;
   double direct_norm = 0;       ///< L2 norm of direct irradiance, likewise; 0: found at points
   double gather_tolerance = 0;  ///< of what gather() finds by exact parts; 0: .1 `tolerance`

@@ -5,6 +5,7 @@
 #include "solver/direct/direct_light.h"
 #include "tests/support/analytic.h"
 #include "tests/support/expect_error.h"
+#include "tests/support/painted_sphere.h"
 #include "tests/support/scenes.h"
 #include "tests/support/shadow_scenes.h"
 #include "tests/support/z_scores.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <array>
 #include <cmath>
 
 namespace halfshade {
@@ -138,35 +140,9 @@ TEST(ReferenceLight, CountsReflections) {
   }
 }
 
-/// A sphere of flat triangles that looks inwards, painted: exitance 1 + z², reflectance .5 + .4 z.
-Scene painted_sphere(int halvings) {
-  std::vector<std::array<Vec3, 3>> faces;
-  for (const double x : {-1., 1.})
-    for (const double y : {-1., 1.})
-      for (const double z : {-1., 1.}) {
-        faces.push_back({Vec3(x, 0, 0), Vec3(0, y, 0), Vec3(0, 0, z)});
-        if (x * y * z > 0) std::swap(faces.back()[0], faces.back()[1]);
-      }
-  for (int h = 0; h < halvings; ++h) {
-    std::vector<std::array<Vec3, 3>> finer;
-    for (const auto& [a, b, c] : faces) {
-      const Vec3 ab = (a + b).normalized(), bc = (b + c).normalized(), ca = (c + a).normalized();
-      for (const auto& face : {std::array{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}})
-        finer.push_back(face);
-    }
-    faces = finer;
-  }
-  Scene scene;
-  for (const auto& [a, b, c] : faces) {
-    const double z = (a + b + c).normalized().z();
-    test::add_polygon(scene, {a, b, c}, test::add_material(scene, 0.5 + 0.4 * z, 1 + z * z));
-  }
-  return scene;
-}
-
 TEST(ReferenceLight, IsTheSameAllOverAPaintedSphere) {
   // H = mean(E) / (1 − mean(ρ)) = (4/3) / (1/2), up to the flatness of 2,048 triangles.
-  const SoundScene sphere = test::as_it_is(painted_sphere(4));
+  const SoundScene sphere = test::as_it_is(test::painted_sphere(4));
   Points points;
   for (std::size_t s = 0; s < sphere.surfaces.size(); s += 97) {
     const PlaneFrame& frame = sphere.surfaces[s].frame;

@@ -39,15 +39,15 @@ double first_length(const HugeRoots& huge, bool is_exact, const ReflectedOptions
   constexpr double share_of_roots = 0.04;
   // Other errors leave about so much of the tolerance: fewer elements show on dark surfaces.
   constexpr double usually_left = 0.8;
-  const double fewest = std::max(50., is_exact ? 0 : share_of_roots * huge.others);
   // More are better added where light asks for them.
-  const double most = std::max(fewest, 1000.);
+  constexpr double most = 1000;
+  const double fewest = std::max(50., is_exact ? 0 : share_of_roots * huge.others);
   const double wanted =
       options.weight  // most elements do not matter then
           ? 50
           : std::clamp(
                 usual_elements * std::pow(usual_error / (usually_left * options.tolerance), 2. / 3),
-                fewest, most);
+                fewest, std::max(fewest, most));
   const double length = std::sqrt(huge.area / (mean_area * wanted));
   return options.max_length > 0 ? std::min(options.max_length, length) : length;
 }

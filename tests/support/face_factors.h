@@ -6,22 +6,20 @@
 
 namespace halfshade::test {
 
-/// Between the faces of a scene, exactly.
-inline FactorMatrix face_factors(const Scene& scene, double tolerance) {
+inline FactorMatrix exact_factors(const Scene& scene, FactorUnit unit, double tolerance) {
   FactorOptions options;
-  options.unit = FactorUnit::face;
+  options.unit = unit;
   options.method = FactorMethod::exact;
   options.tolerance = tolerance;
   return form_factor_matrix(scene, options);
 }
 
-/// The same between what is of one material each.
+inline FactorMatrix face_factors(const Scene& scene, double tolerance) {
+  return exact_factors(scene, FactorUnit::face, tolerance);
+}
+
 inline FactorMatrix material_factors(const Scene& scene, double tolerance) {
-  FactorOptions options;
-  options.unit = FactorUnit::material;
-  options.method = FactorMethod::exact;
-  options.tolerance = tolerance;
-  return form_factor_matrix(scene, options);
+  return exact_factors(scene, FactorUnit::material, tolerance);
 }
 
 /// Two matrices of the same rows are as near to each other as both claim.

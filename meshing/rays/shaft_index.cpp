@@ -14,7 +14,7 @@ ShaftIndex::ShaftIndex(const TriangleSoup& soup) {
       corners[t][k] = soup.points[at(soup.triangles[t][k])];
       boxes[t].include(corners[t][k]);
     }
-  tree_ = make_tight_tree(boxes);
+  tree_ = make_flat_tree(boxes);
   for (const int t : tree_.items) {
     triangles_.push_back(corners[at(t)]);
     owners_.push_back(soup.owner[at(t)]);

@@ -92,7 +92,7 @@ struct EdgeFiller {
   void add(int from, int to, int edge, double reach,
            std::vector<OpaqueTopology::OutlineVertex>& outline) {
     const Vec3 a = vertices[at(from)], along = vertices[at(to)] - a;
-    const Bounds box{a.cwiseMin(vertices[at(to)]), a.cwiseMax(vertices[at(to)])};
+    const Bounds box = bounds_of(a, vertices[at(to)]);
     const auto may_reach = [&](const Bounds& other) {
       const Bounds grown = other.grown(reach);
       return box.meets(grown) && !line_misses(a, along, grown);

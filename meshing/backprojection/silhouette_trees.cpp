@@ -11,7 +11,7 @@ namespace {
 
 Bounds box_of(const OpaqueTopology& topology, const OpaqueTopology::Edge& edge) {
   const auto [from, to] = topology.ends(edge);
-  return {from.cwiseMin(to), from.cwiseMax(to)};
+  return bounds_of(from, to);
 }
 
 /// The two faces at an edge that has just two.

@@ -91,6 +91,7 @@ void SightCaster::find_crossings(const SightLine& line) {
 
 void SightCaster::collect_receivers(const SightLine& line) {
   reached_.clear();
+  blockers_.clear();
   const double start = line.direction.dot(line.start - line.last);
   const double start_slack = margins::slack_at(line.start);
   const Crossing* end = nullptr;
@@ -99,7 +100,8 @@ void SightCaster::collect_receivers(const SightLine& line) {
     if (end && !is_as_near(crossing, *end)) continue;
     if (crossing.distance < start + std::max(start_slack, crossing.slack)) continue;
     const bool is_before = crossing.distance < -crossing.slack;
-    if (is_before && crossing.is_clear) return;
+    if (is_before && crossing.is_clear) blockers_.push_back(crossing.triangle);
+    if (!blockers_.empty()) continue;
     if (crossing.distance <= crossing.slack) continue;
     add_receiver(opaque_.triangles[at(crossing.triangle)].surface, line.direction);
     if (crossing.is_clear && !end) end = &crossing;

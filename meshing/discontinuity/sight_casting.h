@@ -22,7 +22,10 @@ class SightCaster {
   /// boxes the line meets.
   const std::vector<int>& cast(const SightLine& line);
 
-  /// How many faces the last line meets, after its last feature.
+  /// The triangles that the last line clearly passes through before its last feature, which is why
+  /// it ends on no surface. Valid until the next call.
+  const std::vector<int>& blockers() const { return blockers_; }
+  /// How many faces the last line meets.
   std::size_t crossing_count() const { return crossings_.size(); }
   /// How many boxes and faces were looked at for it.
   std::size_t step_count() const { return steps_; }
@@ -45,7 +48,7 @@ class SightCaster {
   const FlatTree& faces_;
   std::vector<std::vector<int>> backs_;  ///< plane → surfaces that are backs
   std::vector<Crossing> crossings_;
-  std::vector<int> reached_;
+  std::vector<int> reached_, blockers_;
   std::size_t steps_ = 0;
 };
 

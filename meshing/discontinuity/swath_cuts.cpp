@@ -4,6 +4,7 @@
 #include "meshing/events/margins.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halfshade {
@@ -39,14 +40,14 @@ SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
     for (const auto& [from, to] : surface.contacts) {
       const Span3 contact = {surface.frame.to_space(from), surface.frame.to_space(to)};
       contacts_.push_back({contact, tolerance_of(surface).length});
-      boxes.push_back({contact.from.cwiseMin(contact.to), contact.from.cwiseMax(contact.to)});
+      boxes.push_back(bounds_of(contact.from, contact.to));
     }
   contact_tree_ = make_tight_tree(boxes);
 }
 
 std::vector<double> SwathCuts::limits(const Swath& swath) const {
   std::vector<double> limits = {0, 1};
-  if (!swath.is_planar) own_limits(swath, limits);
+  own_limits(swath, limits);
   for (const OutlinePiece& piece : emitter_scene_.outline)
     critical_parameters(swath, piece.span, emitter_scene_.joined, limits);
   add_grazing(swath, limits);
@@ -78,23 +79,48 @@ std::size_t SwathCuts::between(const Swath& swath, double t0, double t1,
   return steps;
 }
 
+SwathCuts::Stretch SwathCuts::hidden_by(int triangle, const Swath& swath, double t, double t0,
+                                        double t1) const {
+  const OpaqueTopology::Triangle& blocker = opaque_.triangles[at(triangle)];
+  std::array<Vec3, 3> corner;
+  std::vector<double> ends;
+  for (std::size_t k = 0; k < 3; ++k) {
+    corner[k] = opaque_.vertices[at(blocker.corner[k])];
+    if (emitter_scene_.frame.height(corner[k]) <=
+        std::max(emitter_scene_.slack, margins::slack_at(corner[k])))
+      return {t, t};
+    const auto& edge = opaque_.edges[at(blocker.edge[k])];
+    critical_parameters(swath, {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]},
+                        edge.joined, ends);
+  }
+  const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
+  grazing_parameters(swath, normal, ends);
+  grazing_parameters(swath, emitter_scene_.frame.normal, ends);
+  feature_parameters(swath, corner[0], normal, ends);
+  Stretch hidden = {t0, t1};
+  for (const double end : ends)
+    if (end <= t)
+      hidden.from = std::max(hidden.from, end);
+    else
+      hidden.to = std::min(hidden.to, end);
+  return hidden;
+}
+
 std::size_t SwathCuts::add_met(const Swath& swath, double t0, double t1,
                                std::vector<double>& cuts) const {
   const SwathBounds bounds = bounds_of(swath, t0, t1);
   const double slack = box_slack(swath);
   std::size_t steps = 0;
+  const PlaneFrame& emitter = emitter_scene_.frame;
   const auto is_missed = [&](const Bounds& box) {
     ++steps;
-    return emitter_scene_.frame.normal.dot(0.5 * (box.low + box.high) -
-                                           emitter_scene_.frame.origin) <
-               -emitter_scene_.frame.normal.cwiseAbs().dot(0.5 * (box.high - box.low)) - slack ||
-           !bounds.meets(box.low, box.high, slack);
+    return emitter.height(box.centre()) < -emitter.normal.cwiseAbs().dot(box.half_size()) - slack ||
+           !bounds.may_meet(box, slack);
   };
   std::vector<double> found;
   const auto consider = [&](const Span3& span, double joined) {
     ++steps;
-    if (bounds.meets(span.from.cwiseMin(span.to), span.from.cwiseMax(span.to),
-                     std::max(slack, joined)))
+    if (bounds.may_meet(bounds_of(span.from, span.to), std::max(slack, joined)))
       critical_parameters(swath, span, joined, found);
   };
   const auto walk = [&](const FlatTree& tree, const auto& visit) {

@@ -24,6 +24,15 @@ class SwathCuts {
   /// many steps.
   std::size_t between(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
 
+  /// The parameters around t, between two neighbouring limits t0 < t1, whose lines pass through a
+  /// triangle before the last of their features, as that of t clearly does. Empty if the triangle
+  /// is not wholly in front of the emitter.
+  struct Stretch {
+    double from, to;
+    double length() const { return to - from; }
+  };
+  Stretch hidden_by(int triangle, const Swath& swath, double t, double t0, double t1) const;
+
  private:
   void add_grazing(const Swath& swath, std::vector<double>& parameters) const;
   std::size_t add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;

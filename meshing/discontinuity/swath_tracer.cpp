@@ -7,6 +7,17 @@
 #include <cmath>
 
 namespace halfshade {
+namespace {
+
+// How often what is left of a swath is divided by what hides it, and the share of it that this must
+// take away each time.
+constexpr int most_divisions = 8;
+constexpr double least_hidden = 0.1;
+// The line that is tried: in the middle itself it may run through a face's diagonal and seem to
+// graze.
+constexpr double tried = 0.47;
+
+}  // namespace
 
 TraceCounts operator-(const TraceCounts& a, const TraceCounts& b) {
   return {a.swaths - b.swaths, a.pieces - b.pieces, a.steps - b.steps, a.crossings - b.crossings,
@@ -42,15 +53,44 @@ bool SwathTracer::trace(const Swath& swath, std::vector<DiscontinuityCurve>& cur
     if (!(t1 > t0)) continue;
     const auto line = line_at(swath, emitter_scene_.frame, 0.5 * (t0 + t1));
     if (!line || !may_be_event(emitter_scene_, swath, *line)) continue;
-    counts_.steps += cuts_.between(swath, t0, t1, parameters_);
-    for (std::size_t k = 1; k < parameters_.size(); ++k) {
-      if (!(parameters_[k] > parameters_[k - 1])) continue;
-      if (may_go_on && !may_go_on()) return false;
-      trace_piece(swath, parameters_[k - 1], parameters_[k]);
-    }
+    if (!trace_between(swath, t0, t1, most_divisions, may_go_on)) return false;
   }
   for (const Piece& piece : pieces_) append_curves(swath, piece, curves);
   return true;
+}
+
+/// Precondition: t0 and t1 lie between two neighbouring limits of the swath.
+bool SwathTracer::trace_between(const Swath& swath, double t0, double t1, int divisions,
+                                const std::function<bool()>& may_go_on) {
+  if (!(t1 > t0)) return true;
+  if (may_go_on && !may_go_on()) return false;
+  if (divisions > 0) {
+    const auto hidden = hidden_around(swath, t0 + tried * (t1 - t0), t0, t1);
+    if (hidden.length() > least_hidden * (t1 - t0))
+      return trace_between(swath, t0, hidden.from, divisions - 1, may_go_on) &&
+             trace_between(swath, hidden.to, t1, divisions - 1, may_go_on);
+  }
+  counts_.steps += cuts_.between(swath, t0, t1, parameters_);
+  for (std::size_t k = 1; k < parameters_.size(); ++k) {
+    if (!(parameters_[k] > parameters_[k - 1])) continue;
+    if (may_go_on && !may_go_on()) return false;
+    trace_piece(swath, parameters_[k - 1], parameters_[k]);
+  }
+  return true;
+}
+
+/// The longest stretch about t in which one triangle hides the emitter; empty if none does.
+SwathCuts::Stretch SwathTracer::hidden_around(const Swath& swath, double t, double t0, double t1) {
+  SwathCuts::Stretch longest = {t, t};
+  const auto line = line_at(swath, emitter_scene_.frame, t);
+  if (!line) return longest;
+  caster_.cast(*line);
+  counts_.steps += caster_.step_count();
+  for (const int triangle : caster_.blockers())
+    if (const auto hidden = cuts_.hidden_by(triangle, swath, t, t0, t1);
+        hidden.length() > longest.length())
+      longest = hidden;
+  return longest;
 }
 
 void SwathTracer::trace_piece(const Swath& swath, double t0, double t1) {

@@ -27,8 +27,9 @@ TraceCounts operator-(const TraceCounts& a, const TraceCounts& b);
 TraceCounts& operator+=(TraceCounts& a, const TraceCounts& b);
 
 /// Follows swaths of lines to the surfaces they end on and finds the pieces of curve they make
-/// there. A swath is cut wherever its line meets an edge of the scene; between two such lines
-/// nothing changes, and one line decides: it must reach the emitter unblocked, and what is seen of
+/// there. Where one face hides the emitter all along a stretch of the swath, that is passed over;
+/// the rest is cut wherever its line meets an edge of the scene. Between two such lines nothing
+/// changes, and one line decides: it must reach the emitter unblocked, and what is seen of
 /// the edges that make the swath must differ on the two sides of the curve. The latter is decided
 /// by VisiblePartFinder. One a thread.
 class SwathTracer {
@@ -57,6 +58,9 @@ class SwathTracer {
     std::vector<EdgeTriple> triples;
   };
 
+  bool trace_between(const Swath& swath, double t0, double t1, int divisions,
+                     const std::function<bool()>& may_go_on);
+  SwathCuts::Stretch hidden_around(const Swath& swath, double t, double t0, double t1);
   void trace_piece(const Swath& swath, double t0, double t1);
   void try_receiver(const Swath& swath, const SightLine& line, int receiver, double t0, double t1);
   void add_piece(Piece piece);

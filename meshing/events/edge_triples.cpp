@@ -111,6 +111,16 @@ bool lines_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b,
          lines_up(emitter_scene, a, parts[1], halvings - 1);
 }
 
+/// The same, by boxes first; `through_a` holds the lines from the emitter through the first span.
+bool meet_and_line_up(const EmitterScene& emitter_scene, const LinesThrough& through_a,
+                      const Span3& a, const Span3& b) {
+  const auto may_meet = [](const LinesThrough& lines, const Span3& span) {
+    return lines.may_meet(bounds_of(span.from, span.to), margins::slack_of(span));
+  };
+  return may_meet(through_a, b) && may_meet(emitter_scene.lines_through(b), a) &&
+         lines_up(emitter_scene, a, b, most_halvings);
+}
+
 /// An edge, and what is closer to it than `joined` is meant to be on it.
 struct EventEdge {
   Span3 span;
@@ -162,6 +172,7 @@ void coplanar_swath(Swath swath, const EventEdge& first, const EventEdge& second
   swath.source.kind = CurveKind::face;
   swath.apex = third.at(a / (a - b));
   swath.base = base;
+  swath.second = other;
   if (distance_to_line(swath.apex, base) >
       std::max(margins::slack_of(third), margins::slack_of(base)))
     sink(swath);
@@ -206,15 +217,21 @@ void send(Swath& swath, const std::array<EventEdge, 3>& edges, const SwathSink& 
 }  // namespace
 
 bool may_line_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b) {
-  return lines_up(emitter_scene, a, b, most_halvings);
+  return meet_and_line_up(emitter_scene, emitter_scene.lines_through(a), a, b);
 }
 
 std::vector<int> later_partners(const EmitterScene& emitter_scene, int edge) {
   std::vector<int> partners;
   const Span3& span = emitter_scene.edges[at(edge)].front;
-  for (int other = edge + 1; other < static_cast<int>(emitter_scene.edges.size()); ++other)
-    if (may_line_up(emitter_scene, span, emitter_scene.edges[at(other)].front))
-      partners.push_back(other);
+  const LinesThrough lines = emitter_scene.lines_through(span);
+  visit_reached(
+      emitter_scene.edge_tree, [&](const Bounds& box) { return lines.may_meet(box, 0); },
+      [&](int other) {
+        if (other > edge &&
+            meet_and_line_up(emitter_scene, lines, span, emitter_scene.edges[at(other)].front))
+          partners.push_back(other);
+      });
+  std::sort(partners.begin(), partners.end());
   return partners;
 }
 

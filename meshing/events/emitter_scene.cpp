@@ -15,6 +15,13 @@
 #include <string>
 
 namespace halfshade {
+namespace {
+
+Bounds box_with_slack(const Span3& span) {
+  return bounds_of(span.from, span.to).grown(margins::slack_of(span));
+}
+
+}  // namespace
 
 EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
@@ -29,6 +36,19 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
   const VertexHeights heights(topology, frame, slack);
   add_silhouettes(scene, topology, heights, *this);
   add_border(topology, heights, *this);
+  std::vector<Bounds> boxes;
+  for (const SilhouetteEdge& edge : edges) boxes.push_back(box_with_slack(edge.front));
+  edge_tree = make_tight_tree(boxes);
+  boxes.clear();
+  for (const SilhouetteVertex& vertex : vertices)
+    boxes.push_back(box_with_slack({vertex.position, vertex.position}));
+  vertex_tree = make_tight_tree(boxes);
+}
+
+LinesThrough EmitterScene::lines_through(const Span3& span) const {
+  Bounds box;
+  for (const Vec2& p : hull) box.include(frame.to_space(p));
+  return {box.grown(2 * slack), box_with_slack(span)};
 }
 
 namespace {

@@ -3,6 +3,8 @@
 #include "meshing/backprojection/opaque_scene.h"
 #include "meshing/backprojection/opaque_topology.h"
 #include "meshing/events/swath.h"
+#include "meshing/geometry/flat_tree.h"
+#include "meshing/geometry/lines_through.h"
 
 #include <span>
 #include <vector>
@@ -49,7 +51,7 @@ struct OutlinePoint {
 /// The scene as one emitter's events see it, with all that can take part in them: the edges in
 /// front of the emitter that can be silhouettes, their vertices, the emitter's own outline.
 struct EmitterScene {
-  /// Cost grows linearly with the scene, but for the square of the number of outline pieces.
+  /// Cost grows as n log n with the scene, but for the square of the number of outline pieces.
   EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface);
 
   int emitter;  ///< a surface
@@ -65,7 +67,11 @@ struct EmitterScene {
   std::vector<SilhouetteVertex> vertices;
   std::vector<OutlinePiece> outline;
   std::vector<OutlinePoint> corners;
+  FlatTree edge_tree;    ///< over `edges`, the parts in front
+  FlatTree vertex_tree;  ///< over `vertices`
 
+  /// All lines that come from the emitter and meet a span, and others.
+  LinesThrough lines_through(const Span3& span) const;
   /// False only if the faces at an edge rule out that it is a silhouette for lines in a direction.
   bool may_be_silhouette(const SilhouetteEdge& edge, const Vec3& direction) const;
   /// Whether a point of the plane lies in the emitter or within the slack of its border.

@@ -80,11 +80,22 @@ bool meets_hull(const EmitterScene& emitter_scene, const std::array<Vec2, 2>& se
   return t0 <= t1;
 }
 
+/// In order, and perhaps others: those that a line from the emitter through a span can meet.
+std::vector<int> vertices_on_lines_through(const EmitterScene& emitter_scene, const Span3& span) {
+  const LinesThrough lines = emitter_scene.lines_through(span);
+  std::vector<int> vertices;
+  visit_reached(
+      emitter_scene.vertex_tree, [&](const Bounds& box) { return lines.may_meet(box, 0); },
+      [&](int vertex) { vertices.push_back(vertex); });
+  std::sort(vertices.begin(), vertices.end());
+  return vertices;
+}
+
 void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const SwathSink& sink) {
   const SilhouetteEdge& e = emitter_scene.edges[at(edge)];
   const Vec3& up = emitter_scene.frame.normal;
-  for (std::size_t w = 0; w < emitter_scene.vertices.size(); ++w) {
-    const SilhouetteVertex& vertex = emitter_scene.vertices[w];
+  for (const int w : vertices_on_lines_through(emitter_scene, e.front)) {
+    const SilhouetteVertex& vertex = emitter_scene.vertices[at(w)];
     const double slack = std::max(margins::slack_at(vertex.position), margins::slack_of(e.whole));
     if (is_end(vertex.position, e.whole, slack) ||
         distance_to_line(vertex.position, e.whole) <= slack)
@@ -109,7 +120,7 @@ void non_emitter_swaths(const EmitterScene& emitter_scene, int edge, const Swath
       swath.group.push_back(EdgeId::edge(e.id));
       normalize(swath.group);
       swath.silhouettes[0] = edge;
-      swath.corner = static_cast<int>(w);
+      swath.corner = w;
       swath.may_be_first_order = count_in_plane(emitter_scene, swath, vertex) > 0;
       sink(swath);
     }

@@ -27,7 +27,7 @@ void face_swaths(const SoundScene& scene, const EmitterScene& emitter_scene,
 /// emitter.
 bool may_line_up(const EmitterScene& emitter_scene, const Span3& a, const Span3& b);
 
-/// The later silhouette edges that can line up with one, seen from the emitter.
+/// The later silhouette edges that may line up with one, seen from the emitter, in order.
 std::vector<int> later_partners(const EmitterScene& emitter_scene, int edge);
 
 /// Swaths through an edge of the emitter and two silhouette edges (emitter EEE).

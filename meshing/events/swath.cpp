@@ -8,8 +8,6 @@
 namespace halfshade {
 namespace {
 
-using Interval = std::array<double, 2>;
-
 /// Normal of the plane through a point and an edge.
 Vec3 plane_through(const Vec3& point, const Span3& edge) {
   return (edge.from - point).cross(edge.direction());
@@ -47,17 +45,6 @@ std::optional<SightLine> line_through(const PlaneFrame& emitter, const Vec3* poi
   return line;
 }
 
-Eigen::AlignedBox3d box_of(const Vec3& a, const Vec3& b) {
-  Eigen::AlignedBox3d box(a);
-  box.extend(b);
-  return box;
-}
-
-Interval times(const Interval& a, const Interval& b) {
-  const double p = a[0] * b[0], q = a[0] * b[1], r = a[1] * b[0], s = a[1] * b[1];
-  return {std::min({p, q, r, s}), std::max({p, q, r, s})};
-}
-
 /// In-plane parameter of the line through the apex and y.
 void add_direction(const Swath& swath, const Vec3& normal, const Vec3& y, double slack,
                    std::vector<double>& parameters) {
@@ -67,6 +54,12 @@ void add_direction(const Swath& swath, const Vec3& normal, const Vec3& y, double
   const double t =
       normal.dot((swath.base.from - y).cross(to)) / normal.dot(to.cross(swath.base.direction()));
   if (t > 0 && t < 1) parameters.push_back(t);
+}
+
+/// Where the line from the apex through a point of the base meets the second edge.
+double parameter_on_second(const Swath& swath, const Vec3& on_base) {
+  const Vec3 normal = plane_normal(swath), across = normal.cross(on_base - swath.apex);
+  return across.dot(on_base - swath.second->from) / across.dot(swath.second->direction());
 }
 
 }  // namespace
@@ -82,6 +75,7 @@ void set_edges(Swath& swath, const std::array<Span3, 3>& edges) {
 std::optional<SightLine> line_at(const Swath& swath, const PlaneFrame& emitter, double t) {
   if (swath.is_planar) {
     const std::array<Vec3, 2> points = {swath.apex, swath.base.at(t)};
+    if (swath.second && !lies_within(parameter_on_second(swath, points[1]))) return std::nullopt;
     return line_through(emitter, points.data(), 2, points[1] - points[0]);
   }
   const double second = value(parameter_on(swath.family, 1), t);
@@ -111,6 +105,13 @@ void critical_parameters(const Swath& swath, const Span3& edge, double slack,
 }
 
 void own_limits(const Swath& swath, std::vector<double>& parameters) {
+  if (swath.is_planar) {
+    if (!swath.second) return;
+    const Vec3 normal = plane_normal(swath);
+    for (const Vec3& end : {swath.second->from, swath.second->to})
+      add_direction(swath, normal, end, 0, parameters);
+    return;
+  }
   for (const int i : {1, 2}) {
     const LinearRatio r = parameter_on(swath.family, i);
     add_roots({r.a, r.b, 0}, parameters);              // at the start of the edge
@@ -126,50 +127,36 @@ void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<doub
     add_roots(direction_along(swath.family, normal), parameters);
 }
 
+void feature_parameters(const Swath& swath, const Vec3& point, const Vec3& normal,
+                        std::vector<double>& parameters) {
+  const auto add = [&](const Span3& edge, const LinearRatio& along) {
+    // along = s where the edge passes through the plane
+    const double height = normal.dot(edge.from - point), slope = normal.dot(edge.direction());
+    add_roots({slope * along.a + height * along.c, slope * along.b + height * along.d, 0},
+              parameters);
+  };
+  if (swath.is_planar) return add(swath.base, {0, 1, 1, 0});
+  add(swath.edges[0], {0, 1, 1, 0});
+  for (const int i : {1, 2}) add(swath.edges[at(i)], parameter_on(swath.family, i));
+}
+
 Vec3 plane_normal(const Swath& swath) { return plane_through(swath.apex, swath.base).normalized(); }
 
 SwathBounds bounds_of(const Swath& swath, double t0, double t1) {
-  SwathBounds bounds;
-  if (swath.is_planar) {
-    bounds.near = box_of(swath.apex, swath.apex);
-    bounds.far = box_of(swath.base.at(t0), swath.base.at(t1));
-    bounds.normal = plane_normal(swath);
-    bounds.point = swath.apex;
-    return bounds;
-  }
-  bounds.near = box_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
+  if (swath.is_planar)
+    return {{bounds_of(swath.apex, swath.apex), bounds_of(swath.base.at(t0), swath.base.at(t1))},
+            plane_normal(swath),
+            swath.apex};
+  const Bounds first = bounds_of(swath.edges[0].at(t0), swath.edges[0].at(t1));
   const auto reach = [&](int i) {
     const LinearRatio ratio = parameter_on(swath.family, i);
     const Span3& edge = swath.edges[at(i)];
-    return box_of(edge.at(std::clamp(value(ratio, t0), 0., 1.)),
-                  edge.at(std::clamp(value(ratio, t1), 0., 1.)));
+    return bounds_of(edge.at(std::clamp(value(ratio, t0), 0., 1.)),
+                     edge.at(std::clamp(value(ratio, t1), 0., 1.)));
   };
-  const Eigen::AlignedBox3d second = reach(1), third = reach(2);
-  const Vec3 x = bounds.near.center();
-  bounds.far = (second.center() - x).norm() > (third.center() - x).norm() ? second : third;
-  return bounds;
-}
-
-bool SwathBounds::meets(const Vec3& low, const Vec3& high, double slack) const {
-  if (!normal.isZero()) {
-    const Vec3 centre = 0.5 * (low + high), half = 0.5 * (high - low);
-    if (std::abs(normal.dot(centre - point)) > normal.cwiseAbs().dot(half) + slack) return false;
-  }
-  // Along the axis that parts the two boxes best, every line is a linear function of the place.
-  Eigen::Index axis = 0;
-  const Vec3 gap = (near.min() - far.max()).cwiseMax(far.min() - near.max());
-  if (!(gap.maxCoeff(&axis) > slack)) return true;
-  const Interval across = {far.min()[axis] - near.max()[axis], far.max()[axis] - near.min()[axis]};
-  const Interval along = {low[axis] - slack - near.max()[axis],
-                          high[axis] + slack - near.min()[axis]};
-  const Interval u = times(along, {1 / across[1], 1 / across[0]});
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    if (k == axis) continue;
-    const Interval a = times({near.min()[k], near.max()[k]}, {1 - u[1], 1 - u[0]});
-    const Interval b = times({far.min()[k], far.max()[k]}, u);
-    if (a[0] + b[0] > high[k] + slack || a[1] + b[1] < low[k] - slack) return false;
-  }
-  return true;
+  const Bounds second = reach(1), third = reach(2);
+  const Vec3 x = first.centre();
+  return {{first, (second.centre() - x).norm() > (third.centre() - x).norm() ? second : third}};
 }
 
 std::optional<Trace> trace_at(const Swath& swath, const PlaneFrame& plane, double t) {

@@ -4,8 +4,10 @@
 #include "meshing/events/critical_event.h"
 #include "meshing/events/quadric_events.h"
 #include "meshing/geometry/line.h"
+#include "meshing/geometry/lines_through.h"
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct Swath {
   bool is_planar = true;
   Vec3 apex = Vec3::Zero();
   Span3 base;                    ///< of a planar swath
+  std::optional<Span3> second;   ///< in its plane: another edge that its lines must meet
   std::array<Span3, 3> edges{};  ///< of the others
   LineFamily family;             ///< the lines that meet them
 };
@@ -47,25 +50,33 @@ std::optional<SightLine> line_at(const Swath& swath, const PlaneFrame& emitter, 
 void critical_parameters(const Swath& swath, const Span3& edge, double slack,
                          std::vector<double>& parameters);
 
-/// Parameters in (0,1) at which a swath of three edges begins or ends: where its line passes an end
-/// of one of them.
+/// Parameters in (0,1) at which the lines begin or end to meet all edges that make the swath: where
+/// they pass an end of the second or third.
 void own_limits(const Swath& swath, std::vector<double>& parameters);
 
 /// Parameters in (0,1) at which the line runs along a plane with a normal.
 void grazing_parameters(const Swath& swath, const Vec3& normal, std::vector<double>& parameters);
 
+/// Parameters in (0,1) at which one of the features that make the swath lies on a plane.
+void feature_parameters(const Swath& swath, const Vec3& point, const Vec3& normal,
+                        std::vector<double>& parameters);
+
 /// Unit normal of the plane of a planar swath.
 Vec3 plane_normal(const Swath& swath);
 
-/// Boxes that contain the lines with parameters in a range where they leave two of the features:
-/// every line runs through both.
+/// What contains the lines with parameters in a range: all that run through two boxes, where they
+/// leave two of the features, and of a planar swath those in its plane.
 struct SwathBounds {
-  Eigen::AlignedBox3d near, far;  ///< in no particular order
-  Vec3 normal = Vec3::Zero();     ///< of the plane of a planar swath, unit length; else zero
-  Vec3 point = Vec3::Zero();      ///< of that plane
+  LinesThrough lines;
+  Vec3 normal = Vec3::Zero();  ///< of the plane of a planar swath, unit length; else zero
+  Vec3 point = Vec3::Zero();   ///< of that plane
 
   /// False only if no line of the swath meets the box; `slack` is added to the box.
-  bool meets(const Vec3& low, const Vec3& high, double slack) const;
+  bool may_meet(const Bounds& box, double slack) const {
+    return std::abs(normal.dot(box.centre() - point)) <=
+               normal.cwiseAbs().dot(box.half_size()) + slack &&
+           lines.may_meet(box, slack);
+  }
 };
 /// Precondition: no own limit of the swath lies between t0 and t1.
 SwathBounds bounds_of(const Swath& swath, double t0, double t1);

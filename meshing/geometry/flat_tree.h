@@ -31,6 +31,9 @@ struct Bounds {
   Vec3 half_size() const { return 0.5 * (high - low); }
 };
 
+/// The box of a segment.
+inline Bounds bounds_of(const Vec3& a, const Vec3& b) { return {a.cwiseMin(b), a.cwiseMax(b)}; }
+
 /// The box of a segment of a plane, as that of z = 0.
 inline Bounds flat_bounds(const Vec2& a, const Vec2& b) {
   const Vec2 low = a.cwiseMin(b), high = a.cwiseMax(b);

@@ -86,8 +86,7 @@ class BorderJoiner {
 
   std::vector<Overlap> find_overlaps() const {
     std::vector<Bounds> boxes;
-    for (const Stretch& s : stretches_)
-      boxes.push_back(Bounds{s.from.cwiseMin(s.to), s.from.cwiseMax(s.to)}.grown(s.reach));
+    for (const Stretch& s : stretches_) boxes.push_back(bounds_of(s.from, s.to).grown(s.reach));
     const FlatTree tree = make_flat_tree(boxes, 1);
     std::vector<Overlap> overlaps;
     for (int i = 0; i < static_cast<int>(boxes.size()); ++i)

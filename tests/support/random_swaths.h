@@ -40,8 +40,25 @@ inline Swath random_ruled(Random& random) {
   return swath;
 }
 
+/// A fan whose lines must meet an edge in its plane, too; most of those near the base's middle do.
+inline Swath random_fan_of_two(Random& random) {
+  Swath swath = random_fan(random);
+  const auto in_fan = [&] {
+    return swath.apex + random(0.2, 2) * (swath.base.at(random(-0.2, 1.2)) - swath.apex);
+  };
+  swath.second = {in_fan(), in_fan()};
+  return swath;
+}
+
 inline Swath random_swath(Random& random) {
-  return random.integer(0, 1) == 0 ? random_fan(random) : random_ruled(random);
+  switch (random.integer(0, 3)) {
+    case 0:
+      return random_fan(random);
+    case 1:
+      return random_fan_of_two(random);
+    default:
+      return random_ruled(random);
+  }
 }
 
 }  // namespace halfshade::test

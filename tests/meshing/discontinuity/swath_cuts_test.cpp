@@ -1,7 +1,9 @@
 #include "meshing/discontinuity/swath_cuts.h"
 
+#include "meshing/discontinuity/sight_casting.h"
 #include "meshing/events/events.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/random_swaths.h"
 
 #include <gtest/gtest.h>
 
@@ -51,6 +53,54 @@ TEST(SwathCuts, LieWhereLinesMeetTheLinesInWhichSurfacesCutEachOther) {
   cuts.between(fan(), 0, 1, found);
   EXPECT_TRUE(
       std::any_of(found.begin(), found.end(), [](double t) { return std::abs(t - 0.5) < 1e-9; }));
+}
+
+TEST(SwathCuts, AStretchIsHiddenAsLongAsItsLinesPassThroughATriangle) {
+  test::Random random(12);
+  int found = 0, whole = 0, ended = 0;
+  for (int round = 0; round < 1500; ++round) {
+    const auto anywhere = [&] { return random.in_box({-1, -1, 0.2}, {1, 1, 1.9}); };
+    const LitScene lit(SceneMaker().square_light().polygon({anywhere(), anywhere(), anywhere()}));
+    const SwathCuts cuts(lit.scene, lit.opaque, lit.emitter_scene);
+    SightCaster caster(lit.scene, lit.opaque);
+    const Swath swath = test::random_swath(random);
+    const PlaneFrame& emitter = lit.emitter_scene.frame;
+    const std::vector<double> limits = cuts.limits(swath);
+    for (std::size_t k = 1; k < limits.size(); ++k) {
+      const double t0 = limits[k - 1], t1 = limits[k], t = t0 + random(0, 1) * (t1 - t0);
+      const auto line = line_at(swath, emitter, t);
+      if (!line || t1 - t0 < 1e-3) continue;
+      caster.cast(*line);
+      if (caster.blockers().empty()) continue;
+      const int triangle = caster.blockers().front();
+      const auto is_hidden = [&](double at) {
+        const auto other = line_at(swath, emitter, at);
+        if (!other) return false;
+        caster.cast(*other);
+        return std::count(caster.blockers().begin(), caster.blockers().end(), triangle) > 0;
+      };
+      const SwathCuts::Stretch hidden = cuts.hidden_by(triangle, swath, t, t0, t1);
+      EXPECT_LE(hidden.from, t);
+      EXPECT_GE(hidden.to, t);
+      if (hidden.length() < 1e-3) continue;
+      for (const double share : {0.01, 0.2, 0.5, 0.8, 0.99})
+        EXPECT_TRUE(is_hidden(hidden.from + share * hidden.length())) << round;
+      ++found;
+      whole += hidden.from == t0 && hidden.to == t1;
+      if (hidden.from > t0 + 1e-3) ended += !is_hidden(hidden.from - 1e-4);
+      if (hidden.to < t1 - 1e-3) ended += !is_hidden(hidden.to + 1e-4);
+    }
+  }
+  EXPECT_GT(found, 200);
+  EXPECT_GT(whole, 20);
+  EXPECT_GT(ended, 100) << "stretches are as long as they can be";
+}
+
+TEST(SwathCuts, NothingInTheEmittersPlaneHidesAStretch) {
+  const LitScene lit(SceneMaker().square_light().polygon({{-1, 0, 2}, {1, 0, 2}, {0, 0.1, 0.5}}));
+  const SwathCuts cuts(lit.scene, lit.opaque, lit.emitter_scene);
+  for (int t = 0; t < static_cast<int>(lit.opaque.topology().triangles.size()); ++t)
+    EXPECT_EQ(cuts.hidden_by(t, fan(), 0.5, 0, 1).length(), 0);
 }
 
 TEST(SwathCuts, BetweenTwoLimitsAllLinesExistOrNone) {

@@ -73,6 +73,26 @@ struct Traced : test::LitScene {
   SwathTracer tracer;
 };
 
+TEST(SwathTracer, DoesNotCutWhatOneFaceHidesAllAlong) {
+  SceneMaker maker = test::SceneMaker().square_light().floor();
+  for (int k = 0; k < 20; ++k) {
+    const double x = 0.04 * (k - 10);
+    maker.box({x, -0.3, 0.2}, {x + 0.02, 0.3, 0.3});
+  }
+  Traced seen(maker), hidden(maker.up({-3, -3}, {3, 3}, 1.5));
+  const auto pieces = [](Traced& traced) {
+    std::vector<DiscontinuityCurve> curves;
+    const int edge = traced.edge_between({0, -0.3, 0.3}, {0, 0.3, 0.3});
+    edge_swaths(traced.emitter_scene, edge, [&](const Swath& swath) {
+      if (swath.ends_on_outline) traced.tracer.trace(swath, curves);
+    });
+    return traced.tracer.counts().pieces;
+  };
+  EXPECT_GT(pieces(seen), 4u);
+  EXPECT_EQ(pieces(hidden), 0u);
+  EXPECT_GT(hidden.tracer.counts().swaths, 0u);
+}
+
 void expect_ranges(const std::vector<Stretch>& found, const std::vector<Stretch>& expected) {
   ASSERT_EQ(found.size(), expected.size());
   for (std::size_t k = 0; k < found.size(); ++k) {

@@ -34,7 +34,7 @@ TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
   for (int round = 0; round < 1500; ++round) {
     const Swath swath = random_swath(random);
     std::vector<double> limits = {0, 1};
-    if (!swath.is_planar) own_limits(swath, limits);
+    own_limits(swath, limits);
     std::sort(limits.begin(), limits.end());
     const auto k = static_cast<std::size_t>(random.integer(1, static_cast<int>(limits.size()) - 1));
     const double width = limits[k] - limits[k - 1], from = random(0, 1), to = random(from, 1);
@@ -53,7 +53,7 @@ TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
       for (int i = 0; i <= 50; ++i)
         if (const auto line = line_at(swath, emitter, t0 + 0.02 * i * (t1 - t0)))
           is_hit = is_hit || hits(*line, low, high);
-      const bool meets = bounds.meets(low, high, 1e-12);
+      const bool meets = bounds.may_meet({low, high}, 1e-12);
       EXPECT_TRUE(meets || !is_hit) << round;
       hit += is_hit;
       excluded += !meets;
@@ -72,13 +72,13 @@ TEST(SwathBounds, OfOneLineHoldsWhatLiesOnItAndNothingElse) {
     const auto line = line_at(swath, emitter, t);
     if (!line || std::abs(line->direction.z()) < 0.2) continue;
     const SwathBounds bounds = bounds_of(swath, t, t);
-    if ((bounds.near.center() - bounds.far.center()).norm() < 0.1) continue;
+    if ((bounds.lines.near().centre() - bounds.lines.far().centre()).norm() < 0.1) continue;
     const Vec3 size = Vec3::Constant(1e-6), across = line->direction.unitOrthogonal();
     for (int k = 0; k < 5; ++k) {
       const Vec3 p = line->start + random(0, 2) * line->direction;
-      EXPECT_TRUE(bounds.meets(p - size, p + size, 1e-9)) << round;
+      EXPECT_TRUE(bounds.may_meet({p - size, p + size}, 1e-9)) << round;
       const Vec3 beside = p + 1e-3 * across;
-      EXPECT_FALSE(bounds.meets(beside - size, beside + size, 1e-9)) << round;
+      EXPECT_FALSE(bounds.may_meet({beside - size, beside + size}, 1e-9)) << round;
     }
     ++compared;
   }
@@ -92,8 +92,8 @@ TEST(SwathBounds, SlackLetsItReachFarther) {
   const SwathBounds bounds = bounds_of(swath, 0, 1);
   EXPECT_NEAR(std::abs(bounds.normal.dot(Vec3(1, 0, 1).normalized())), 1, 1e-14);
   const Vec3 low(0.6, -0.1, 1.5), high(0.7, 0.1, 1.6);  // from that plane 0.1/√2
-  EXPECT_FALSE(bounds.meets(low, high, 0.0707));
-  EXPECT_TRUE(bounds.meets(low, high, 0.0708));
+  EXPECT_FALSE(bounds.may_meet({low, high}, 0.0707));
+  EXPECT_TRUE(bounds.may_meet({low, high}, 0.0708));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ namespace {
 using test::emitter;
 using test::Random;
 using test::random_fan;
+using test::random_fan_of_two;
 using test::random_ruled;
 using test::random_span;
 using test::random_swath;
@@ -193,11 +194,29 @@ TEST(CriticalParameters, AreNoneForAnEdgeBesideTheFansPlane) {
   }
 }
 
+TEST(LineAt, MeetsTheSecondEdgeOfAPlane) {
+  Random random(16);
+  int met = 0;
+  for (int round = 0; round < 400; ++round) {
+    const Swath swath = random_fan_of_two(random);
+    for (const double t : {0.1, 0.4, 0.8})
+      if (const auto line = line_at(swath, emitter, t)) {
+        const Span3& edge = *swath.second;
+        const Vec3 across = line->direction.cross(plane_normal(swath));
+        const double from = across.dot(edge.from - line->start),
+                     to = across.dot(edge.to - line->start);
+        EXPECT_LE(from * to, 1e-12) << "its ends lie on either side";
+        ++met;
+      }
+  }
+  EXPECT_GT(met, 200);
+}
+
 TEST(OwnLimits, AreWhereTheLineStartsOrCeasesToMeetTheEdges) {
   Random random(6);
   int changes = 0;
-  for (int round = 0; round < 400; ++round) {
-    const Swath swath = random_ruled(random);
+  for (int round = 0; round < 800; ++round) {
+    const Swath swath = round % 2 == 0 ? random_ruled(random) : random_fan_of_two(random);
     std::vector<double> limits;
     own_limits(swath, limits);
     bool before = sample(swath, 0).has_value();
@@ -220,7 +239,7 @@ TEST(OwnLimits, AreWhereTheLineStartsOrCeasesToMeetTheEdges) {
         EXPECT_EQ(line_at(swath, emitter, limits[i - 1] + share * width).has_value(), first);
     }
   }
-  EXPECT_GT(changes, 200);
+  EXPECT_GT(changes, 500);
 }
 
 TEST(GrazingParameters, AreWhereTheLineRunsAlongThePlane) {

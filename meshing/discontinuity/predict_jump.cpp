@@ -16,6 +16,8 @@ constexpr std::array<double, 3> samples = {1. / 6, 1. / 2, 5. / 6};
 // The limit of a jump for ever smaller steps is this share of it at a step, or the jump is due to
 // the step.
 constexpr double share_in_limit = 0.5;
+// If the limit differs by no more than this share, what moves in sight is far wider than the step.
+constexpr double hardly = 1e-6;
 
 }  // namespace
 
@@ -25,16 +27,18 @@ JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
 
 void JumpPredictor::predict(DiscontinuityCurve& curve) {
   for (;; ++curve.order) {
-    bool jumps = false;
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      curve.jump[k] = jump_at(curve, samples[k]);
+    bool jumps = false, is_wide = false;
+    for (const std::size_t k : {1, 0, 2}) {  // from the middle, where it is the widest
+      curve.jump[k] = jump_at(curve, samples[k], is_wide);
       jumps = jumps || curve.jump[k] != 0;
     }
     if (jumps || curve.order >= 2) return;
   }
 }
 
-double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
+/// At a place s of the curve. `is_wide` says that it is known from another place that the step does
+/// not matter, and is set if that is found out here.
+double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s, bool& is_wide) {
   const PlaneFrame& plane = scene_.surfaces[at(curve.receiver)].frame;
   const Vec2 tangent = tangent_at(curve.arc, s);
   const Vec3 point = plane.to_space(point_at(curve.arc, s));
@@ -48,10 +52,11 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s) {
                             : slope_jump(curve, point, step * left, plane.normal);
   };
   const double near = at_step(curve.step);
-  if (near == 0) return 0;
+  if (near == 0 || is_wide) return near;
   // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
   // the whole jump is due to the step.
   const double limit = 2 * near - at_step(2 * curve.step);
+  is_wide = std::abs(limit - near) <= hardly * std::abs(near);
   return std::abs(limit) > share_in_limit * std::abs(near) ? limit : 0;
 }
 

@@ -23,9 +23,9 @@
 namespace halfshade {
 namespace {
 
-/// Finding curves and light along them take as long as so many times the samples of direct light
-/// that the search's work is worth: measured from 2.5 to 5.5 in seven scenes of all sizes.
-constexpr double times_the_search = 4;
+/// Finding the curves of a source among n edges, and light along them, takes as long as so many
+/// samples of direct light times a power of n, about: from four edges to some thousand.
+constexpr double samples_for_curves = 12, power_of_edges = 1.7;
 /// Of the tolerance: what curves may do that are left out.
 constexpr double share_of_curves = 0.5;
 /// Degrees. Polynomials do well on elements that are too narrow for constants.
@@ -44,6 +44,15 @@ constexpr double share_of_direct = 0.85;
 double length_of(const SoundScene& scene, const SolveOptions& options) {
   if (options.refine == Refinement::adaptive) return 0;
   return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
+}
+
+/// What finding curves and following them takes, in samples of direct light.
+double cost_of_curves(const SoundScene& scene, std::span<const int> blockers, const Plan& plan) {
+  double edges = 0;
+  for (const int s : blockers)
+    for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
+  return samples_for_curves * std::pow(edges, power_of_edges) *
+         static_cast<double>(plan.sources.size());
 }
 
 /// Whether elements are not divided, and there are to be so many.
@@ -137,25 +146,9 @@ class DirectFieldSearch {
     return *watched_;
   }
 
-  DiscontinuityOptions curves_that_count() const {
-    DiscontinuityOptions events = options_.events;
-    events.eee = events.eee && plan_.no_eee.empty();
-    events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
-    events.max_length = length_of(scene(), options_);
-    return events;
-  }
-
-  /// What finding curves and following them takes, in samples of direct light.
-  double samples_for_curves() const {
-    if (rays_) return 0;  // which take much less than samples do
-    const SearchForecast forecast =
-        forecast_search(scene(), prepared_.opaque(), plan_.sources, curves_that_count(), progress_);
-    return std::max(times_the_search * forecast.work / forecast.look, 1.);
-  }
-
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
-    fit_without_curves(samples_for_curves());
+    fit_without_curves(std::max(cost_of_curves(scene(), blockers_, plan_), 1.));
     const FieldLimit limit = found_.light.report.limit;
     if (limit == FieldLimit::samples) return false;
     stages_.leave_out_if(
@@ -173,7 +166,7 @@ class DirectFieldSearch {
           found_.warnings);
   }
 
-  void fit_without_curves(double samples_for_curves) {
+  void fit_without_curves(double most_samples) {
     stages_.run("mesh", [&] {
       found_.patches = std::make_shared<PatchMesh>(
           mesh_without_curves(scene(), options_, rays_.has_value(), progress_));
@@ -181,7 +174,7 @@ class DirectFieldSearch {
     });
     warn_of_excess(found_.patches->element_count(), true);
     AdaptiveFieldOptions fit = field_options(scene(), plan_, options_, goal_);
-    fit.samples_of_other_way = samples_for_curves;
+    fit.max_samples = most_samples;
     fit_on_patches(fit);
   }
 
@@ -196,8 +189,11 @@ class DirectFieldSearch {
         has_budget(options_) ? no_elements_for_curves(plain.elements.count(), options_) : "";
     warn_of_excess(plain.elements.count(), no_room.empty());
     if (!no_room.empty()) return fit_on_plain(std::move(plain), no_room);
-    DiscontinuityOptions events = curves_that_count();
+    DiscontinuityOptions events = options_.events;
+    events.eee = events.eee && plan_.no_eee.empty();
     rays_.reset();  // what follows curves is meant to be exact
+    events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
+    events.max_length = length_of(scene(), options_);
     if (options_.force.discontinuities)
       events.most_work = 0;
     else if (!(events.most_work > 0))

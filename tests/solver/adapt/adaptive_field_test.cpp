@@ -215,24 +215,13 @@ TEST(AdaptiveFieldLimits, AreToldAndTheEstimateHolds) {
   expect_limit(options, FieldLimit::unknowns);
   options = {};
   options.tolerance = 1e-4;
-  options.samples_of_other_way = 10000;
+  options.max_samples = 10000;
   expect_limit(options, FieldLimit::samples);
   for (const int order : {-1, 0, 2, 8}) {
     options = fixed(order);
     options.tolerance = 1e-4;
     expect_limit(options, FieldLimit::fixed);
   }
-}
-
-TEST(AdaptiveFieldLimits, NoOtherWayIsTakenForWhichTooFewSamplesAreLeft) {
-  const SoundScene scene = square();
-  PatchMesh mesh = mesh_of(scene, 0);
-  AdaptiveFieldOptions options;
-  options.tolerance = 1e-4;
-  options.samples_of_other_way = 10000;
-  options.samples_left = [] { return 30000.; };
-  options.max_elements = 2000;
-  EXPECT_NE(fit_adaptively(mesh, field_of(kinked), options).report.limit, FieldLimit::samples);
 }
 
 TEST(AdaptiveField, LightOfAnySizeIsTheSame) {

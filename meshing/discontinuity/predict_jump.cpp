@@ -16,8 +16,9 @@ constexpr std::array<double, 3> samples = {1. / 6, 1. / 2, 5. / 6};
 // The limit of a jump for ever smaller steps is this share of it at a step, or the jump is due to
 // the step.
 constexpr double share_in_limit = 0.5;
-// If the limit differs by no more than this share, what moves in sight is far wider than the step.
-constexpr double hardly = 1e-6;
+// If the limit differs by no more than this share, what moves in sight is far wider than the step;
+// so it is where the jump is at least this share of such a one, for it grows with that width.
+constexpr double hardly = 1e-6, comparable = 1e-3;
 
 }  // namespace
 
@@ -27,18 +28,20 @@ JumpPredictor::JumpPredictor(const SoundScene& scene, const OpaqueScene& opaque,
 
 void JumpPredictor::predict(DiscontinuityCurve& curve) {
   for (;; ++curve.order) {
-    bool jumps = false, is_wide = false;
-    for (const std::size_t k : {1, 0, 2}) {  // from the middle, where it is the widest
-      curve.jump[k] = jump_at(curve, samples[k], is_wide);
+    bool jumps = false;
+    double wide = HUGE_VAL;
+    for (const std::size_t k :
+         {1, 0, 2}) {  // the middle first, for curves are narrow at their ends
+      curve.jump[k] = jump_at(curve, samples[k], wide);
       jumps = jumps || curve.jump[k] != 0;
     }
     if (jumps || curve.order >= 2) return;
   }
 }
 
-/// At a place s of the curve. `is_wide` says that it is known from another place that the step does
-/// not matter, and is set if that is found out here.
-double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s, bool& is_wide) {
+/// At a place s of the curve. `wide`: the jump at another place, if the step does not matter there,
+/// else HUGE_VAL; set if it is found not to matter here.
+double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s, double& wide) {
   const PlaneFrame& plane = scene_.surfaces[at(curve.receiver)].frame;
   const Vec2 tangent = tangent_at(curve.arc, s);
   const Vec3 point = plane.to_space(point_at(curve.arc, s));
@@ -52,11 +55,11 @@ double JumpPredictor::jump_at(const DiscontinuityCurve& curve, double s, bool& i
                             : slope_jump(curve, point, step * left, plane.normal);
   };
   const double near = at_step(curve.step);
-  if (near == 0 || is_wide) return near;
+  if (near == 0 || std::abs(near) >= comparable * wide) return near;
   // What moves in sight may be nearly as narrow as the step is: take the limit. It is zero where
   // the whole jump is due to the step.
   const double limit = 2 * near - at_step(2 * curve.step);
-  is_wide = std::abs(limit - near) <= hardly * std::abs(near);
+  if (std::abs(limit - near) <= hardly * std::abs(near)) wide = std::abs(near);
   return std::abs(limit) > share_in_limit * std::abs(near) ? limit : 0;
 }
 

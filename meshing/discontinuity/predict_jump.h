@@ -18,7 +18,7 @@ class JumpPredictor {
   void predict(DiscontinuityCurve& curve);
 
  private:
-  double jump_at(const DiscontinuityCurve& curve, double s, bool& is_wide);
+  double jump_at(const DiscontinuityCurve& curve, double s, double& wide);
   /// From what is seen at point ± step, which was found last.
   double value_jump(const Vec3& point, const Vec3& step, const Vec3& normal) const;
   double slope_jump(const DiscontinuityCurve& curve, const Vec3& point, const Vec3& step,

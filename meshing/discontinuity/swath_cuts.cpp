@@ -45,6 +45,11 @@ SwathCuts::SwathCuts(const SoundScene& scene, const OpaqueScene& opaque,
   contact_tree_ = make_tight_tree(boxes);
 }
 
+Span3 SwathCuts::span_of(int edge) const {
+  const auto [from, to] = opaque_.ends(opaque_.edges[at(edge)]);
+  return {from, to};
+}
+
 std::vector<double> SwathCuts::limits(const Swath& swath) const {
   std::vector<double> limits = {0, 1};
   own_limits(swath, limits);
@@ -89,9 +94,8 @@ SwathCuts::Stretch SwathCuts::hidden_by(int triangle, const Swath& swath, double
     if (emitter_scene_.frame.height(corner[k]) <=
         std::max(emitter_scene_.slack, margins::slack_at(corner[k])))
       return {t, t};
-    const auto& edge = opaque_.edges[at(blocker.edge[k])];
-    critical_parameters(swath, {opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]},
-                        edge.joined, ends);
+    const int edge = blocker.edge[k];
+    critical_parameters(swath, span_of(edge), opaque_.edges[at(edge)].joined, ends);
   }
   const Vec3 normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
   grazing_parameters(swath, normal, ends);
@@ -128,9 +132,7 @@ std::size_t SwathCuts::add_met(const Swath& swath, double t0, double t1,
         tree, [&](int node) { return is_missed(tree.nodes[at(node)].box); }, visit);
   };
   const auto consider_edge = [&](int e) {
-    if (is_inner_[at(e)]) return;
-    const auto& edge = opaque_.edges[at(e)];
-    consider({opaque_.vertices[at(edge.from)], opaque_.vertices[at(edge.to)]}, edge.joined);
+    if (!is_inner_[at(e)]) consider(span_of(e), opaque_.edges[at(e)].joined);
   };
   walk(silhouette_trees_.closed_edges, consider_edge);
   walk(silhouette_trees_.open_edges, consider_edge);

@@ -34,6 +34,7 @@ class SwathCuts {
   Stretch hidden_by(int triangle, const Swath& swath, double t, double t0, double t1) const;
 
  private:
+  Span3 span_of(int edge) const;
   void add_grazing(const Swath& swath, std::vector<double>& parameters) const;
   std::size_t add_met(const Swath& swath, double t0, double t1, std::vector<double>& cuts) const;
 

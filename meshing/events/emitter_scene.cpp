@@ -31,7 +31,11 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
   joined = std::max(slack, own.tolerance.length);
   rings = scene.surfaces[at(surface)].rings;
   for (const std::size_t k : convex_hull(rings[0])) hull.push_back(rings[0][k]);
-  for (const Vec2& p : hull) bounds.extend(p);
+  for (const Vec2& p : hull) {
+    bounds.extend(p);
+    box.include(frame.to_space(p));
+  }
+  box = box.grown(2 * slack);
   area = halfshade::area(scene.surfaces[at(surface)]);
   const VertexHeights heights(topology, frame, slack);
   add_silhouettes(scene, topology, heights, *this);
@@ -46,9 +50,7 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
 }
 
 LinesThrough EmitterScene::lines_through(const Span3& span) const {
-  Bounds box;
-  for (const Vec2& p : hull) box.include(frame.to_space(p));
-  return {box.grown(2 * slack), box_with_slack(span)};
+  return {box, box_with_slack(span)};
 }
 
 namespace {

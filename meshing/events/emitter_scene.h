@@ -61,6 +61,7 @@ struct EmitterScene {
   std::vector<std::vector<Vec2>> rings;
   std::vector<Vec2> hull;  ///< of the outer ring, counter-clockwise
   Eigen::AlignedBox2d bounds;
+  Bounds box;  ///< of the hull in space, grown by twice the slack
   double area;
   std::vector<SilhouetteEdge> edges;
   std::vector<SilhouetteEdge::Face> faces;  ///< of the edges, one after the other

@@ -40,7 +40,7 @@ inline Swath random_ruled(Random& random) {
   return swath;
 }
 
-/// A fan whose lines must meet an edge in its plane, too; most of those near the base's middle do.
+/// A fan whose lines must meet an edge in its plane, too.
 inline Swath random_fan_of_two(Random& random) {
   Swath swath = random_fan(random);
   const auto in_fan = [&] {

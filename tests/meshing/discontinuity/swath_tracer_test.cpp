@@ -74,7 +74,7 @@ struct Traced : test::LitScene {
 };
 
 TEST(SwathTracer, DoesNotCutWhatOneFaceHidesAllAlong) {
-  SceneMaker maker = test::SceneMaker().square_light().floor();
+  SceneMaker maker = SceneMaker().square_light().floor();
   for (int k = 0; k < 20; ++k) {
     const double x = 0.04 * (k - 10);
     maker.box({x, -0.3, 0.2}, {x + 0.02, 0.3, 0.3});

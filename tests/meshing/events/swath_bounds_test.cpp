@@ -1,4 +1,5 @@
 #include "meshing/events/swath.h"
+#include "tests/support/line_hits_box.h"
 #include "tests/support/random_swaths.h"
 
 #include <gtest/gtest.h>
@@ -15,18 +16,6 @@ namespace {
 using test::emitter;
 using test::Random;
 using test::random_swath;
-
-/// Whether an infinite line meets a box, by slabs.
-bool hits(const SightLine& line, const Vec3& low, const Vec3& high) {
-  double near = -HUGE_VAL, far = HUGE_VAL;
-  for (int k = 0; k < 3; ++k) {
-    const double a = (low[k] - line.start[k]) / line.direction[k];
-    const double b = (high[k] - line.start[k]) / line.direction[k];
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far;
-}
 
 TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
   Random random(8);
@@ -52,7 +41,8 @@ TEST(SwathBounds, NeverExcludesABoxThatALineHits) {
       bool is_hit = false;
       for (int i = 0; i <= 50; ++i)
         if (const auto line = line_at(swath, emitter, t0 + 0.02 * i * (t1 - t0)))
-          is_hit = is_hit || hits(*line, low, high);
+          is_hit = is_hit ||
+                   test::line_hits_box(line->start, line->start + line->direction, {low, high});
       const bool meets = bounds.may_meet({low, high}, 1e-12);
       EXPECT_TRUE(meets || !is_hit) << round;
       hit += is_hit;

@@ -1,11 +1,9 @@
 #include "meshing/geometry/lines_through.h"
 
+#include "tests/support/line_hits_box.h"
 #include "tests/support/random.h"
 
 #include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 
 namespace halfshade {
 namespace {
@@ -18,18 +16,6 @@ Bounds random_box(Random& random, double size) {
 }
 
 Vec3 point_in(Random& random, const Bounds& box) { return random.in_box(box.low, box.high); }
-
-/// By slabs, of the whole line.
-bool hits(const Vec3& from, const Vec3& to, const Bounds& box) {
-  double near = -HUGE_VAL, far = HUGE_VAL;
-  for (int k = 0; k < 3; ++k) {
-    const double a = (box.low[k] - from[k]) / (to[k] - from[k]);
-    const double b = (box.high[k] - from[k]) / (to[k] - from[k]);
-    near = std::max(near, std::min(a, b));
-    far = std::min(far, std::max(a, b));
-  }
-  return near <= far;
-}
 
 TEST(LinesThrough, MayMeetWhateverOneOfThemHits) {
   Random random(3);
@@ -46,7 +32,7 @@ TEST(LinesThrough, MayMeetWhateverOneOfThemHits) {
     }
     bool is_hit = false;
     for (int k = 0; k < 200 && !is_hit; ++k)
-      is_hit = hits(point_in(random, a), point_in(random, b), box);
+      is_hit = test::line_hits_box(point_in(random, a), point_in(random, b), box);
     EXPECT_TRUE(lines.may_meet(box, 1e-12) || !is_hit) << round;
     EXPECT_EQ(LinesThrough(b, a).may_meet(box, 1e-12), lines.may_meet(box, 1e-12));
     hit += is_hit;

@@ -43,7 +43,7 @@ inline Swath random_ruled(Random& random) {
 /// A fan whose lines must meet an edge in its plane, too.
 inline Swath random_fan_of_two(Random& random) {
   Swath swath = random_fan(random);
-  const auto in_fan = [&] {
+  const auto in_fan = [&]() -> Vec3 {
     return swath.apex + random(0.2, 2) * (swath.base.at(random(-0.2, 1.2)) - swath.apex);
   };
   swath.second = {in_fan(), in_fan()};

@@ -179,7 +179,7 @@ std::vector<NearLook> near_looks(std::span<const FittedElement> elements, const 
   std::vector<std::pair<double, int>> order;  // how much it may matter, less than 0
   for (int e = 0; e < static_cast<int>(elements.size()); ++e) {
     const FittedElement& element = elements[at(e)];
-    if (element.is_checked) continue;
+    if (element.is_checked || !(element.area > 0)) continue;
     if (!corners.contains(element.surface) && !edges.contains(element.surface)) continue;
     const double square = element.fit.coefficients.matrix().squaredNorm();
     order.emplace_back(rounded(-element.area * element.weight * std::max(square, mean_square)), e);

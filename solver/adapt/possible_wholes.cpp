@@ -72,6 +72,7 @@ std::vector<PossibleWhole> possible_wholes(const PatchMesh& mesh,
       area += part.area;
       weight += part.area * part.weight;
     }
+    if (!(area > 0)) continue;
     PossibleWhole best{node, parts, {}, 0, 0};
     for (int p = highest; p <= (order >= 0 ? order : std::min(highest + 1, highest_order)); ++p) {
       const int fewer = unknowns - basis_size(p);

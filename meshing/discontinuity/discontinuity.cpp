@@ -1,29 +1,24 @@
 #include "meshing/discontinuity/discontinuity.h"
 
 #include "meshing/core/parallel.h"
-#include "meshing/discontinuity/border_events.h"
-#include "meshing/discontinuity/horizon_events.h"
+#include "meshing/discontinuity/curve_search.h"
 #include "meshing/discontinuity/merge_curves.h"
 #include "meshing/discontinuity/predict_jump.h"
-#include "meshing/discontinuity/search_budget.h"
-#include "meshing/discontinuity/swath_tracer.h"
-#include "meshing/events/events.h"
 
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 
 namespace halfshade {
 namespace {
 
 using Curves = std::vector<DiscontinuityCurve>;
 
-void append(Curves&& more, Curves& curves) {
-  curves.insert(curves.end(), std::make_move_iterator(more.begin()),
-                std::make_move_iterator(more.end()));
-}
+// A forecast looks at so many sources.
+constexpr std::size_t most_sources_in_forecast = 4;
 
 void sort_by_receiver(Curves& curves) {
   std::stable_sort(curves.begin(), curves.end(),
@@ -32,297 +27,35 @@ void sort_by_receiver(Curves& curves) {
                    });
 }
 
-/// One worker a thread, made when it is first needed. Results do not depend on which thread has
-/// done what, for workers keep nothing between jobs but buffers and counts.
-template <class Worker>
-using PerThread = tbb::enumerable_thread_specific<Worker>;
-
-/// The search for one emitter's curves.
-class Search {
- public:
-  Search(const SoundScene& scene, const OpaqueScene& opaque, const LightSource& source,
-         const DiscontinuityOptions& options, double most_work, const Progress& progress,
-         DiscontinuityReport& report)
-      : scene_(scene),
-        opaque_(opaque),
-        emitter_scene_(scene, opaque, source.surface),
-        exitance_(source.exitance),
-        options_(options),
-        progress_(progress),
-        report_(report),
-        budget_(most_work, emitter_scene_.edges.size()),
-        tracers_([this] {
-          return SwathTracer(scene_, opaque_, emitter_scene_,
-                             {options_.irradiance_tolerance / exitance_, options_.max_length});
-        }),
-        borders_([this] { return BorderSearch(scene_, opaque_, emitter_scene_); }),
-        horizons_([this] { return HorizonSearch(scene_, opaque_, emitter_scene_); }) {
-    if (budget_.is_limited()) sampled_ = sample_lines();
-  }
-
-  Curves run() {
-    report_.silhouette_edges += emitter_scene_.edges.size();
-    if (options_.ev) find_vertex_events();
-    // They take little of ordinary scenes and matter most, so that they come before what may use up
-    // the work; by now it is known how much is seen from a point.
-    Curves on_borders = find_border_events();
-    const auto edges = static_cast<double>(emitter_scene_.edges.size());
-    const double for_each_face =
-        SearchBudget::of_swath * edges * edges / static_cast<double>(scene_.surfaces.size());
-    if (options_.face)
-      trace(CurveKind::face, {scene_.surfaces.size(), for_each_face, "planes of faces"},
-            [&](int r, const SwathSink& sink) {
-              if (r != emitter_scene_.emitter && !scene_.surfaces[at(r)].back)
-                face_swaths(scene_, emitter_scene_, opaque_, r, sink);
-            });
-    if (options_.eee) find_triples();
-    append(std::move(on_borders), curves_);
-    if (options_.horizon && !(options_.irradiance_tolerance > 0)) append(find_horizons(), curves_);
-    const TraceCounts counts = counts_so_far();
-    report_.swaths += counts.swaths;
-    report_.pieces += counts.pieces;
-    report_.work += budget_.used();
-    for (std::size_t k = 0; k < report_.left_out.size(); ++k)
-      report_.left_out[k] += budget_.left_out()[k];
-    for (const DiscontinuityCurve& curve : curves_)
-      ++report_.found[static_cast<std::size_t>(curve.kind)];
-    merge();
-    predict_jumps();
-    return std::move(curves_);
-  }
-
- private:
-  void find_vertex_events() {
-    const auto edges = emitter_scene_.edges.size(), vertices = emitter_scene_.vertices.size();
-    trace(CurveKind::ev,
-          {edges, SearchBudget::of_test * static_cast<double>(vertices), "vertex and edge"},
-          [&](int e, const SwathSink& sink) { edge_swaths(emitter_scene_, e, sink); });
-    trace(CurveKind::ev, {vertices, SearchBudget::of_test, "edge and vertex"},
-          [&](int v, const SwathSink& sink) { vertex_swaths(emitter_scene_, v, sink); });
-  }
-
-  void find_triples() {
-    const std::size_t count = emitter_scene_.edges.size();
-    const double pairs = 0.5 * static_cast<double>(count) * static_cast<double>(count);
-    if (!budget_.allows(CurveKind::eee, pairs * SearchBudget::of_pair)) return;
-    std::vector<std::vector<int>> later(count);
-    parallel_for(
-        count,
-        [&](std::size_t e) { later[e] = later_partners(emitter_scene_, static_cast<int>(e)); },
-        progress_, "pairs of edges");
-    double triples = 0;
-    for (const std::vector<int>& partners : later)
-      triples += std::pow(static_cast<double>(partners.size()), 2) / 3;
-    const double for_each =
-        SearchBudget::of_swath * triples / static_cast<double>(std::max<std::size_t>(count, 1));
-    trace(CurveKind::eee, {count, for_each, "three edges"}, [&](int a, const SwathSink& sink) {
-      std::vector<int> common;
-      for (const int b : later[at(a)]) {
-        pair_swaths(emitter_scene_, a, b, sink);
-        common.clear();
-        std::set_intersection(later[at(a)].begin(), later[at(a)].end(), later[at(b)].begin(),
-                              later[at(b)].end(), std::back_inserter(common));
-        for (const int c : common) triple_swath(emitter_scene_, a, b, c, sink);
-      }
+/// Receiver by receiver, each with its own idea of what is the same. Returns the curves that are
+/// left, by receiver, and adds to `merged` how many are not.
+Curves merge(const SoundScene& scene, Curves curves, std::size_t& merged) {
+  sort_by_receiver(curves);
+  Curves left;
+  for (auto begin = curves.begin(); begin != curves.end();) {
+    const int receiver = begin->receiver;
+    const auto end = std::find_if(begin, curves.end(), [&](const DiscontinuityCurve& curve) {
+      return curve.receiver != receiver;
     });
+    Curves own(std::make_move_iterator(begin), std::make_move_iterator(end));
+    merged += merge_coincident(own, tolerance_of(scene.surfaces[at(receiver)]).length);
+    std::move(own.begin(), own.end(), std::back_inserter(left));
+    begin = end;
   }
+  return left;
+}
 
-  Curves find_border_events() {
-    const double look = look_work(counts_so_far(), emitter_scene_.edges.size());
-    // A method of BorderSearch as the job of each receiver.
-    const auto find = [&](auto method) {
-      return [this, method](std::size_t receiver, double most, Curves& found) {
-        BorderSearch& borders = borders_.local();
-        const SightEffort before = borders.effort();
-        const bool is_done = (borders.*method)(static_cast<int>(receiver), most, found);
-        return Done{work_of(borders.effort() - before), is_done};
-      };
-    };
-    const std::size_t count = scene_.surfaces.size();
-    std::size_t contacts = 0;
-    for (const Surface& surface : scene_.surfaces) contacts += surface.contacts.size();
-    // At least one look at each surface, and one on either side of a contact line.
-    const double of_contacts =
-        2 * look * static_cast<double>(contacts) / static_cast<double>(count);
-    const double of_limits =
-        SearchBudget::of_test * static_cast<double>(borders_.local().limit_tests());
-    Curves found;
-    if (options_.face)
-      found = run_all(CurveKind::face, {count, look + of_limits, "plane of the light"},
-                      find(&BorderSearch::add_plane_curves));
-    if (options_.contact)
-      append(run_all(CurveKind::contact, {count, of_contacts, "contact lines"},
-                     find(&BorderSearch::add_contact_curves)),
-             found);
-    return found;
-  }
-
-  Curves find_horizons() {
-    const std::size_t count = scene_.surfaces.size();
-    std::size_t cut = 0;
-    for (std::size_t r = 0; r < count; ++r)
-      cut += horizons_.local().is_cut(static_cast<int>(r)) ? 1 : 0;
-    const double for_each = SearchBudget::of_test *
-                            static_cast<double>(cut * emitter_scene_.edges.size()) /
-                            static_cast<double>(count);
-    return run_all(CurveKind::horizon, {count, for_each, "horizon"},
-                   [this](std::size_t receiver, double most, Curves& found) {
-                     HorizonSearch& horizons = horizons_.local();
-                     const double before = horizons.work();
-                     const bool is_done =
-                         horizons.add_curves(static_cast<int>(receiver), most, found);
-                     return Done{horizons.work() - before, is_done};
-                   });
-  }
-
-  /// What lines of sight from the emitter to some of the surfaces meet, so that it is known how
-  /// deep the scene is before anything is traced.
-  TraceCounts sample_lines() const {
-    constexpr std::size_t most = 64;
-    const std::size_t count = scene_.surfaces.size(), lines = std::min(most, count);
-    SightCaster caster(scene_, opaque_);
-    TraceCounts counts;
-    for (std::size_t k = 0; k < lines; ++k) {
-      const Surface& target = scene_.surfaces[k * count / lines];
-      const Vec3 from = emitter_scene_.corners[k % emitter_scene_.corners.size()].position;
-      const Vec3 to = target.frame.to_space(target.rings.front().front());
-      if (emitter_scene_.frame.height(to) <= emitter_scene_.slack) continue;
-      caster.cast({from, from, (to - from).normalized()});
-      ++counts.pieces;
-      counts.crossings += caster.crossing_count();
-    }
-    return counts;
-  }
-
-  TraceCounts counts_so_far() const {
-    TraceCounts sum = sampled_;
-    for (const SwathTracer& tracer : tracers_) sum += tracer.counts();
-    return sum;
-  }
-
-  /// What is done one by one, in parallel.
-  struct Jobs {
-    std::size_t count;
-    double work;  ///< of each, that is known before it is done
-    const char* name;
-  };
-  /// What came of one of them.
-  struct Done {
-    double work;
-    bool is_done;  ///< not ended early
-  };
-
-  /// Traces the swaths of all jobs and keeps the curves.
-  template <class Generate>
-  void trace(CurveKind kind, const Jobs& jobs, const Generate& generate) {
-    append(run_all(kind, jobs,
-                   [&](std::size_t i, double most, Curves& found) {
-                     SwathTracer& tracer = tracers_.local();
-                     tracer.begin();
-                     const TraceCounts before = tracer.counts();
-                     const auto work = [&] {
-                       return budget_.work_of(tracer.counts() - before, found.size());
-                     };
-                     bool is_done = true;
-                     const auto may_go_on = [&] { return work() <= most; };
-                     generate(static_cast<int>(i), [&](const Swath& swath) {
-                       if (progress_.stopped()) return;
-                       is_done = is_done && tracer.trace(swath, found, may_go_on);
-                     });
-                     return Done{work(), is_done};
-                   }),
-           curves_);
-  }
-
-  /// Runs all jobs, in parallel, and returns the curves in the jobs' order. Does so with some of
-  /// them first, and leaves the others out if all would take too much work: of a job that ends
-  /// early it is only known that it takes more, so that it may go on until that decides. `run`
-  /// appends a job's curves and ends it early, if it can, at the work given.
-  template <class Run>
-  Curves run_all(CurveKind kind, const Jobs& jobs, const Run& run) {
-    const double known = jobs.work * static_cast<double>(jobs.count);
-    if (!budget_.allows(kind, known)) return {};
-    std::vector<Curves> found(jobs.count);
-    std::vector<Done> done(jobs.count, Done{0, false});
-    const auto run_one = [&](std::size_t i, double most) {
-      found[i].clear();
-      done[i] = run(i, most, found[i]);
-    };
-    const std::vector<std::size_t> sample = budget_.sample(jobs.count);
-    for (double most = budget_.most_for_one(jobs.count); !sample.empty(); most *= 4) {
-      parallel_for(
-          sample.size(),
-          [&](std::size_t k) {
-            if (!done[sample[k]].is_done) run_one(sample[k], most);
-          },
-          progress_, jobs.name);
-      double tried = 0;
-      for (const std::size_t i : sample) tried += done[i].work;
-      const double scale = static_cast<double>(jobs.count) / static_cast<double>(sample.size());
-      if (progress_.stopped()) return {};
-      if (!budget_.allows(kind, tried * scale)) {
-        budget_.use(known + tried);
-        return {};
-      }
-      if (std::all_of(sample.begin(), sample.end(), [&](std::size_t i) { return done[i].is_done; }))
-        break;
-    }
-    parallel_for(
-        jobs.count,
-        [&](std::size_t i) {
-          if (!done[i].is_done) run_one(i, HUGE_VAL);
-        },
-        progress_, jobs.name);
-    budget_.use(known);
-    for (const Done& one : done) budget_.use(one.work);
-    Curves all;
-    for (Curves& curves : found) append(std::move(curves), all);
-    return all;
-  }
-
-  /// Receiver by receiver, each with its own idea of what is the same.
-  void merge() {
-    sort_by_receiver(curves_);
-    Curves merged;
-    for (auto begin = curves_.begin(); begin != curves_.end();) {
-      const int receiver = begin->receiver;
-      const auto end = std::find_if(begin, curves_.end(), [&](const DiscontinuityCurve& curve) {
-        return curve.receiver != receiver;
-      });
-      Curves own(std::make_move_iterator(begin), std::make_move_iterator(end));
-      report_.merged += merge_coincident(own, tolerance_of(scene_.surfaces[at(receiver)]).length);
-      append(std::move(own), merged);
-      begin = end;
-    }
-    curves_ = std::move(merged);
-  }
-
-  void predict_jumps() {
-    PerThread<JumpPredictor> predictors(
-        [this] { return JumpPredictor(scene_, opaque_, emitter_scene_); });
-    parallel_for(
-        curves_.size(),
-        [&](std::size_t i) {
-          predictors.local().predict(curves_[i]);
-          for (double& jump : curves_[i].jump) jump *= exitance_;
-        },
-        progress_, "jumps");
-  }
-
-  const SoundScene& scene_;
-  const OpaqueScene& opaque_;
-  const EmitterScene emitter_scene_;
-  double exitance_;
-  const DiscontinuityOptions& options_;
-  const Progress& progress_;
-  DiscontinuityReport& report_;
-  SearchBudget budget_;
-  TraceCounts sampled_;  ///< of lines cast to know the scene; none if work is not limited
-  PerThread<SwathTracer> tracers_;
-  PerThread<BorderSearch> borders_;
-  PerThread<HorizonSearch> horizons_;
-  Curves curves_;
-};
+void predict_jumps(const LitFromOne& lit, const Progress& progress, Curves& curves) {
+  tbb::enumerable_thread_specific<JumpPredictor> predictors(
+      [&] { return JumpPredictor(lit.scene, lit.opaque, lit.emitter_scene); });
+  parallel_for(
+      curves.size(),
+      [&](std::size_t i) {
+        predictors.local().predict(curves[i]);
+        for (double& jump : curves[i].jump) jump *= lit.exitance;
+      },
+      progress, "jumps");
+}
 
 }  // namespace
 
@@ -331,18 +64,45 @@ Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene&
                                      const DiscontinuityOptions& options,
                                      const Progress& progress) {
   Discontinuities result;
+  DiscontinuityReport& report = result.report;
   result.sources.assign(sources.begin(), sources.end());
-  result.report.most_work = options.most_work;
+  report.most_work = options.most_work;
+  std::vector<int> receivers(scene.surfaces.size());
+  std::iota(receivers.begin(), receivers.end(), 0);
   for (std::size_t k = 0; k < sources.size(); ++k) {
     const double share =
-        (options.most_work - result.report.work) / static_cast<double>(sources.size() - k);
+        (options.most_work - report.work) / static_cast<double>(sources.size() - k);
     const double most_work = options.most_work > 0 ? std::max(share, 1.) : HUGE_VAL;
-    append(Search(scene, opaque, sources[k], options, most_work, progress, result.report).run(),
-           result.curves);
+    const EmitterScene emitter_scene(scene, opaque, sources[k].surface);
+    const LitFromOne lit{scene, opaque, emitter_scene, sources[k].exitance, receivers};
+    Curves curves =
+        merge(scene, search_curves(lit, options, most_work, progress, report), report.merged);
+    predict_jumps(lit, progress, curves);
+    std::move(curves.begin(), curves.end(), std::back_inserter(result.curves));
   }
   sort_by_receiver(result.curves);
-  result.report.interrupted = progress.stopped();
+  report.interrupted = progress.stopped();
   return result;
+}
+
+SearchForecast forecast_search(const SoundScene& scene, const OpaqueScene& opaque,
+                               std::span<const LightSource> sources, std::span<const int> among,
+                               const DiscontinuityOptions& options, const Progress& progress) {
+  std::vector<bool> is_among(scene.surfaces.size(), false);
+  for (const int s : among) is_among[at(s)] = true;
+  const std::size_t asked = std::min(most_sources_in_forecast, sources.size());
+  SearchForecast sum;
+  for (std::size_t k = 0; k < asked; ++k) {
+    const LightSource& source = sources[k * sources.size() / asked];
+    const EmitterScene emitter_scene(scene, opaque, source.surface, is_among);
+    const SearchForecast one =
+        forecast_curves({scene, opaque, emitter_scene, source.exitance, among}, options, progress);
+    const double stands_for = static_cast<double>(sources.size()) / static_cast<double>(asked);
+    sum.work += stands_for * one.work;
+    sum.look += one.look / static_cast<double>(asked);
+    sum.curves += stands_for * one.curves;
+  }
+  return sum;
 }
 
 }  // namespace halfshade

@@ -83,4 +83,20 @@ Discontinuities find_discontinuities(const SoundScene& scene, const OpaqueScene&
                                      const DiscontinuityOptions& options = {},
                                      const Progress& progress = {});
 
+/// What finding the curves would take.
+struct SearchForecast {
+  double work = 0;    ///< as DiscontinuityOptions::most_work counts it
+  double look = 0;    ///< work on seeing what is seen from a point, on average
+  double curves = 0;  ///< found, before those that lie on others are merged
+};
+
+/// Told from some of the edges and vertices of surfaces `among` all, and curves on some of them, as
+/// if there were no others, and from some of the sources, whatever DiscontinuityOptions::most_work
+/// is; about right, to a factor of two or so. Takes as long as a small share of the search, or all
+/// of it in scenes of a few dozen edges. Deterministic.
+SearchForecast forecast_search(const SoundScene& scene, const OpaqueScene& opaque,
+                               std::span<const LightSource> sources, std::span<const int> among,
+                               const DiscontinuityOptions& options = {},
+                               const Progress& progress = {});
+
 }  // namespace halfshade

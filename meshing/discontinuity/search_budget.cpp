@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <numeric>
 
 namespace halfshade {
 namespace {
@@ -33,6 +35,19 @@ double look_work(const TraceCounts& counts, std::size_t edges) {
          of_edge_behind * depth * static_cast<double>(edges);
 }
 
+std::vector<std::size_t> spread_jobs(std::size_t count, std::size_t most) {
+  std::vector<std::size_t> jobs(std::min(count, most));
+  std::iota(jobs.begin(), jobs.end(), 0);
+  if (count <= most) return jobs;
+  for (std::size_t& job : jobs) {
+    const double turns = std::numbers::phi * static_cast<double>(job);
+    job = static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(count));
+  }
+  std::sort(jobs.begin(), jobs.end());
+  jobs.erase(std::unique(jobs.begin(), jobs.end()), jobs.end());
+  return jobs;
+}
+
 double SearchBudget::work_of(const TraceCounts& counts, std::size_t curves) const {
   return of_swath * static_cast<double>(counts.swaths) +
          of_step * static_cast<double>(counts.steps) +
@@ -47,11 +62,7 @@ bool SearchBudget::allows(CurveKind kind, double work) {
 }
 
 std::vector<std::size_t> SearchBudget::sample(std::size_t count) const {
-  std::vector<std::size_t> jobs;
-  if (is_limited())
-    for (std::size_t k = 0; k < std::min(sample_size, count); ++k)
-      jobs.push_back(k * count / std::min(sample_size, count));
-  return jobs;
+  return is_limited() ? spread_jobs(count, sample_size) : std::vector<std::size_t>();
 }
 
 double SearchBudget::most_for_one(std::size_t count) const {

@@ -18,6 +18,10 @@ double work_of(const SightEffort& effort);
 /// were traced tell, and with the edges among them.
 double look_work(const TraceCounts& counts, std::size_t edges);
 
+/// Some of `count` jobs, `most` at most, or all if these are enough: spread evenly, but with no
+/// period, for so have the edges of many boxes. Ascending.
+std::vector<std::size_t> spread_jobs(std::size_t count, std::size_t most);
+
 /// Says which kinds of curves one source's share of the work affords. Counts instead of times, so
 /// that the answer is always the same.
 class SearchBudget {
@@ -38,7 +42,7 @@ class SearchBudget {
   /// Work that was done by tracing, and that the jumps of the curves found will take.
   double work_of(const TraceCounts& counts, std::size_t curves) const;
 
-  /// Jobs, evenly spread, that tell what all take; none if there is no need to know.
+  /// Jobs that tell what all take; none if there is no need to know.
   std::vector<std::size_t> sample(std::size_t count) const;
   /// Work on one of the sample that is enough to know that all take too much; above 0.
   double most_for_one(std::size_t count) const;

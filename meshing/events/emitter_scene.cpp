@@ -23,7 +23,8 @@ Bounds box_with_slack(const Span3& span) {
 
 }  // namespace
 
-EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface)
+EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface,
+                           const std::vector<bool>& among)
     : emitter(surface), frame(scene.surfaces[at(surface)].frame) {
   const OpaqueTopology& topology = opaque.topology();
   const OpaqueTopology::OpaqueSurface& own = topology.surfaces[at(surface)];
@@ -38,7 +39,7 @@ EmitterScene::EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, i
   box = box.grown(2 * slack);
   area = halfshade::area(scene.surfaces[at(surface)]);
   const VertexHeights heights(topology, frame, slack);
-  add_silhouettes(scene, topology, heights, *this);
+  add_silhouettes(scene, topology, heights, among, *this);
   add_border(topology, heights, *this);
   std::vector<Bounds> boxes;
   for (const SilhouetteEdge& edge : edges) boxes.push_back(box_with_slack(edge.front));

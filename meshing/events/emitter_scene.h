@@ -52,7 +52,9 @@ struct OutlinePoint {
 /// front of the emitter that can be silhouettes, their vertices, the emitter's own outline.
 struct EmitterScene {
   /// Cost grows as n log n with the scene, but for the square of the number of outline pieces.
-  EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface);
+  /// `among`: surface → whether its edges and vertices are taken; empty: all are.
+  EmitterScene(const SoundScene& scene, const OpaqueScene& opaque, int surface,
+               const std::vector<bool>& among = {});
 
   int emitter;  ///< a surface
   PlaneFrame frame;

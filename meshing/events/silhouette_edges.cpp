@@ -94,12 +94,21 @@ class SilhouetteSearch {
   EmitterScene& out_;
 };
 
+bool belongs_to_some(const OpaqueTopology& opaque, const OpaqueTopology::Edge& edge,
+                     const std::vector<bool>& among) {
+  for (int i = edge.first; i < edge.first + edge.count; ++i)
+    if (among[at(opaque.triangles[at(opaque.incidences[at(i)].triangle)].surface)]) return true;
+  return false;
+}
+
 }  // namespace
 
 void add_silhouettes(const SoundScene& scene, const OpaqueTopology& opaque,
-                     const VertexHeights& heights, EmitterScene& out) {
+                     const VertexHeights& heights, const std::vector<bool>& among,
+                     EmitterScene& out) {
   SilhouetteSearch search(scene, opaque, heights, out);
-  for (int e = 0; e < static_cast<int>(opaque.edges.size()); ++e) search.add_edge(e);
+  for (int e = 0; e < static_cast<int>(opaque.edges.size()); ++e)
+    if (among.empty() || belongs_to_some(opaque, opaque.edges[at(e)], among)) search.add_edge(e);
   search.add_vertices();
 }
 

@@ -31,8 +31,9 @@ constexpr std::size_t checks = 4;
 constexpr double noticeably = 2;
 /// Close to corners and edges: so many samples, and half of what all others take.
 constexpr std::size_t least_near_looks = 20000;
-/// More samples than there should be, and no reason yet to begin in another way.
-constexpr double almost = 3;
+/// Samples of another way may look at more each, in shadows' edges only: so many times what it
+/// takes must be left.
+constexpr double enough = 4;
 
 class Adaptation {
  public:
@@ -278,17 +279,17 @@ class Adaptation {
     return true;
   }
 
-  /// Not if there are to be some more only.
-  bool takes_too_many_samples() {
-    const auto samples = static_cast<double>(report_.samples);
-    const auto in_the_end = forecast_.in_the_end(samples, square_error_ / allowed());
-    return samples > options_.max_samples &&
-           !(in_the_end && *in_the_end < almost * options_.max_samples);
+  /// Whether the rest is likely to take more samples than another way would, and there are so many.
+  bool is_dearer_than_other_way() {
+    const double other = options_.samples_of_other_way;
+    return other > 0 && !is_met_ && samples_left(options_) > enough * other &&
+           forecast_.rest_takes_more(other, static_cast<double>(report_.samples),
+                                     square_error_ / allowed());
   }
 
   /// False, with a limit set, if nothing can be done.
   bool improve() {
-    if (options_.max_samples > 0 && !is_met_ && takes_too_many_samples())
+    if (is_dearer_than_other_way())
       report_.limit = FieldLimit::samples;
     else if (samples_left(options_) <= 0)
       report_.limit = FieldLimit::work;

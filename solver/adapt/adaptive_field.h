@@ -30,8 +30,9 @@ struct AdaptiveFieldOptions {
                                   ///< unknowns by that; with chosen orders
   int max_elements = 40000;
   int max_unknowns = 1000000;  ///< per channel
-  double max_samples = 0;  ///< gives up rather than take more, or three times as many if that is
-                           ///< likely to be enough; 0: no limit
+  /// How many it would take in another way: gives up once what is still to come in this one is
+  /// likely to be more, if a few times as many may still be taken; 0: never.
+  double samples_of_other_way = 0;
   /// Surface → whether its elements count where others are compared with all of them, in number
   /// and size; empty: all do. Of surfaces that get hardly any light they should not.
   std::vector<bool> counted;

@@ -27,8 +27,8 @@ using FieldBound = std::function<double(const FieldPoint&)>;
 /// what two values are off, each with noise of its own, is the square of the error in the mean. The
 /// error reported is the larger one, with two standard deviations of it.
 ///
-/// Of the options `order`, `weight`, `merge` and `max_samples` do not count. If stopped, the
-/// elements keep what the last whole round gave. The same for any number of threads.
+/// Of the options `order`, `weight`, `merge` and `samples_of_other_way` do not count. If stopped,
+/// the elements keep what the last whole round gave. The same for any number of threads.
 AdaptiveField fit_noisy(PatchMesh& mesh, const NoisyFieldAt& field, const FieldBound& bound,
                         const AdaptiveFieldOptions& options, const Progress& progress = {});
 

@@ -11,8 +11,14 @@ class SampleForecast {
   /// has not fallen since the last call, or this is the first.
   std::optional<double> in_the_end(double samples, double square_error);
 
+  /// Instead of in_the_end: whether what is still to come is likely to be more than `most` samples.
+  /// One call may say so by chance: true only if two in a row do, from a tenth of `most` on. Where
+  /// nothing is known of the end, as much is to come as there was.
+  bool rest_takes_more(double most, double samples, double square_error);
+
  private:
   double samples_ = 0, square_error_ = 0;  ///< of the last call
+  int calls_that_said_so_ = 0;             ///< in a row
 };
 
 }  // namespace halfshade

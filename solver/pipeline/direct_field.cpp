@@ -1,11 +1,11 @@
 #include "solver/pipeline/direct_field.h"
 
-#include "meshing/core/error.h"
 #include "meshing/core/parallel.h"
 #include "solver/adapt/noisy_field.h"
 #include "solver/elements/quadrature.h"
 #include "solver/pipeline/blockers.h"
 #include "solver/pipeline/corner_places.h"
+#include "solver/pipeline/direct_meshes.h"
 #include "solver/pipeline/direct_work.h"
 #include "solver/pipeline/lit_surfaces.h"
 #include "solver/pipeline/narrow_places.h"
@@ -19,81 +19,21 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace halfshade {
 namespace {
 
-/// Finding the curves of a source among n edges, and light along them, takes as long as so many
-/// samples of direct light times a power of n, about: from four edges to some thousand.
-constexpr double samples_for_curves = 12, power_of_edges = 1.7;
+/// Finding curves and light along them take as long as so many times the samples of direct light
+/// that the search's work is worth. Measured from 4 to 11 in seven scenes of all sizes; towards
+/// curves, for elements along them are fewer.
+constexpr double times_the_search = 5;
 /// Of the tolerance: what curves may do that are left out.
 constexpr double share_of_curves = 0.5;
-/// Degrees. Polynomials do well on elements that are too narrow for constants.
-constexpr double least_angle = 10;
-/// Between curves that meet at small angles good ones take many elements: where narrow ones are
-/// fewer than this share, they do, for each takes but few more unknowns.
-constexpr double narrow_angle = 1, much_fewer = 0.8;
-/// Of the elements that there may be, this share may be there before any is divided.
-constexpr double share_at_first = 0.5;
-
 /// Of the elements and unknowns that there may be, where light is reflected: the rest is for parts
 /// of elements that are large because direct light is dark or even there, and reflected light is
 /// not.
 constexpr double share_of_direct = 0.85;
-
-double length_of(const SoundScene& scene, const SolveOptions& options) {
-  if (options.refine == Refinement::adaptive) return 0;
-  return options.max_length > 0 ? options.max_length : length_for_count(scene, options.elements);
-}
-
-/// What finding curves and following them takes, in samples of direct light.
-double cost_of_curves(const SoundScene& scene, std::span<const int> blockers, const Plan& plan) {
-  double edges = 0;
-  for (const int s : blockers)
-    for (const Ring& ring : scene.surfaces[at(s)].rings) edges += static_cast<double>(ring.size());
-  return samples_for_curves * std::pow(edges, power_of_edges) *
-         static_cast<double>(plan.sources.size());
-}
-
-/// Whether elements are not divided, and there are to be so many.
-bool has_budget(const SolveOptions& options) {
-  return options.refine == Refinement::uniform && options.max_length == 0;
-}
-
-/// Elements that are to be divided: where narrow surfaces would take too many, they are narrow,
-/// too, and somewhat so where few are asked for; not quite, for parts of needles are needles.
-PatchMesh mesh_for_adaptation(const SoundScene& scene, const SolveOptions& options, bool few,
-                              const Progress& progress) {
-  PlanarMeshOptions mesh_options;
-  mesh_options.max_triangles =
-      static_cast<std::size_t>(share_at_first * static_cast<double>(options.max_elements));
-  for (const double angle : {least_angle, 3., 1.}) {
-    if (few && angle == least_angle) continue;
-    mesh_options.min_angle = angle;
-    try {
-      return PatchMesh(scene, mesh_options, progress);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::too_large) throw;
-    }
-  }
-  mesh_options.min_angle = 0;
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
-  return mesh_plainly(scene, mesh_options, options, progress);
-}
-
-/// Elements that follow no curves.
-PatchMesh mesh_without_curves(const SoundScene& scene, const SolveOptions& options, bool few,
-                              const Progress& progress) {
-  if (has_budget(options))
-    return *std::move(make_solve_mesh(scene, options, progress, least_angle).patches);
-  if (options.refine == Refinement::adaptive)
-    return mesh_for_adaptation(scene, options, few, progress);
-  PlanarMeshOptions mesh_options;
-  mesh_options.max_length = length_of(scene, options);
-  mesh_options.min_angle = least_angle;
-  mesh_options.max_triangles = static_cast<std::size_t>(options.max_elements);
-  return mesh_plainly(scene, mesh_options, options, progress);
-}
 
 std::optional<RayLight> rays_of(const PreparedScene& prepared, const Plan& plan) {
   if (!(plan.rays.deviation > 0)) return std::nullopt;
@@ -146,11 +86,34 @@ class DirectFieldSearch {
     return *watched_;
   }
 
+  DiscontinuityOptions curves_that_count() const {
+    DiscontinuityOptions events = options_.events;
+    events.eee = events.eee && plan_.no_eee.empty();
+    events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
+    events.max_length = length_of_elements(scene(), options_);
+    return events;
+  }
+
+  /// What finding curves and following them takes, in samples of direct light.
+  double samples_for_curves() const {
+    if (rays_) return 0;  // which take much less than samples do
+    const SearchForecast forecast = forecast_search(scene(), prepared_.opaque(), plan_.sources,
+                                                    plan_.lit, curves_that_count(), progress_);
+    return std::max(times_the_search * forecast.work / forecast.look, 1.);
+  }
+
+  /// False if curves are likely to pay.
   bool try_without_curves() {
     if (options_.refine != Refinement::adaptive || options_.force.discontinuities) return false;
-    fit_without_curves(std::max(cost_of_curves(scene(), blockers_, plan_), 1.));
+    const double for_curves = samples_for_curves();
+    fit_without_curves(for_curves);
     const FieldLimit limit = found_.light.report.limit;
     if (limit == FieldLimit::samples) return false;
+    const bool is_full = limit == FieldLimit::elements || limit == FieldLimit::unknowns;
+    if (is_full && for_curves > 0 && places_left(work_, options_.max_unknowns) > for_curves) {
+      fit_better_along_curves();
+      return true;
+    }
     stages_.leave_out_if(
         true, "discontinuities",
         limit == FieldLimit::none      ? "the tolerance takes less work than finding them"
@@ -166,7 +129,7 @@ class DirectFieldSearch {
           found_.warnings);
   }
 
-  void fit_without_curves(double most_samples) {
+  void fit_without_curves(double samples_for_curves) {
     stages_.run("mesh", [&] {
       found_.patches = std::make_shared<PatchMesh>(
           mesh_without_curves(scene(), options_, rays_.has_value(), progress_));
@@ -174,26 +137,36 @@ class DirectFieldSearch {
     });
     warn_of_excess(found_.patches->element_count(), true);
     AdaptiveFieldOptions fit = field_options(scene(), plan_, options_, goal_);
-    fit.max_samples = most_samples;
+    fit.samples_of_other_way = samples_for_curves;
     fit_on_patches(fit);
   }
 
-  void fit_along_curves() {
+  /// Along curves fewer elements do: whichever comes closer is kept.
+  void fit_better_along_curves() {
+    DirectField plain = std::exchange(found_, {});
+    fit_along_curves(false);
+    const bool is_worse =
+        !found_.patches || (found_.light.report.limit != FieldLimit::none &&
+                            found_.light.report.relative_error > plain.light.report.relative_error);
+    if (!is_worse) return;
+    plain.discontinuities = found_.discontinuities;
+    found_ = std::move(plain);
+  }
+
+  /// If that takes more elements than there may be, either without curves or not at all.
+  void fit_along_curves(bool may_fall_back = true) {
     SolveMesh plain;
     if (has_budget(options_))
       stages_.run("mesh", [&] {
-        plain = make_solve_mesh(scene(), options_, progress_, least_angle);
+        plain = make_solve_mesh(scene(), options_, progress_, least_angle_of_direct);
         return plain.elements.corners.size();
       });
     const std::string no_room =
         has_budget(options_) ? no_elements_for_curves(plain.elements.count(), options_) : "";
     warn_of_excess(plain.elements.count(), no_room.empty());
     if (!no_room.empty()) return fit_on_plain(std::move(plain), no_room);
-    DiscontinuityOptions events = options_.events;
-    events.eee = events.eee && plan_.no_eee.empty();
+    DiscontinuityOptions events = curves_that_count();
     rays_.reset();  // what follows curves is meant to be exact
-    events.irradiance_tolerance = share_of_curves * options_.tolerance * plan_.mean_irradiance;
-    events.max_length = length_of(scene(), options_);
     if (options_.force.discontinuities)
       events.most_work = 0;
     else if (!(events.most_work > 0))
@@ -206,7 +179,7 @@ class DirectFieldSearch {
     stages_.leave_out_if(!plan_.no_eee.empty(), "curves at three edges", plan_.no_eee);
     DiscontinuityMeshOptions mesh_options;
     mesh_options.max_length = events.max_length;
-    mesh_options.min_angle = least_angle;
+    mesh_options.min_angle = least_angle_of_direct;
     mesh_options.max_triangles = static_cast<std::size_t>(options_.max_elements);
     mesh_options.irradiance_tolerance = events.irradiance_tolerance;
     mesh_options.deviation = options_.deviation;
@@ -214,20 +187,25 @@ class DirectFieldSearch {
     found_.curves = curves.curves.size();
     add(search_warnings(curves.report, options_.tolerance), found_.warnings);
     if (has_budget(options_)) return fit_some_curves(curves, std::move(plain));
-    bool fits = true;
+    // Reflected light gets worse in narrow ones.
+    const bool may_be_narrow =
+        options_.refine == Refinement::adaptive && options_.order < 0 && !plan_.no_factors.empty();
+    std::optional<DiscontinuityMesh> mesh;
     stages_.run("mesh along curves", [&] {
-      fits = mesh_along(curves, mesh_options);
-      return fits ? static_cast<std::size_t>(found_.patches->element_count()) : 0;
+      mesh = mesh_along_curves(scene(), curves, mesh_options, may_be_narrow, progress_);
+      return mesh ? static_cast<std::size_t>(mesh->patches.element_count()) : 0;
     });
-    if (!fits) {
+    if (!mesh) {
       found_.mesh.culled = found_.curves;
       found_.warnings.push_back(
           {Warning::Kind::curves_left_out,
            fmt::format("elements do not follow the {} curves, for that would take more than the {} "
                        "that --max-elements allows",
                        found_.curves, options_.max_elements)});
-      return fit_without_curves(0);
+      return may_fall_back ? fit_without_curves(0) : void();
     }
+    found_.mesh = mesh->report;
+    found_.patches = std::make_shared<PatchMesh>(std::move(mesh->patches));
     found_.discontinuity_tolerance = share_of_curves * options_.tolerance;
     fit_on_patches(field_options(scene(), plan_, options_, goal_));
   }
@@ -257,35 +235,6 @@ class DirectFieldSearch {
                        "elements asked for with --elements",
                        found_.mesh.kept, found_.curves, options_.elements)});
     fit_on_patches(field_options(scene(), plan_, options_, goal_));
-  }
-
-  /// Nothing if it takes too many elements.
-  std::optional<DiscontinuityMesh> try_along(const Discontinuities& curves,
-                                             const DiscontinuityMeshOptions& mesh_options) {
-    try {
-      return mesh_discontinuities(scene(), curves, mesh_options, progress_);
-    } catch (const Error& error) {
-      if (error.code() != ErrorCode::too_large) throw;
-      return std::nullopt;
-    }
-  }
-
-  /// False if it takes too many elements.
-  bool mesh_along(const Discontinuities& curves, DiscontinuityMeshOptions mesh_options) {
-    std::optional<DiscontinuityMesh> mesh = try_along(curves, mesh_options);
-    // Reflected light gets worse in them.
-    if (options_.refine == Refinement::adaptive && options_.order < 0 &&
-        !plan_.no_factors.empty()) {
-      mesh_options.min_angle = narrow_angle;
-      std::optional<DiscontinuityMesh> narrow = try_along(curves, mesh_options);
-      if (narrow &&
-          (!mesh || narrow->patches.element_count() < much_fewer * mesh->patches.element_count()))
-        mesh = std::move(narrow);
-    }
-    if (!mesh) return false;
-    found_.mesh = mesh->report;
-    found_.patches = std::make_shared<PatchMesh>(std::move(mesh->patches));
-    return true;
   }
 
   void fit_on_patches(AdaptiveFieldOptions fit) {

@@ -25,10 +25,11 @@ struct DirectField {
 };
 
 /// Exact direct light as polynomials, to options.tolerance in the L2 norm if elements are refined.
-/// First without curves, unless they are forced: with as many samples as finding curves would cost.
-/// Only if those do not get there are curves looked for, and the work is at most twice that of the
-/// better way. With a goal the tolerance is that of what the error does to it. Adds its stages to
-/// `stages`.
+/// First without curves, unless they are forced: until that is likely to take more samples than
+/// finding curves and following them would, which a part of their search has told, or more elements
+/// or unknowns than there may be. Then along curves; if neither way gets there, that which comes
+/// closer is kept. With a goal the tolerance is that of what the error does to it. Adds its stages
+/// to `stages`.
 DirectField find_direct_field(const PreparedScene& prepared, const Plan& plan,
                               const SolveOptions& options, const Progress& progress, Stages& stages,
                               const GoalWeights* goal = nullptr);

@@ -1,8 +1,8 @@
 #include "solver/adapt/adaptive_field.h"
 
 #include "tests/support/expect_error.h"
+#include "tests/support/fields_on_square.h"
 #include "tests/support/fitted_functions.h"
-#include "tests/support/sound_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -16,57 +16,19 @@
 namespace halfshade {
 namespace {
 
+using test::broken;
 using test::field_of;
+using test::fixed;
 using test::Function;
 using test::in_channels;
+using test::jumping;
+using test::kinked;
 using test::mesh_of;
+using test::near_singular;
+using test::smooth;
+using test::square;
+using test::square_with_line;
 using test::true_error;
-
-/// The unit square in z = 0.
-SoundScene square() {
-  SoundScene scene = test::empty_sound_scene(std::sqrt(2.));
-  test::add_surface(scene, {{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}, 0);
-  return scene;
-}
-
-/// A line across the square that no regular mesh follows.
-const Vec3 line_start(0.313, 0, 0), line_end(0.647, 1, 0);
-double distance_from_line(const Vec3& p) {
-  const Vec3 along = (line_end - line_start).normalized();
-  return along.cross(p - line_start).z();
-}
-
-/// The same square with elements along the line.
-SoundScene square_with_line() {
-  SoundScene scene = square();
-  Surface& surface = scene.surfaces[0];
-  surface.contacts.push_back(
-      {surface.frame.to_plane(line_start), surface.frame.to_plane(line_end)});
-  return scene;
-}
-
-double smooth(const Vec3& p) { return 1 + std::exp(p.x() - 0.7 * p.y()) * std::sin(2 * p.y()); }
-
-/// Whose k-th derivative jumps at the line.
-Function broken(int k) {
-  return [k](const Vec3& p) {
-    const double d = distance_from_line(p);
-    return 2 + 0.3 * smooth(p) + (d > 0 ? std::pow(4 * d, k) : 0);
-  };
-}
-
-double kinked(const Vec3& p) { return 0.5 + std::abs(distance_from_line(p)) + 0.2 * smooth(p); }
-double near_singular(const Vec3& p) { return std::sqrt(p.norm()) + 0.1; }
-double jumping(const Vec3& p) { return broken(0)(p); }
-
-/// Elements that stay as they are, all of that order.
-AdaptiveFieldOptions fixed(int order) {
-  AdaptiveFieldOptions options;
-  options.tolerance = 1e6;
-  options.order = order;
-  options.split = false;
-  return options;
-}
 
 /// Slope of log error over the log of the elements' size, by least squares over meshes.
 double rate(const SoundScene& scene, const Function& f, int order, std::vector<double> lengths,
@@ -188,42 +150,6 @@ TEST(AdaptiveField, ToldOfAnotherNormItAllowsThatMuch) {
   EXPECT_LE(true_error(lax, kinked, 3), 0.1);
 }
 
-/// What it reports of a jump within limits that are too narrow for it.
-void expect_limit(const AdaptiveFieldOptions& options, FieldLimit limit) {
-  const SoundScene scene = square();
-  PatchMesh mesh = mesh_of(scene, 0.3);
-  const AdaptiveField fit = fit_adaptively(mesh, field_of(jumping), options);
-  EXPECT_EQ(fit.report.limit, limit);
-  EXPECT_EQ(fit.elements.count(), mesh.element_count());
-  EXPECT_GT(fit.report.relative_error, options.tolerance);
-  const double actual = true_error(fit, jumping, 8);
-  EXPECT_GE(fit.report.relative_error, 0.8 * actual);
-  EXPECT_LE(fit.report.relative_error, 3 * actual);
-  // What it takes to stay conforming is known afterwards only.
-  EXPECT_LE(fit.elements.count(), 1.1 * options.max_elements);
-  EXPECT_LE(static_cast<double>(fit.report.unknowns), 1.3 * options.max_unknowns);
-}
-
-TEST(AdaptiveFieldLimits, AreToldAndTheEstimateHolds) {
-  AdaptiveFieldOptions options;
-  options.tolerance = 1e-4;
-  options.max_elements = 300;
-  expect_limit(options, FieldLimit::elements);
-  options = {};
-  options.tolerance = 1e-4;
-  options.max_unknowns = 2000;
-  expect_limit(options, FieldLimit::unknowns);
-  options = {};
-  options.tolerance = 1e-4;
-  options.max_samples = 10000;
-  expect_limit(options, FieldLimit::samples);
-  for (const int order : {-1, 0, 2, 8}) {
-    options = fixed(order);
-    options.tolerance = 1e-4;
-    expect_limit(options, FieldLimit::fixed);
-  }
-}
-
 TEST(AdaptiveField, LightOfAnySizeIsTheSame) {
   const auto fit_times = [](double factor) {
     const SoundScene scene = square();
@@ -295,30 +221,6 @@ TEST(AdaptiveField, StoppedAnywhereItIsWhole) {
     last_error = error;
   }
   EXPECT_LT(last_error, 0.02);
-}
-
-TEST(AdaptiveField, TakesAboutAsManySamplesAsThereMayBe) {
-  for (const double for_one : {5., 20., 200.}) {
-    const SoundScene scene = square();
-    PatchMesh mesh = mesh_of(scene, 0.1);
-    const double most = for_one * mesh.element_count();
-    double taken = 0;
-    const FieldAt inner = field_of(jumping);
-    const FieldAt field = [&](std::span<const FieldPoint> points, const Progress& progress) {
-      taken += static_cast<double>(points.size());
-      return inner(points, progress);
-    };
-    AdaptiveFieldOptions options;
-    options.tolerance = 1e-6;
-    options.samples_left = [&] { return most - taken; };
-    const AdaptiveField fit = fit_adaptively(mesh, field, options);
-    EXPECT_EQ(fit.report.limit, FieldLimit::work);
-    EXPECT_LE(taken, 1.2 * most) << for_one;
-    EXPECT_GE(taken, 0.7 * most) << for_one;
-    const double error = true_error(fit, jumping, 4);
-    EXPECT_LE(error, for_one < 10 ? 0.1 : 0.05);
-    EXPECT_LE(error, 1.2 * fit.report.relative_error) << for_one;
-  }
 }
 
 TEST(AdaptiveField, PolynomialsStayExactWhateverIsSplit) {

@@ -50,6 +50,7 @@ bool matters(const Scene& scene, const Repair& repair) {
   const int face = repair.faces.front();
   switch (repair.kind) {
     case Repair::Kind::coplanar_merged:
+    case Repair::Kind::narrow_gap:  // whose factors are known
       return false;
     case Repair::Kind::degenerate_dropped:
       return area_of(scene, face) > noticeable * std::pow(size_of(scene, face), 2);

@@ -40,7 +40,8 @@ struct Repair {
     coplanar_merged,          ///< neighbours joined into one surface
     overlap_removed,  ///< coplanar faces of different materials covered each other: the first keeps
                       ///< the common part; size: its area
-    gap_shut  ///< two that look at each other count as touching; size: how far apart they are
+    gap_shut,   ///< two that look at each other count as touching; size: how far apart they are
+    narrow_gap  ///< the same, but light that enters the gap between them is followed
   };
   Kind kind;
   std::vector<int> faces;  ///< the input faces concerned

@@ -68,9 +68,27 @@ double least_gap(const Polygon& a, const Polygon& b) {
                     tolerance.planarity);
 }
 
+/// Whether a polygon has corners on both sides of a plane, farther off than that.
+bool is_on_both_sides(const std::vector<Vec3>& corners, const PlaneFrame& plane, double slack) {
+  const auto has = [&](double side) {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Vec3& p) { return side * plane.height(p) > slack; });
+  };
+  return has(1) && has(-1);
+}
+
+/// Whether two polygons lie over each other and cut through each other there: no gap was meant. Of
+/// the larger, which may reach far beyond the smaller one's plane, only the plane counts.
+bool cut_through(const Polygon& a, const Polygon& b) {
+  const Polygon &larger = a.area < b.area ? b : a, &smaller = a.area < b.area ? a : b;
+  return is_on_both_sides(smaller.corners, larger.frame, least_gap(smaller, larger)) &&
+         have_common_area(smaller.corners, larger.corners, larger.frame,
+                          tolerance_of(joint_scale(a.scale, b.scale)));
+}
+
 /// How far a polygon's corners may be off a plane that it is to be in, which another one defines.
 double planarity_limit(const Polygon& polygon, const Polygon& plane) {
-  if (look_the_same_way(polygon, plane))
+  if (look_the_same_way(polygon, plane) || cut_through(polygon, plane))
     return tolerance_of(joint_scale(polygon.scale, plane.scale)).planarity;
   return least_gap(polygon, plane);
 }

@@ -8,8 +8,8 @@
 #include "meshing/repair/contacts.h"
 #include "meshing/repair/coplanar.h"
 #include "meshing/repair/crossed_faces.h"
+#include "meshing/repair/narrow_gaps.h"
 #include "meshing/repair/planes.h"
-#include "meshing/repair/shut_gaps.h"
 
 #include <fmt/format.h>
 
@@ -126,6 +126,7 @@ Drafts make_drafts(const Scene& scene, const std::vector<FacePiece>& pieces,
   }
   const PlaneClasses classes = classify_planes(points, loops, scales, two_sided);
   report_shut_gaps(scene, pieces, classes, repairs);
+  report_narrow_gaps(scene, pieces, classes, repairs);
   const PlaneSides sides = sort_into_sides(scene, pieces, classes, points);
   std::vector<SurfaceDraft> drafts;
   std::set<int> crossed;

@@ -53,6 +53,11 @@ std::string sentence(const Repair& repair, const SoundScene& scene) {
           "{} and {} look at each other across a gap of {:.2g}, too narrow for points so far from "
           "the origin or for faces so large, and count as touching",
           face(0), face(1), repair.size);
+    case Repair::Kind::narrow_gap:
+      return fmt::format(
+          "{} and {} look at each other across a gap of {:.2g}, which hardly any light enters; if "
+          "they are meant to be back to back, give them the same corners",
+          face(0), face(1), repair.size);
   }
   return {};
 }
@@ -73,6 +78,8 @@ const char* name_of(Repair::Kind kind) {
       return "overlap_removed";
     case Repair::Kind::gap_shut:
       return "gap_shut";
+    case Repair::Kind::narrow_gap:
+      return "narrow_gap";
   }
   return "";
 }

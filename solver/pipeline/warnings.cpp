@@ -63,8 +63,19 @@ bool matters(const Scene& scene, const Repair& repair) {
     case Repair::Kind::gap_shut:  // hardly any light gets in from elsewhere
       return std::any_of(repair.faces.begin(), repair.faces.end(),
                          [&](int face) { return (material(face).exitance > 0).any(); });
+    case Repair::Kind::narrow_gap:  // a lamp that lights its gap is meant to
+      return std::count_if(repair.faces.begin(), repair.faces.end(),
+                           [&](int face) { return (material(face).exitance > 0).any(); }) != 1;
   }
   return false;
+}
+
+/// The first, and how many more there are.
+std::string sentence(const std::vector<const Repair*>& found, const SoundScene& sound) {
+  std::string text = sentence(*found.front(), sound);
+  if (found.size() > 1)
+    text += fmt::format("; and {} more like it (--verbose lists them)", found.size() - 1);
+  return text;
 }
 
 bool is_unlit(const LightOutcome& outcome) { return (outcome.solution.irradiance == 0).all(); }
@@ -163,6 +174,8 @@ const char* name_of(Warning::Kind kind) {
       return "outward_lamps";
     case Warning::Kind::faces_changed:
       return "faces_changed";
+    case Warning::Kind::narrow_gaps:
+      return "narrow_gaps";
     case Warning::Kind::curves_left_out:
       return "curves_left_out";
     case Warning::Kind::contacts_left_out:
@@ -196,15 +209,17 @@ void add(const std::vector<Warning>& more, std::vector<Warning>& warnings) {
 }
 
 std::vector<Warning> repair_warnings(const Scene& scene, const SoundScene& sound) {
-  std::vector<const Repair*> found;
+  std::vector<const Repair*> changes, gaps;
   for (const Repair& repair : sound.repairs)
-    if (matters(scene, repair)) found.push_back(&repair);
-  if (found.empty()) return {};
-  std::string text = fmt::format("making the scene sound may have changed its light: {}",
-                                 sentence(*found.front(), sound));
-  if (found.size() > 1)
-    text += fmt::format("; and {} more like it (--verbose lists them)", found.size() - 1);
-  return {{Warning::Kind::faces_changed, text}};
+    if (matters(scene, repair))
+      (repair.kind == Repair::Kind::narrow_gap ? gaps : changes).push_back(&repair);
+  std::vector<Warning> warnings;
+  if (!changes.empty())
+    warnings.push_back(
+        {Warning::Kind::faces_changed,
+         "making the scene sound may have changed its light: " + sentence(changes, sound)});
+  if (!gaps.empty()) warnings.push_back({Warning::Kind::narrow_gaps, sentence(gaps, sound)});
+  return warnings;
 }
 
 Warning contacts_warning(std::optional<int> max_elements) {

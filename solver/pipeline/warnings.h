@@ -21,6 +21,7 @@ struct Warning {
     dark_groups,         ///< some groups receive nothing
     outward_lamps,       ///< no surface lies before the emitters of some groups
     faces_changed,       ///< faces were dropped or moved, by more than rounding
+    narrow_gaps,         ///< faces that may be meant back to back look at each other
     curves_left_out,     ///< kinds of curves were not looked for: it would take too long
     contacts_left_out,   ///< elements do not follow contact lines: there are too many
     tolerance_raised,    ///< curves above the tolerance were left out of the mesh

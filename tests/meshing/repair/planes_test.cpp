@@ -117,6 +117,28 @@ TEST(ClassifyPlanes, OnBothSidesOfATwoSidedSheetAreTwo) {
   EXPECT_NE(classes.of_polygon[0], classes.of_polygon[2]);
 }
 
+TEST(ClassifyPlanes, BackToBackAreOneWhereTheyCutThroughEachOther) {
+  // In all digits: what fewer cannot tell is one in any case.
+  constexpr double digits = 1.23456789012345;
+  const auto count = [](double tilt, double height) {
+    Sheets sheets;
+    sheets.add(0, true), sheets.add(digits * height, false);
+    sheets.points[4].z() += digits * tilt;
+    sheets.points[5].z() -= digits * tilt;
+    return sheets.classes().frames.size();
+  };
+  EXPECT_EQ(count(1e-7, 0), 1u);
+  EXPECT_EQ(count(1e-7, 5e-8), 1u);
+  EXPECT_EQ(count(1e-7, 2e-7), 2u) << "a gap, if a slanted one";
+  EXPECT_EQ(count(1e-4, 0), 2u) << "more than rounding does";
+  // Beside each other they cut through nothing.
+  Sheets beside;
+  beside.add(0, true), beside.add(0, false, 1);
+  beside.points[4].z() += digits * 1e-7;
+  beside.points[5].z() -= digits * 1e-7;
+  EXPECT_EQ(beside.classes().frames.size(), 2u);
+}
+
 TEST(ClassifyPlanes, ThatFaceEachOtherAreTwoHoweverNarrowTheGap) {
   for (const double gap : {1e-3, 1e-6, 1e-7, 1e-8}) {
     Sheets sheets;

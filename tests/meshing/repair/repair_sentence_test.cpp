@@ -33,6 +33,10 @@ TEST(RepairSentence, NamesFacesAndValues) {
             "face 1 (line 10) and face 3 (line 12) look at each other across a gap of 1e-07, too "
             "narrow for points so far from the origin or for faces so large, and count as "
             "touching");
+  EXPECT_EQ(sentence({Kind::narrow_gap, {0, 2}, 1e-7}, scene),
+            "face 1 (line 10) and face 3 (line 12) look at each other across a gap of 1e-07, which "
+            "hardly any light enters; if they are meant to be back to back, give them the same "
+            "corners");
 }
 
 TEST(RepairSentence, ShortensLongLists) {

@@ -13,4 +13,10 @@ namespace halfshade {
 void report_shut_gaps(const Scene& scene, const std::vector<FacePiece>& pieces,
                       const PlaneClasses& classes, std::vector<Repair>& repairs);
 
+/// The same of gaps that were left open, but are within what corners may be off a plane: faces that
+/// are meant to be back to back, one in the other's place. Cost: as above, for all that are near
+/// each other.
+void report_narrow_gaps(const Scene& scene, const std::vector<FacePiece>& pieces,
+                        const PlaneClasses& classes, std::vector<Repair>& repairs);
+
 }  // namespace halfshade

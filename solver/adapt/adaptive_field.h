@@ -39,6 +39,9 @@ struct AdaptiveFieldOptions {
   /// How many samples may still be taken, about: elements begin with lower orders where all would
   /// be too many, and a round has no more. None: any number.
   std::function<double()> samples_left;
+  /// What samples have taken, as a share of what they may; more than 1 if it is more. Noisy samples
+  /// take less than exact ones, see fit_noisy. None: as good as nothing.
+  std::function<double()> work_done;
 };
 
 struct AdaptiveFieldReport {

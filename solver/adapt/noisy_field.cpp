@@ -6,6 +6,7 @@
 #include "solver/adapt/fresh_places.h"
 #include "solver/adapt/noise_peaks.h"
 #include "solver/adapt/noisy_element.h"
+#include "solver/adapt/wanted_samples.h"
 #include "solver/elements/balancing_scale.h"
 
 #include <fmt/format.h>
@@ -38,6 +39,12 @@ constexpr double share_of_noise_in_samples = 0.5, most_ease = 6;
 /// Elements, and places that tell how uneven light is before it is known on them.
 constexpr double many_at_first = 5000;
 constexpr int places_for_peaks = 2000;
+/// Of very many samples of the first round so many tell what all would take. If that is more than
+/// this share of what may be taken, all are noisier: by this power of it, as rays to an emitter
+/// are, see ray_shares.h; then some are tried again.
+constexpr std::size_t samples_tried = 200, many_samples = 50 * samples_tried;
+constexpr double share_of_first_round = 0.5, noise_for_work = 0.75;
+constexpr int most_trials = 5;
 /// New elements for one that is split, with what it takes to stay conforming.
 constexpr double growth_of_split = 2.5;
 /// Places that tell whether the estimate is right.
@@ -71,6 +78,7 @@ class NoisyFit {
       element.wanted = std::ranges::find_if(first_samples, reaches)->second;
     }
     find_peaks();
+    afford_first_round();
   }
 
   AdaptiveField run() {
@@ -107,10 +115,29 @@ class NoisyFit {
     allow_noise(std::pow(peaks_ / most_peaks, 2) * look.noise, square_of_tolerance() * look.square);
   }
 
+  /// Makes samples noisier where the first round would take too much.
+  void afford_first_round() {
+    if (!options_.work_done) return;
+    const WantedSamples all = wanted_samples(elements_, peaks_);
+    if (all.points.size() < many_samples) return;
+    const WantedSamples tried = some_of(all, samples_tried);
+    for (int trial = 0; trial < most_trials && !progress_.stopped(); ++trial) {
+      const double before = options_.work_done();
+      sample(tried.points, tried.slack);
+      const double done = options_.work_done();
+      const double each = (done - before) / static_cast<double>(samples_tried);
+      const double excess =
+          each * static_cast<double>(all.points.size()) / (share_of_first_round * (1 - done));
+      if (done >= 1 || excess <= 1) break;
+      least_ease_ = ease_ *= std::pow(excess, noise_for_work);
+    }
+  }
+
   /// What noise there may be, if there is so much for now.
   void allow_noise(double now, double allowed) {
     const double wanted = share_of_noise_in_samples * std::max(allowed, 0.);
-    ease_ = now > 0 ? std::clamp(ease_ * std::sqrt(wanted / now), 1., most_ease) : most_ease;
+    const double ease = now > 0 ? ease_ * std::sqrt(wanted / now) : most_ease;
+    ease_ = std::clamp(ease, least_ease_, std::max(least_ease_, most_ease));
   }
 
   /// Squares of errors. Noise may make square_error_ negative.
@@ -169,38 +196,21 @@ class NoisyFit {
 
   /// As many samples as are wanted, and what follows from them.
   void sample_and_fit() {
-    std::vector<FieldPoint> points;
-    std::vector<double> slack;
-    std::vector<int> changed;
-    std::vector<std::size_t> first;
-    std::vector<TrianglePlace> places;
-    for (int e = 0; e < static_cast<int>(elements_.size()); ++e) {
-      const NoisyElement& element = elements_[at(e)];
-      if (element.is_fitted && element.samples.size() >= at(element.wanted)) continue;
-      changed.push_back(e);
-      first.push_back(places.size());
-      const std::size_t start = first_spread(element.triangle);
-      for (std::size_t k = element.samples.size(); k < at(element.wanted); ++k) {
-        places.push_back(spread_place(start + k));
-        points.push_back(point_at(element, places.back()));
-      }
-      slack.resize(points.size(), ease_ * peaks_ * element.slack);
-    }
-    first.push_back(places.size());
-    const std::vector<NoisyValue> values = sample(points, slack);
-    if (values.size() < points.size()) return;
+    const WantedSamples all = wanted_samples(elements_, peaks_);
+    const std::vector<NoisyValue> values = sample(all.points, all.slack);
+    if (values.size() < all.points.size()) return;
     ++report_.rounds;
-    parallel_for(changed.size(), [&](std::size_t i) {
-      NoisyElement& element = elements_[at(changed[i])];
-      for (std::size_t k = first[i]; k < first[i + 1]; ++k)
-        element.samples.push_back({places[k], values[k]});
+    parallel_for(all.elements.size(), [&](std::size_t i) {
+      NoisyElement& element = elements_[at(all.elements[i])];
+      for (std::size_t k = all.first[i]; k < all.first[i + 1]; ++k)
+        element.samples.push_back({all.places[k], values[k]});
       fit(element);
     });
   }
 
   /// Values of the field, scaled; none if it was stopped on the way.
-  std::vector<NoisyValue> sample(const std::vector<FieldPoint>& points,
-                                 const std::vector<double>& slack) {
+  std::vector<NoisyValue> sample(const std::vector<FieldPoint>& points, std::vector<double> slack) {
+    for (double& times : slack) times *= ease_;
     std::vector<NoisyValue> values = field_(points, slack, progress_);
     report_.samples += points.size();
     if (progress_.stopped()) return {};
@@ -238,7 +248,7 @@ class NoisyFit {
           static_cast<std::uint64_t>(report_.rounds * most_comparisons + error.count());
       const FreshPlaces fresh = fresh_places(elements_, options_, estimated(), count, draw);
       const std::vector<NoisyValue> values =
-          sample(fresh.points, std::vector<double>(fresh.points.size(), ease_ * peaks_));
+          sample(fresh.points, std::vector<double>(fresh.points.size(), peaks_));
       if (values.size() < fresh.points.size() || fresh.points.empty()) break;
       error.add(fresh, values, elements_);
       by_chance = deviations * error.deviation();
@@ -371,8 +381,9 @@ class NoisyFit {
   double last_square_error_ = HUGE_VAL;  ///< square_error_ of the round before
   double correction_ = 1;  ///< of the square of the error, as the last comparison has it
   int correction_of_round_ = -1;
-  double peaks_ = 1;  ///< as last known: values may be so much noisier than usual
-  double ease_ = 1;   ///< and again so many times, as there is less noise than is thought
+  double peaks_ = 1;       ///< as last known: values may be so much noisier than usual
+  double ease_ = 1;        ///< and again so many times, as there is less noise than is thought
+  double least_ease_ = 1;  ///< that can be afforded
   std::size_t unknowns_ = 0;
   AdaptiveFieldReport report_;
 };

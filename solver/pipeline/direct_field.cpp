@@ -243,6 +243,7 @@ class DirectFieldSearch {
       fit.max_unknowns = std::max(1, static_cast<int>(share_of_direct * fit.max_unknowns));
     }
     fit.samples_left = [this] { return places_left(work_, options_.max_unknowns); };
+    fit.work_done = [this] { return work_done(work_, options_.max_unknowns); };
     fit.balance = true;
     // Without curves most splits are needed: what is merged there is soon split again.
     fit.merge = fit.split && found_.discontinuity_tolerance > 0;

@@ -12,12 +12,14 @@ constexpr double crowd_work_for_one = 60, rays_for_one = 200;
 
 }  // namespace
 
+double work_done(const DirectWork& work, int unknowns) {
+  return std::max(work.crowd / (crowd_work_for_one * unknowns),
+                  work.rays / (rays_for_one * unknowns));
+}
+
 double places_left(const DirectWork& work, int unknowns) {
-  double result = std::numeric_limits<double>::infinity();
-  for (const auto& [done, most] : {std::pair(work.crowd, crowd_work_for_one * unknowns),
-                                   std::pair(work.rays, rays_for_one * unknowns)})
-    if (done > 0) result = std::min(result, (most / done - 1) * work.places);
-  return result;
+  const double done = work_done(work, unknowns);
+  return done > 0 ? (1 / done - 1) * work.places : std::numeric_limits<double>::infinity();
 }
 
 namespace {

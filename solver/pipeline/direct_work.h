@@ -13,6 +13,9 @@ struct DirectWork {
   double rays = 0;   ///< to emitters
 };
 
+/// As a share of what so many unknowns are worth; 0 if nothing was done.
+double work_done(const DirectWork& work, int unknowns);
+
 /// At how many more places so many unknowns are worth it, if these take what others took; 0 or less
 /// if at none. Where very many faces lie before emitters, the accuracy asked for may take hours. By
 /// default some ten to twenty seconds of exact looks on two cores, and up to a minute of rays in

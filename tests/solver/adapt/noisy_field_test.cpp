@@ -277,6 +277,34 @@ TEST(NoisyField, AllowsMoreNoiseWhereThereIsLittle) {
 
 /// Polynomials through a few samples across the edge of a shadow fall below 0 beside it, and would
 /// be drawn black.
+TEST(NoisyField, IsNoisierWhereItsFirstRoundWouldTakeTooMuch) {
+  constexpr double deviation = 0.02, dear = 4e-4, rays_for_noise = 4. / 3;
+  double work = 0, places = 0;
+  const NoisyFieldAt field = [&](std::span<const FieldPoint> points, std::span<const double> slack,
+                                 const Progress& progress) {
+    std::vector<NoisyValue> values;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      values.push_back(
+          noisy_field_of(waves, deviation * slack[k])(points.subspan(k, 1), {}, progress)[0]);
+      work += dear * std::pow(slack[k], -rays_for_noise);
+    }
+    places += static_cast<double>(points.size());
+    return values;
+  };
+  PatchMesh mesh = unit_square(0.02);
+  ASSERT_GT(2 * mesh.elements().count() * dear, 4) << "two samples each take far too much";
+  AdaptiveFieldOptions options;
+  options.tolerance = 1e-3;
+  options.work_done = [&] { return work; };
+  options.samples_left = [&] { return work > 0 ? (1 / work - 1) * places : HUGE_VAL; };
+  const AdaptiveField fit = fit_noisy(mesh, field, one, options);
+  EXPECT_EQ(fit.report.limit, FieldLimit::work);
+  EXPECT_LT(work, 1.5);
+  EXPECT_GT(fit.report.relative_error, options.tolerance);
+  EXPECT_LE(true_error(fit, waves, 3), fit.report.relative_error);
+  EXPECT_LE(fit.report.relative_error, 3 * true_error(fit, waves, 3));
+}
+
 TEST(NoisyField, LightIsNotBelowZeroAtNodes) {
   const Function dark = [](const Vec3& p) { return p.x() + 0.37 * p.y() < 0.613 ? 1 : 0; };
   PatchMesh mesh = unit_square(0.2);
